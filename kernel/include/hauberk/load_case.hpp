@@ -1,0 +1,144 @@
+#pragma once
+/// Interface for load cases: macroscopic unknowns, how they move elements, the load and the value reported.
+
+#include <hauberk/linalg.hpp>
+
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk {
+
+/// Most macroscopic unknowns a load case may declare (six strains), and coordinates of one element.
+inline constexpr int max_macro = 6;
+inline constexpr int max_coordinates = 3;
+
+/// A macroscopic unknown. Lengths inside are scaled by the scene's characteristic length L.
+struct MacroInfo {
+  std::string name;
+  int length_power = 0;  ///< value in file units = scaled value * L^length_power (strain 0, curvature -1)
+};
+
+/// Position of one element (or image) as a function of (macro, e), with derivatives.
+struct PositionMap {
+  static constexpr int n = max_macro + max_coordinates;
+  Vec3 x = Vec3::Zero();
+  /// dx/d(macro, e): column k < macro_count is macro k, column macro_count + k is element coordinate k.
+  Eigen::Matrix<double, 3, n> J = Eigen::Matrix<double, 3, n>::Zero();
+  /// Second derivatives of each component; only read when `curved`.
+  std::array<std::array<std::array<double, n>, n>, 3> H{};
+  bool curved = false;
+};
+
+/// coefficient . element coordinates + offset >= 0, a contact with a wall (scaled length).
+struct LinearInequality {
+  std::string name;
+  struct Term {
+    int element;
+    int coordinate;
+    double coefficient;
+  };
+  std::vector<Term> terms;
+  double offset = 0.0;
+};
+
+/// Whether contact can stop the load, decided from the link graph alone.
+enum class Boundedness { attained, unbounded, not_attained };
+
+enum class Sense { positive, negative };  ///< stretch or up; compress or down
+
+/// A family of loads on one cell or patch. Immutable after construction, so all calls are thread safe.
+/// Angles are in radians; lengths are scaled by L.
+class LoadCase {
+ public:
+  virtual ~LoadCase() = default;
+
+  const std::vector<MacroInfo>& macros() const { return do_macros(); }
+  int macro_count() const { return static_cast<int>(do_macros().size()); }
+  /// Free coordinates of an element besides its rotation (1 .. 3).
+  int coordinate_count() const { return do_coordinate_count(); }
+  /// True if images of the cell exist (lattice vectors are needed).
+  bool periodic() const { return do_periodic(); }
+
+  /// Position of the element with rest position X, in the image displaced by the lattice translation T at
+  /// rest (zero for the element itself). At macro = 0 and e = 0 this must be X + T.
+  void position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
+                PositionMap& out) const;
+
+  /// Upper bound of |d^2 x/ds^2| over s in [0, 1] on the path (macro + s dmacro, e + s de). Zero for
+  /// load cases that are affine in (macro, e).
+  double acceleration_bound(std::span<const double> macro, std::span<const double> dmacro,
+                            std::span<const double> e, std::span<const double> de, const Vec3& X,
+                            const Vec3& T) const
+  {
+    return do_acceleration_bound(macro, dmacro, e, de, X, T);
+  }
+
+  /// True where the macroscopic state is admissible (F positive definite). The set must be convex, so that
+  /// a step is admissible when both its ends are.
+  bool admissible(std::span<const double> macro) const { return do_admissible(macro); }
+
+  /// Smallest and largest factor by which macro changes the length of a lattice translation.
+  std::pair<double, double> stretch_range(std::span<const double> macro) const
+  {
+    return do_stretch_range(macro);
+  }
+
+  /// Load dual to the reported value: t = d value / d macro, for Sense::positive.
+  void load(double theta, std::span<double> t) const { do_load(theta, t); }
+  /// The reported value at macro.
+  double value(double theta, std::span<const double> macro) const { return do_value(theta, macro); }
+  /// Name of the measure ("tensor", "paper", "normal_curvature"), reported with every value.
+  std::string measure() const { return do_measure(); }
+  /// Power of length of the value (0 strain, -1 curvature).
+  int value_length_power() const { return do_value_length_power(); }
+  /// Further values reported beside the main one, e.g. {"line_stretch", |F n| - 1}.
+  std::vector<std::pair<std::string, double>> companions(double theta, std::span<const double> macro) const
+  {
+    return do_companions(theta, macro);
+  }
+  /// Names of the senses in experiment files, positive first: {"stretch", "compress"}.
+  std::pair<std::string, std::string> sense_names() const { return do_sense_names(); }
+
+  /// Weights of a frame-independent norm of the macro unknowns (1, 1, 2 for exx, eyy, exy).
+  void metric(std::span<double> m) const { do_metric(m); }
+
+  /// Walls that act on element coordinates, for elements with rest positions X.
+  std::vector<LinearInequality> inequalities(std::span<const Vec3> X) const { return do_inequalities(X); }
+
+  /// Whether links alone bound the load; `cycles` are rest translations of independent link cycles.
+  Boundedness boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const
+  {
+    return do_boundedness(theta, sense, cycles);
+  }
+
+ protected:
+  virtual const std::vector<MacroInfo>& do_macros() const = 0;
+  virtual int do_coordinate_count() const = 0;
+  virtual bool do_periodic() const = 0;
+  virtual void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
+                           const Vec3& T, PositionMap& out) const = 0;
+  virtual double do_acceleration_bound(std::span<const double>, std::span<const double>, std::span<const double>,
+                                       std::span<const double>, const Vec3&, const Vec3&) const
+  {
+    return 0.0;
+  }
+  virtual bool do_admissible(std::span<const double> macro) const = 0;
+  virtual std::pair<double, double> do_stretch_range(std::span<const double> macro) const = 0;
+  virtual void do_load(double theta, std::span<double> t) const = 0;
+  virtual double do_value(double theta, std::span<const double> macro) const = 0;
+  virtual std::string do_measure() const = 0;
+  virtual int do_value_length_power() const = 0;
+  virtual std::vector<std::pair<std::string, double>> do_companions(double, std::span<const double>) const
+  {
+    return {};
+  }
+  virtual std::pair<std::string, std::string> do_sense_names() const = 0;
+  virtual void do_metric(std::span<double> m) const = 0;
+  virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
+  virtual Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const = 0;
+};
+
+}  // namespace hauberk

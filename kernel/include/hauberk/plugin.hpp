@@ -1,0 +1,85 @@
+#pragma once
+/// The one entry of a plugin library: a constant table, checked from the top before anything else is used.
+///
+/// A plugin is a shared library that exports one constant, `hauberk_plugin`, made by HAUBERK_PLUGIN_TABLE
+/// (see shapes/torus_union for an example). It has no static constructors with effects, and is never unloaded.
+
+#include <hauberk/load_case.hpp>
+#include <hauberk/optimizer.hpp>
+#include <hauberk/settings.hpp>
+#include <hauberk/shape.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace hauberk {
+
+/// Raised whenever any type in the interface headers changes.
+inline constexpr std::uint32_t interface_revision = 1;
+
+#define HAUBERK_STR2(x) #x
+#define HAUBERK_STR(x) HAUBERK_STR2(x)
+
+#if defined(__clang__)
+#define HAUBERK_COMPILER "clang " HAUBERK_STR(__clang_major__)
+#else
+#define HAUBERK_COMPILER "gcc " HAUBERK_STR(__GNUC__)
+#endif
+#if defined(_LIBCPP_VERSION)
+#define HAUBERK_STDLIB "libc++ " HAUBERK_STR(_LIBCPP_VERSION)
+#else
+#define HAUBERK_STDLIB "libstdc++ cxx11-abi=" HAUBERK_STR(_GLIBCXX_USE_CXX11_ABI)
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#define HAUBERK_SANITIZERS "address"
+#elif defined(__SANITIZE_THREAD__)
+#define HAUBERK_SANITIZERS "thread"
+#else
+#define HAUBERK_SANITIZERS "none"
+#endif
+
+/// What must agree before the rest of the table is read. Strings are compared by content.
+struct Handshake {
+  char magic[8];                   ///< "HAUBERK"
+  std::uint32_t table_size;        ///< sizeof(PluginTable)
+  std::uint32_t revision;          ///< interface_revision
+  const char* compiler;            ///< HAUBERK_COMPILER
+  const char* standard_library;    ///< HAUBERK_STDLIB
+  const char* eigen;               ///< "3.4.0"
+  std::uint32_t eigen_alignment;   ///< EIGEN_MAX_ALIGN_BYTES
+  const char* sanitizers;          ///< HAUBERK_SANITIZERS
+};
+
+#define HAUBERK_HANDSHAKE                                                                             \
+  {                                                                                                   \
+    {'H', 'A', 'U', 'B', 'E', 'R', 'K', '\0'}, sizeof(::hauberk::PluginTable),                        \
+        ::hauberk::interface_revision, HAUBERK_COMPILER, HAUBERK_STDLIB,                              \
+        HAUBERK_STR(EIGEN_WORLD_VERSION) "." HAUBERK_STR(EIGEN_MAJOR_VERSION) "." HAUBERK_STR(        \
+            EIGEN_MINOR_VERSION),                                                                     \
+        EIGEN_MAX_ALIGN_BYTES, HAUBERK_SANITIZERS                                                     \
+  }
+
+enum class PluginKind : std::uint32_t { shape = 1, load_case = 2, optimizer = 3 };
+
+/// The exported table. Exactly the factory that belongs to `kind` is set.
+struct PluginTable {
+  Handshake handshake;
+  PluginKind kind;
+  const char* id;        ///< as written in experiments; equals the library's file name without prefix and ending
+  const char* version;
+  const char* summary;   ///< one sentence
+  const char* citation;  ///< where the method comes from
+  /// The plugin's own fields of its section of an experiment.
+  void (*fields)(std::vector<Field>& out);
+  /// Factories. The section has been checked against `fields`, defaults are filled in; what is wrong beyond
+  /// that goes to `problems`, and then null may be returned.
+  std::unique_ptr<Shape> (*make_shape)(const Node& section, Problems& problems);
+  /// `length` is the scene's characteristic length L in file units; lengths in the section are in file units.
+  std::unique_ptr<LoadCase> (*make_load_case)(const Node& section, double length, Problems& problems);
+  std::unique_ptr<Optimizer> (*make_optimizer)(const Node& section, Problems& problems);
+};
+
+}  // namespace hauberk
+
+/// Marks the exported table: extern "C" HAUBERK_EXPORT const hauberk::PluginTable hauberk_plugin;
+#define HAUBERK_EXPORT __attribute__((visibility("default"), used))

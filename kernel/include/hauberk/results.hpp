@@ -1,0 +1,119 @@
+#pragma once
+/// Plain results, as written to results.json (design contract "hauberk-results/1"). Lengths, curvatures and
+/// forces are in file units here; conversion from scaled quantities happens where these are filled.
+
+#include <hauberk/scene.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk {
+
+enum class LimitStatus { locked, unbounded, not_attained, stalled, failed, interrupted };
+std::string to_string(LimitStatus status);
+
+/// One contact force at a locked state. For `arc`, one resultant per pair and side.
+struct ContactForce {
+  std::array<int, 2> elements{};    ///< placed elements; walls: second is -1
+  std::array<int, 2> primitives{};  ///< index within the element; walls: -1
+  std::array<int, 2> image{};       ///< lattice image of the second element
+  std::array<Vec3, 2> points{Vec3::Zero(), Vec3::Zero()};  ///< on the two surfaces, absolute
+  Vec3 normal = Vec3::Zero();       ///< unit, from first to second element
+  double gap = 0.0;                 ///< surface distance minus clearance
+  double force = 0.0;               ///< -dE/dg >= 0, 1/length (times the unit of the value)
+  std::string wall;                 ///< name of the wall, empty for contacts between elements
+};
+
+/// A distinct locked state found from one or more starts.
+struct LockedState {
+  double value = 0.0;
+  std::vector<double> macro;
+  double z_range = 0.0;
+  std::uint64_t seed = 0;  ///< of the first start that reached it
+  int count = 0;
+};
+
+struct LimitResult {
+  std::string load_case;
+  double direction_deg = 0.0;
+  std::string sense;
+  std::string measure;
+  LimitStatus status = LimitStatus::failed;
+  std::string message;              ///< what happened, for people; empty when locked without remark
+  std::optional<double> value;      ///< null unless a state was reached
+  std::optional<double> infimum;    ///< for not_attained, if known
+  std::vector<std::pair<std::string, double>> companions;  ///< e.g. line_stretch
+  std::vector<std::pair<std::string, double>> macro;       ///< names and values
+  int iterations = 0;
+  long evaluations = 0;
+  double seconds = 0.0;
+  std::optional<double> min_gap;    ///< smallest surface distance minus clearance, over all pairs
+  std::optional<double> error_estimate;
+  bool links_kept = false;
+  double z_range = 0.0;
+  std::vector<LockedState> starts;
+  bool better_state = false;        ///< a start found a state further than the one reached from rest
+  std::optional<double> sensitivity_clearance;
+  std::vector<std::pair<std::string, double>> sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter
+  std::vector<Pose> poses;          ///< of the cell's elements at the limit, absolute
+  std::vector<ContactForce> contacts;
+  std::optional<double> force_balance;
+  std::string contact;              ///< formulation that finished: "nearest" or "arc"
+  std::string certificate;          ///< what is certified, for people
+};
+
+struct ProfilePoint {
+  double direction_deg = 0.0;
+  std::optional<double> e_s, e_c, eta;
+};
+
+struct DesignVariableResult {
+  std::string name;
+  double initial = 0.0, final = 0.0, lower = 0.0, upper = 0.0;
+};
+
+struct DesignTargetResult {
+  double direction_deg = 0.0;
+  double target = 0.0, weight = 1.0;
+  std::optional<double> initial, provisional, recomputed;
+  bool better_state = false;
+  bool met = false;  ///< |recomputed - target| <= 5 % of the target, and no better state is known
+};
+
+struct DesignIterate {
+  int iteration = 0;
+  double objective = 0.0, step = 0.0, optimality = 0.0, constraint_violation = 0.0;
+  double min_gap = 0.0;  ///< smallest surface distance at the relaxed rest state
+  bool links_kept = true;
+  double seconds = 0.0;
+  std::vector<double> values;  ///< the designed quantity per target
+};
+
+struct DesignResult {
+  std::string quantity, status, message;
+  std::vector<DesignVariableResult> variables;
+  std::vector<DesignTargetResult> targets;
+  std::vector<DesignIterate> history;
+  double objective_initial = 0.0, objective = 0.0;  ///< both recomputed from rest
+  int iterations = 0;
+  long evaluations = 0;
+  double seconds = 0.0;
+  int start = 0;                          ///< which perturbed start gave the design
+  std::vector<std::pair<int, double>> starts;  ///< (start, final objective) of all
+  SceneSpec initial_scene;                ///< rest as used, after relaxation
+  std::vector<LimitResult> initial_limits;
+};
+
+/// Everything a run produces except the resolved experiment and provenance.
+struct RunResult {
+  std::string plan_json;  ///< the plan as JSON text
+  SceneSpec scene;        ///< rest as used, after relaxation; the final design's
+  std::vector<LimitResult> limits;
+  std::vector<ProfilePoint> profiles;
+  std::optional<DesignResult> design;
+};
+
+}  // namespace hauberk

@@ -1,0 +1,44 @@
+#pragma once
+/// The scene: elements, placements, the cell; built once from plain specifications, then immutable.
+
+#include <hauberk/linalg.hpp>
+#include <hauberk/shape.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hauberk {
+
+/// Rigid pose: x = position + rotation * local.
+struct Pose {
+  Vec3 position = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();
+};
+
+/// One entry of `elements`: a shape with default parameters.
+struct ElementType {
+  std::string name;
+  std::shared_ptr<const Shape> shape;
+};
+
+/// A placed element, after `repeat` or `patch` has been expanded. Lengths in file units.
+struct PlacedElement {
+  int type = 0;
+  std::vector<double> parameters;  ///< of its shape, in the shape's order
+  Pose rest;
+};
+
+/// Everything that says what is simulated. Lengths in file units.
+struct SceneSpec {
+  std::vector<ElementType> types;
+  std::vector<PlacedElement> elements;
+  std::vector<Vec3> lattice;  ///< two vectors of the supercell when periodic, else empty
+  double length = 0.0;        ///< characteristic length L; 0: median ring radius of the elements
+};
+
+/// Median ring radius R over all primitives of the scene, file units.
+double characteristic_length(const SceneSpec& spec);
+
+}  // namespace hauberk

@@ -1,0 +1,58 @@
+# Settings every target of this project shares, and the target that carries our own warnings.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# One layout for the build tree and the installed tree, so that the program finds its plugins relative to
+# itself in both: <root>/bin/hauberk, <root>/lib/libhauberk.so, <root>/lib/hauberk/plugins/<id>.so.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+set(HAUBERK_PLUGIN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/hauberk/plugins")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Debug or RelWithDebInfo" FORCE)
+endif()
+# No -march=native: results should not depend on the machine that built the program. Never -ffast-math:
+# the certificates rely on IEEE arithmetic. -g1 keeps line numbers in backtraces at little cost.
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1 -DNDEBUG")
+
+find_program(HAUBERK_CCACHE ccache)
+mark_as_advanced(HAUBERK_CCACHE)
+if(HAUBERK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${HAUBERK_CCACHE}")
+endif()
+
+# Linked privately by our own targets only: plugins built elsewhere choose their own warnings.
+add_library(hauberk_warnings INTERFACE)
+target_compile_options(hauberk_warnings INTERFACE -Wall -Wextra $<$<BOOL:${HAUBERK_WERROR}>:-Werror>)
+
+if(HAUBERK_SANITIZE)
+  # Errors must fail the tests, so nothing is recovered from.
+  add_compile_options(-fsanitize=${HAUBERK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${HAUBERK_SANITIZE})
+  # g++ reports false positives from optimised std::string and Eigen code once sanitizers are on.
+  target_compile_options(hauberk_warnings INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+endif()
+if(HAUBERK_COVERAGE)
+  add_compile_options(--coverage -fprofile-update=atomic)
+  add_link_options(--coverage)
+endif()
+
+# Adds every folder below the current one that has a CMakeLists.txt. A folder without one is looked into
+# (tests/unit/host is found although tests/unit has none); new folders are noticed by the next build.
+function(hauberk_add_children)
+  file(GLOB lists CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}"
+       "${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt" "${CMAKE_CURRENT_SOURCE_DIR}/*/*/CMakeLists.txt")
+  list(SORT lists)
+  foreach(list IN LISTS lists)
+    get_filename_component(folder "${list}" DIRECTORY)
+    get_filename_component(parent "${folder}" DIRECTORY)
+    if(NOT parent OR NOT EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${parent}/CMakeLists.txt")
+      add_subdirectory("${folder}")
+    endif()
+  endforeach()
+endfunction()

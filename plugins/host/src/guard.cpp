@@ -1,0 +1,38 @@
+#include <hauberk/host/guard.hpp>
+
+#include <cxxabi.h>
+#include <fmt/format.h>
+#include <hauberk/error.hpp>
+
+#include <exception>
+
+namespace hauberk {
+
+void Guard::throw_mode_changed(const char* call, const FloatingPointMode& before,
+                               const FloatingPointMode& after) const
+{
+  throw PluginError(
+      fmt::format("plugin '{}': {} changed the floating-point mode ({}); it was restored, but what the call "
+                  "computed cannot be used",
+                  plugin_, call, describe_change(before, after)));
+}
+
+void Guard::rethrow(const char* call) const
+{
+  try {
+    throw;
+  } catch (const InputError&) {
+    throw;
+  } catch (const ComputationError&) {
+    throw;
+  } catch (const abi::__forced_unwind&) {
+    throw;  // the thread is being cancelled; swallowing this ends the program
+  } catch (const std::exception& error) {
+    throw PluginError(fmt::format("plugin '{}': {} failed: {}", plugin_, call, error.what()));
+  } catch (...) {
+    throw PluginError(
+        fmt::format("plugin '{}': {} failed: it threw something that is no std::exception", plugin_, call));
+  }
+}
+
+}  // namespace hauberk

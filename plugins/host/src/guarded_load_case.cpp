@@ -1,0 +1,97 @@
+#include "guarded.hpp"
+
+namespace hauberk {
+namespace {
+
+/// Position and admissible are called often; the guard adds a few nanoseconds to each.
+class GuardedLoadCase final : public LoadCase {
+ public:
+  GuardedLoadCase(std::unique_ptr<LoadCase> inner, const Guard& guard)
+      : inner_(std::move(inner)), guard_(guard)
+  {
+  }
+
+ protected:
+  using Values = std::span<const double>;
+
+  const std::vector<MacroInfo>& do_macros() const override
+  {
+    return guard_(
+        "macros", [&]() -> const auto& { return inner_->macros(); });
+  }
+  int do_coordinate_count() const override
+  {
+    return guard_("coordinate_count", [&] { return inner_->coordinate_count(); });
+  }
+  bool do_periodic() const override
+  {
+    return guard_("periodic", [&] { return inner_->periodic(); });
+  }
+  void do_position(Values macro, Values e, const Vec3& X, const Vec3& T, PositionMap& out) const override
+  {
+    guard_("position", [&] { inner_->position(macro, e, X, T, out); });
+  }
+  double do_acceleration_bound(Values macro, Values dmacro, Values e, Values de, const Vec3& X,
+                               const Vec3& T) const override
+  {
+    return guard_("acceleration_bound",
+                  [&] { return inner_->acceleration_bound(macro, dmacro, e, de, X, T); });
+  }
+  bool do_admissible(Values macro) const override
+  {
+    return guard_("admissible", [&] { return inner_->admissible(macro); });
+  }
+  std::pair<double, double> do_stretch_range(Values macro) const override
+  {
+    return guard_("stretch_range", [&] { return inner_->stretch_range(macro); });
+  }
+  void do_load(double theta, std::span<double> t) const override
+  {
+    guard_("load", [&] { inner_->load(theta, t); });
+  }
+  double do_value(double theta, Values macro) const override
+  {
+    return guard_("value", [&] { return inner_->value(theta, macro); });
+  }
+  std::string do_measure() const override
+  {
+    return guard_("measure", [&] { return inner_->measure(); });
+  }
+  int do_value_length_power() const override
+  {
+    return guard_("value_length_power", [&] { return inner_->value_length_power(); });
+  }
+  std::vector<std::pair<std::string, double>> do_companions(double theta, Values macro) const override
+  {
+    return guard_("companions", [&] { return inner_->companions(theta, macro); });
+  }
+  std::pair<std::string, std::string> do_sense_names() const override
+  {
+    return guard_("sense_names", [&] { return inner_->sense_names(); });
+  }
+  void do_metric(std::span<double> m) const override
+  {
+    guard_("metric", [&] { inner_->metric(m); });
+  }
+  std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override
+  {
+    return guard_("inequalities", [&] { return inner_->inequalities(X); });
+  }
+  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override
+  {
+    return guard_("boundedness", [&] { return inner_->boundedness(theta, sense, cycles); });
+  }
+
+ private:
+  std::unique_ptr<LoadCase> inner_;
+  Guard guard_;
+};
+
+}  // namespace
+
+std::unique_ptr<LoadCase> guard_load_case(std::unique_ptr<LoadCase> load_case, const Guard& guard)
+{
+  return std::make_unique<GuardedLoadCase>(std::move(load_case), guard);
+}
+
+}  // namespace hauberk

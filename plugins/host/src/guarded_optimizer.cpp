@@ -1,0 +1,124 @@
+#include "guarded.hpp"
+
+#include <exception>
+#include <mutex>
+
+namespace hauberk {
+namespace {
+
+/// Remembers the first exception that left the program's side of a callback, so that it is not mistaken for
+/// one of the plugin's, nor lost when the plugin swallows it.
+class Callbacks {
+ public:
+  template <class F>
+  auto run(F&& f) -> decltype(f())
+  {
+    try {
+      return f();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!thrown_) thrown_ = std::current_exception();
+      throw;
+    }
+  }
+
+  void rethrow_if_any() const
+  {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr thrown_;
+};
+
+class WatchedProblem final : public OptimizationProblem {
+ public:
+  WatchedProblem(OptimizationProblem& inner, Callbacks& callbacks) : inner_(inner), callbacks_(callbacks) {}
+
+  std::span<const double> lower() const override
+  {
+    return callbacks_.run([&] { return inner_.lower(); });
+  }
+  std::span<const double> upper() const override
+  {
+    return callbacks_.run([&] { return inner_.upper(); });
+  }
+  int constraint_count() const override
+  {
+    return callbacks_.run([&] { return inner_.constraint_count(); });
+  }
+  Evaluation evaluate(std::span<const double> x, bool want_gradient) override
+  {
+    return callbacks_.run([&] { return inner_.evaluate(x, want_gradient); });
+  }
+  void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
+  {
+    callbacks_.run([&] { inner_.constraints(x, c, jacobian); });
+  }
+  double largest_safe_step(std::span<const double> x, std::span<const double> d) override
+  {
+    return callbacks_.run([&] { return inner_.largest_safe_step(x, d); });
+  }
+  void accept(std::span<const double> x) override
+  {
+    callbacks_.run([&] { inner_.accept(x); });
+  }
+
+ private:
+  OptimizationProblem& inner_;
+  Callbacks& callbacks_;
+};
+
+class WatchedObserver final : public OptimizerObserver {
+ public:
+  WatchedObserver(OptimizerObserver& inner, Callbacks& callbacks) : inner_(inner), callbacks_(callbacks) {}
+
+  bool on_iterate(const OptimizerIterate& iterate) override
+  {
+    return callbacks_.run([&] { return inner_.on_iterate(iterate); });
+  }
+
+ private:
+  OptimizerObserver& inner_;
+  Callbacks& callbacks_;
+};
+
+class GuardedOptimizer final : public Optimizer {
+ public:
+  GuardedOptimizer(std::unique_ptr<Optimizer> inner, const Guard& guard)
+      : inner_(std::move(inner)), guard_(guard)
+  {
+  }
+
+ protected:
+  OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
+                              OptimizerObserver& observer) const override
+  {
+    Callbacks callbacks;
+    WatchedProblem watched_problem(problem, callbacks);
+    WatchedObserver watched_observer(observer, callbacks);
+    try {
+      OptimizerResult result =
+          guard_("minimize", [&] { return inner_->minimize(watched_problem, start, watched_observer); });
+      callbacks.rethrow_if_any();
+      return result;
+    } catch (...) {
+      callbacks.rethrow_if_any();
+      throw;
+    }
+  }
+
+ private:
+  std::unique_ptr<Optimizer> inner_;
+  Guard guard_;
+};
+
+}  // namespace
+
+std::unique_ptr<Optimizer> guard_optimizer(std::unique_ptr<Optimizer> optimizer, const Guard& guard)
+{
+  return std::make_unique<GuardedOptimizer>(std::move(optimizer), guard);
+}
+
+}  // namespace hauberk

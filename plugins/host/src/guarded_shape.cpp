@@ -1,0 +1,37 @@
+#include "guarded.hpp"
+
+namespace hauberk {
+namespace {
+
+class GuardedShape final : public Shape {
+ public:
+  GuardedShape(std::unique_ptr<Shape> inner, const Guard& guard) : inner_(std::move(inner)), guard_(guard) {}
+
+ protected:
+  const std::vector<ParameterInfo>& do_parameters() const override
+  {
+    return guard_(
+        "parameters", [&]() -> const auto& { return inner_->parameters(); });
+  }
+  void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
+  {
+    guard_("primitives", [&] { out = inner_->primitives(p); });
+  }
+  void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const override
+  {
+    guard_("jacobians", [&] { out = inner_->jacobians(p); });
+  }
+
+ private:
+  std::unique_ptr<Shape> inner_;
+  Guard guard_;
+};
+
+}  // namespace
+
+std::unique_ptr<Shape> guard_shape(std::unique_ptr<Shape> shape, const Guard& guard)
+{
+  return std::make_unique<GuardedShape>(std::move(shape), guard);
+}
+
+}  // namespace hauberk

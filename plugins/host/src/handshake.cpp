@@ -1,0 +1,121 @@
+#include <hauberk/host/handshake.hpp>
+
+#include <fmt/format.h>
+#include <hauberk/error.hpp>
+#include <hauberk/host/registry.hpp>
+
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace hauberk {
+namespace {
+
+constexpr Handshake program = HAUBERK_HANDSHAKE;
+
+constexpr std::string_view rebuild = "rebuild the plugin with this program's headers and compiler settings";
+
+/// A text of a foreign table, which may be null.
+std::string quoted(const char* text) { return text ? fmt::format("\"{}\"", text) : "nothing"; }
+
+[[noreturn]] void differs(const std::filesystem::path& file, std::string_view what, const std::string& plugin,
+                          const std::string& mine)
+{
+  throw PluginError(fmt::format("plugin '{}' was built with {} {}, this program with {}; {}", file.native(),
+                                what, plugin, mine, rebuild));
+}
+
+void compare(const std::filesystem::path& file, std::string_view what, std::uint32_t plugin,
+             std::uint32_t mine)
+{
+  if (plugin != mine) differs(file, what, std::to_string(plugin), std::to_string(mine));
+}
+
+void compare(const std::filesystem::path& file, std::string_view what, const char* plugin, const char* mine)
+{
+  if (!plugin || std::string_view(plugin) != mine) differs(file, what, quoted(plugin), quoted(mine));
+}
+
+/// The magic bytes with what cannot be printed as a dot.
+std::string printable(const char (&magic)[8])
+{
+  std::string text;
+  for (const char c : magic) {
+    if (c == '\0') break;
+    text += c >= ' ' && c <= '~' ? c : '.';
+  }
+  return text;
+}
+
+void check_texts(const PluginTable& table, const std::filesystem::path& file)
+{
+  const auto require = [&](const void* field, const char* name) {
+    if (field) return;
+    throw PluginError(
+        fmt::format("plugin '{}': '{}' is null; id, version, summary, citation and fields must all be set",
+                    file.native(), name));
+  };
+  require(table.id, "id");
+  require(table.version, "version");
+  require(table.summary, "summary");
+  require(table.citation, "citation");
+  require(reinterpret_cast<const void*>(table.fields), "fields");
+}
+
+void check_factories(const PluginTable& table, const std::filesystem::path& file)
+{
+  const struct {
+    PluginKind kind;
+    bool set;
+    const char* name;
+  } factories[] = {{PluginKind::shape, table.make_shape != nullptr, "make_shape"},
+                   {PluginKind::load_case, table.make_load_case != nullptr, "make_load_case"},
+                   {PluginKind::optimizer, table.make_optimizer != nullptr, "make_optimizer"}};
+  for (const auto& factory : factories) {
+    if (factory.set == (factory.kind == table.kind)) continue;
+    throw PluginError(fmt::format("plugin '{}' is {} but {} '{}'; set exactly the factory of its kind",
+                                  file.native(), with_article(table.kind),
+                                  factory.set ? "also sets" : "does not set", factory.name));
+  }
+}
+
+}  // namespace
+
+Handshake program_handshake() { return program; }
+
+void check_handshake(const Handshake& plugin, const std::filesystem::path& file)
+{
+  if (std::memcmp(plugin.magic, program.magic, sizeof plugin.magic) != 0) {
+    throw PluginError(fmt::format(
+        "plugin '{}': its 'hauberk_plugin' begins with \"{}\", expected \"{}\"; it must be a constant "
+        "hauberk::PluginTable",
+        file.native(), printable(plugin.magic), program.magic));
+  }
+  compare(file, "a plugin table of size", plugin.table_size, program.table_size);
+  compare(file, "interface revision", plugin.revision, program.revision);
+  compare(file, "compiler", plugin.compiler, program.compiler);
+  compare(file, "standard library", plugin.standard_library, program.standard_library);
+  compare(file, "Eigen", plugin.eigen, program.eigen);
+  compare(file, "Eigen alignment", plugin.eigen_alignment, program.eigen_alignment);
+  compare(file, "sanitizers", plugin.sanitizers, program.sanitizers);
+}
+
+void check_table(const PluginTable& table, const std::filesystem::path& file)
+{
+  // Through the underlying type: the value may be none of the enumerators.
+  const auto kind = static_cast<std::uint32_t>(table.kind);
+  if (kind < 1 || kind > 3) {
+    throw PluginError(
+        fmt::format("plugin '{}' is of kind {}; expected 1 (shape), 2 (load case) or 3 (optimizer)",
+                    file.native(), kind));
+  }
+  check_texts(table, file);
+  if (file.stem() != table.id) {
+    throw PluginError(
+        fmt::format("plugin '{}' calls itself '{}'; rename the file to '{}.so' or change the id",
+                    file.native(), table.id, table.id));
+  }
+  check_factories(table, file);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,116 @@
+#include <hauberk/host/plugin_library.hpp>
+
+#include "elf.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <hauberk/error.hpp>
+#include <hauberk/host/floating_point.hpp>
+#include <hauberk/host/handshake.hpp>
+
+#include <algorithm>
+#include <boost/dll/shared_library.hpp>
+#include <string_view>
+#include <system_error>
+
+namespace hauberk {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* entry_name = "hauberk_plugin";
+
+template <class... Args>
+[[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args)
+{
+  throw PluginError(fmt::format(format, std::forward<Args>(args)...));
+}
+
+void check_is_file(const fs::path& file)
+{
+  std::error_code ignored;
+  const fs::file_status link = fs::symlink_status(file, ignored);
+  const fs::file_status status = fs::status(file, ignored);
+  if (fs::is_symlink(link) && !fs::exists(status)) {
+    fail("plugin '{}' is a link to '{}', which does not exist; remove or mend it", file.native(),
+         fs::read_symlink(file, ignored).native());
+  }
+  if (!fs::exists(status)) fail("plugin '{}' does not exist", file.native());
+  if (fs::is_directory(status)) fail("plugin '{}' is a folder; expected a shared library", file.native());
+}
+
+/// Everything that can be decided without running the library's constructors. In particular a library built
+/// with a sanitizer this program lacks would end the program as soon as it is loaded.
+void check_contents(const fs::path& file)
+{
+  const ElfSummary elf = read_elf(file);
+  if (!elf.elf) fail("plugin '{}' is not a shared library; build it with hauberk_add_plugin", file.native());
+  if (!elf.this_machine) {
+    fail("plugin '{}' was built for another kind of processor than this program; rebuild it here",
+         file.native());
+  }
+  if (!elf.tables) return;  // stripped of its section table: the loader decides
+
+  if (std::find(elf.exported.begin(), elf.exported.end(), entry_name) == elf.exported.end()) {
+    fail(
+        "plugin '{}' does not export '{}'; expected one constant hauberk::PluginTable of that name, marked "
+        "HAUBERK_EXPORT",
+        file.native(), entry_name);
+  }
+  Handshake expected = program_handshake();
+  if (std::string_view(expected.sanitizers) != "none") return;
+  for (const std::string& library : elf.needed) {
+    if (library.starts_with("libasan.")) expected.sanitizers = "address";
+    if (library.starts_with("libtsan.")) expected.sanitizers = "thread";
+  }
+  check_handshake(expected, file);
+}
+
+/// What the system's loader said, without Boost's wrapping.
+std::string loader_message(const std::string& what)
+{
+  constexpr std::string_view open = "dlerror system message: ";
+  const std::size_t begin = what.find(open);
+  const std::size_t end = what.rfind("): ");
+  if (begin == std::string::npos || end == std::string::npos) return what;
+  return what.substr(begin + open.size(), end - begin - open.size());
+}
+
+const void* load_entry(const fs::path& file)
+{
+  using namespace boost::dll;
+  // RTLD_NODELETE: the destructor of `library` leaves the plugin in memory.
+  const auto mode = static_cast<load_mode::type>(load_mode::rtld_now | load_mode::rtld_local | RTLD_NODELETE);
+  try {
+    const shared_library library(file, mode);
+    return library.has(entry_name) ? &library.get<const char>(entry_name) : nullptr;
+  } catch (const std::system_error& error) {
+    fail("plugin '{}' cannot be loaded: {}", file.native(), loader_message(error.what()));
+  }
+}
+
+}  // namespace
+
+PluginLibrary PluginLibrary::load(const fs::path& file)
+{
+  const fs::path path = fs::absolute(file).lexically_normal();
+  check_is_file(path);
+  check_contents(path);
+
+  const FloatingPointMode before = floating_point_mode();
+  const void* entry = load_entry(path);
+  const FloatingPointMode after = floating_point_mode();
+  set_floating_point_mode(before);
+  if (after != before) {
+    fail("plugin '{}' changed the floating-point mode ({}) when it was loaded; build it without -ffast-math",
+         path.native(), describe_change(before, after));
+  }
+  if (!entry) fail("plugin '{}' does not export '{}'", path.native(), entry_name);
+
+  // The handshake is at the start of the table; nothing behind it is looked at before it agrees.
+  check_handshake(*static_cast<const Handshake*>(entry), path);
+  const auto& table = *static_cast<const PluginTable*>(entry);
+  check_table(table, path);
+  return {path, table};
+}
+
+}  // namespace hauberk

@@ -1,0 +1,46 @@
+#pragma once
+/// The contact formulations: barrier energy of one pair of bodies.
+
+#include <hauberk/contact/side_terms.hpp>
+
+namespace hauberk {
+
+enum class Formulation { nearest, arc };
+
+/// Activation distance and clearance, scaled by L.
+struct ContactSettings {
+  Formulation formulation = Formulation::arc;
+  double g_hat = 0.05;
+  double clearance = 0.0;
+};
+
+/// Sum of the clamped log barrier over every local minimum of the distance with gap < g_hat (paper eq. (4),
+/// in the gap instead of its square), derivatives by the implicit-function theorem:
+///   D_q = d_q,   D_qq = d_qq - d_qc H^-1 d_cq,   H = d_cc at the minimum.
+/// F's coordinates are eliminated in closed form by its field; c is what remains of P.
+template <int dim>
+void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request, SideTerms& out);
+
+/// Integral of the barrier over P (its core circle when P is a tube, else its surface), weight `share`.
+/// Panels are halved until their length is at most about half of sqrt(2 r g), where r is the smallest
+/// relative radius of curvature: the distance to the nearest complex singularity of the integrand.
+template <int dim>
+void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
+             SideTerms& out);
+
+/// A local minimum of the distance of P's probe set to F.
+struct Minimum {
+  double u = 0.0, v = 0.0;
+  double distance = 0.0;  ///< surface distance, no clearance
+};
+
+/// All local minima with surface distance below `threshold`.
+///
+/// A panel is dropped when its bound exceeds the threshold, or when the gradient at its centre exceeds what
+/// the bound of the second derivatives lets it change: then it holds no stationary point. What remains is
+/// split until the sign of the second derivative is certain (dimension 1), or until a Newton iteration from
+/// the centre decides (dimension 2).
+template <int dim>
+std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations);
+
+}  // namespace hauberk

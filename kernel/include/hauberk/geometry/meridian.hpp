@@ -1,0 +1,67 @@
+#pragma once
+/// Distance from a point to a surface of revolution, reduced to its meridian half-plane.
+///
+/// The closest point of a surface of revolution lies in the meridian plane of the query point, so the
+/// three-dimensional search collapses to a distance between a point and a plane curve: a circle (closed
+/// form) or an ellipse (one safeguarded Newton iteration in one angle).
+
+#include <hauberk/geometry/body.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+
+/// Signed distance in the meridian plane and what is needed for its derivatives.
+struct MeridianDistance {
+  double phi = 0.0;         ///< signed distance to the surface, negative inside
+  double nr = 0.0, nz = 0;  ///< gradient of phi in (rho, z): outward unit normal at the closest point
+  double k = 0.0;           ///< second derivative of phi along the meridian, perpendicular to the gradient
+  double c = 0.0, s = 0.0;  ///< cos v, sin v of the closest point on the profile
+};
+
+/// Closest point of the ellipse (a cos v, b sin v) to the point (x, y).
+///
+/// In the first quadrant the closest point is the root of
+///   f(v) = (a^2 - b^2) cos v sin v - x a sin v + y b cos v,
+/// with f(0) >= 0 >= f(pi/2); Newton's method on the unit vector (cos v, sin v), bracketed. No allocation,
+/// thread safe. For points inside, `phi` is negative and exact as long as the point is closer to the curve
+/// than to its medial axis.
+MeridianDistance ellipse_distance(double a, double b, double x, double y);
+
+/// Signed distance of the point (rho, z) of the meridian half-plane to the body's profile.
+inline MeridianDistance meridian_distance(const Body& body, double rho, double z)
+{
+  if (body.kind != PrimitiveKind::circle_tube) {
+    return ellipse_distance(body.r0, body.r1, rho - body.R, z);
+  }
+  const double x = rho - body.R;
+  const double d = std::max(std::sqrt(x * x + z * z), 1e-300);
+  return {d - body.r0, x / d, z / d, 1.0 / d, x / d, z / d};
+}
+
+/// Distance field of a body, evaluated at a point in the body's own frame.
+struct FieldValue {
+  MeridianDistance m;
+  double rho = 0.0;
+  Vec3 n;         ///< gradient of phi
+  Vec3 meridian;  ///< unit, perpendicular to n in the meridian plane; curvature m.k
+  Vec3 azimuth;   ///< unit, perpendicular to both; curvature k_azimuth
+  double k_azimuth = 0.0;
+};
+
+inline FieldValue field_at(const Body& body, const Vec3& p)
+{
+  FieldValue f;
+  f.rho = std::max(std::sqrt(p.x() * p.x() + p.y() * p.y()), 1e-300);
+  const double ex = p.x() / f.rho;
+  const double ey = p.y() / f.rho;
+  f.m = meridian_distance(body, f.rho, p.z());
+  f.n = Vec3(f.m.nr * ex, f.m.nr * ey, f.m.nz);
+  f.meridian = Vec3(-f.m.nz * ex, -f.m.nz * ey, f.m.nr);
+  f.azimuth = Vec3(-ey, ex, 0.0);
+  f.k_azimuth = f.m.nr / f.rho;
+  return f;
+}
+
+}  // namespace hauberk

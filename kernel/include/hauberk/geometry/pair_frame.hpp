@@ -1,0 +1,144 @@
+#pragma once
+/// Two bodies seen from one of them: probe points of body P in the distance field of body F.
+///
+/// Every exact distance that is needed reduces to "points that ride on P, in the closed-form distance field
+/// of F": a circle tube is probed along its core circle (one angle u, offset r), any other body over its
+/// surface (two angles u, v, no offset). Both contact formulations, the certified lower bound and the
+/// collision check are written once, on this reduction.
+
+#include <hauberk/geometry/meridian.hpp>
+
+namespace hauberk {
+
+/// Geometry of body P relative to the frame of body F (F's axis is e_z, its centre the origin).
+struct PairFrame {
+  const Body* P = nullptr;
+  const Body* F = nullptr;
+  Mat3 M;               ///< F's axes in the world: world vector = M * local vector
+  Vec3 a;               ///< centre of P
+  Vec3 e1, e2, e3;      ///< axes of P
+  Vec3 o;               ///< origin of P's element: rotations of that element turn about it
+
+  PairFrame(const Body& p, const Pose& pose_p, const Body& f, const Pose& pose_f);
+};
+
+/// A probe point and its derivatives with respect to the probe coordinates.
+struct ProbePoint {
+  Vec3 p, pu, pv;
+  Vec3 radial;          ///< outward in the ring's plane of P, at angle u
+  double cv = 0.0, sv = 0.0;
+};
+
+/// Probe set of dimension 1 (core circle of a tube) or 2 (surface).
+template <int dim>
+struct Probe {
+  const PairFrame& f;
+  double Lu, Lv, Luv;  ///< bounds of |p_u| and |p_uu|, of |p_v| and |p_vv|, and of |p_uv|
+  double offset;       ///< gap = field - offset - clearance
+
+  explicit Probe(const PairFrame& frame);
+  ProbePoint at(double u, double v) const;
+};
+
+template <int dim>
+Probe<dim>::Probe(const PairFrame& frame) : f(frame)
+{
+  const Body& b = *f.P;
+  if constexpr (dim == 1) {
+    Lu = b.R;
+    Lv = Luv = 0.0;
+    offset = b.r0;
+  } else {
+    Lu = b.R + b.r0;
+    Lv = std::max(b.r0, b.r1);
+    Luv = b.r0;
+    offset = 0.0;
+  }
+}
+
+template <int dim>
+ProbePoint Probe<dim>::at(double u, double v) const
+{
+  const Body& b = *f.P;
+  ProbePoint q;
+  const double cu = std::cos(u), su = std::sin(u);
+  q.radial = cu * f.e1 + su * f.e2;
+  const Vec3 tangent = -su * f.e1 + cu * f.e2;
+  if constexpr (dim == 1) {
+    q.p = f.a + b.R * q.radial;
+    q.pu = b.R * tangent;
+    q.pv.setZero();
+  } else {
+    q.cv = std::cos(v);
+    q.sv = std::sin(v);
+    const double w = b.R + b.r0 * q.cv;
+    q.p = f.a + w * q.radial + b.r1 * q.sv * f.e3;
+    q.pu = w * tangent;
+    q.pv = -b.r0 * q.sv * q.radial + b.r1 * q.cv * f.e3;
+  }
+  return q;
+}
+
+/// A box of probe coordinates: centre and half-widths (v and hv unused for dimension 1).
+struct Panel {
+  double u = 0.0, v = 0.0, hu = 0.0, hv = 0.0;
+};
+
+/// Lower bound of the field over a panel from its value and gradient at the centre.
+///
+/// Outside a body whose profile is convex the Hessian of its distance is bounded below by -1/rho (rho:
+/// distance from its axis), because its meridian curvature is not negative and its azimuthal one is
+/// n_rho/rho. So along p(u, v), with displacement d = |p_u| hu + |p_v| hv,
+///   phi >= phi_mid - |phi_u| hu - |phi_v| hv
+///          - 1/2 (d^2/rho_min + |p_uu| hu^2 + |p_vv| hv^2 + 2 |p_uv| hu hv),   rho_min = rho_mid - d,
+/// and in any case phi >= phi_mid - d (Lipschitz constant 1).
+struct PanelBound {
+  double value;     ///< phi at the centre
+  double bound;     ///< phi over the panel is not smaller
+  double gu, gv;    ///< derivatives of phi at the centre
+};
+
+template <int dim>
+PanelBound panel_bound(const Probe<dim>& probe, const Panel& s)
+{
+  const ProbePoint q = probe.at(s.u, s.v);
+  const FieldValue f = field_at(*probe.f.F, q.p);
+  PanelBound r{};
+  r.value = f.m.phi;
+  r.gu = f.n.dot(q.pu);
+  const double d = probe.Lu * s.hu + probe.Lv * s.hv;
+  r.bound = r.value - d;
+  double slope = std::abs(r.gu) * s.hu;
+  double second = probe.Lu * s.hu * s.hu;
+  if constexpr (dim == 2) {
+    r.gv = f.n.dot(q.pv);
+    slope += std::abs(r.gv) * s.hv;
+    second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
+  }
+  const double rho_min = f.rho - d;
+  if (rho_min > 0.0 && r.value > d) {
+    r.bound = std::max(r.bound, r.value - slope - 0.5 * (d * d / rho_min + second));
+  }
+  return r;
+}
+
+/// Splits the longer side of a panel in two.
+template <int dim>
+inline void split(const Probe<dim>& probe, const Panel& s, Panel& first, Panel& second)
+{
+  first = second = s;
+  if (dim == 1 || probe.Lu * s.hu >= probe.Lv * s.hv) {
+    first.hu = second.hu = 0.5 * s.hu;
+    first.u = s.u - first.hu;
+    second.u = s.u + first.hu;
+  } else {
+    first.hv = second.hv = 0.5 * s.hv;
+    first.v = s.v - first.hv;
+    second.v = s.v + first.hv;
+  }
+}
+
+/// True if P is probed along its core circle.
+inline int probe_dimension(const Body& P) { return P.is_tube() ? 1 : 2; }
+
+}  // namespace hauberk

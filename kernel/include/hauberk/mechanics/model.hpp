@@ -1,0 +1,106 @@
+#pragma once
+/// The model: a scene in scaled lengths under one load case, and states of it.
+
+#include <hauberk/geometry/body.hpp>
+#include <hauberk/load_case.hpp>
+#include <hauberk/scene.hpp>
+
+#include <Eigen/Dense>
+
+namespace hauberk {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+/// Integer combination of the two lattice vectors.
+using Image = std::array<int, 2>;
+
+/// A pair of linked bodies: A of the cell, B of the cell's image `image`.
+struct Link {
+  int a = 0, b = 0;  ///< bodies
+  Image image{};
+  int number = 0;    ///< linking number of the core circles
+};
+
+/// Immutable description of what is simulated; lengths scaled by `length`. Thread safe to read.
+struct Model {
+  double length = 1.0;     ///< L in file units
+  double clearance = 0.0;  ///< scaled
+  const LoadCase* load = nullptr;
+  std::vector<Body> bodies;
+  std::vector<int> first_body;  ///< per element, and one past the end
+  std::vector<double> reach;    ///< per element: radius about its origin that holds it
+  std::vector<Pose> rest;
+  std::vector<Vec3> lattice;
+  std::vector<LinearInequality> walls;
+  std::vector<Link> links;  ///< at rest
+  /// Per body: d(position, R, r0, r1)/d(element parameters), row-major, file units (dimensionless ratios).
+  std::vector<PrimitiveJacobian> jacobians;
+  std::vector<int> parameter_count;  ///< per element
+
+  int macro_count = 0, coordinate_count = 0;
+  Vector metric;  ///< squared displacement per squared unknown: weights of the norm of a step
+
+  int element_count() const { return static_cast<int>(rest.size()); }
+  int element_dofs() const { return coordinate_count + 3; }
+  int dofs() const { return macro_count + element_count() * element_dofs(); }
+  int offset(int element) const { return macro_count + element * element_dofs(); }
+  Vec3 translation(const Image& image) const
+  {
+    Vec3 t = Vec3::Zero();
+    for (std::size_t k = 0; k < lattice.size(); ++k) t += image[k] * lattice[k];
+    return t;
+  }
+};
+
+/// Unknowns: macro, element coordinates, rotations.
+struct State {
+  Vector macro;
+  Vector e;                     ///< coordinate_count per element
+  std::vector<Mat3> rotation;   ///< per element
+};
+
+/// Builds the model and finds its links. Throws InputError when nothing is linked or a primitive is bad.
+Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance_in_file_units);
+
+/// Rest: macro = 0, e = 0, rest rotations.
+State rest_state(const Model& model);
+
+/// Poses of elements (image (0,0)) in a state.
+std::vector<Pose> poses(const Model& model, const State& state);
+
+/// Pose of one element's image.
+Pose image_pose(const Model& model, const State& state, int element, const Image& image);
+
+/// state advanced by alpha dy; rotations by exp(alpha w).
+State advanced(const Model& model, const State& state, const Vector& dy, double alpha);
+
+/// dy with advanced(from, dy, 1) = to.
+Vector difference(const Model& model, const State& from, const State& to);
+
+/// Norm of a step: root of the metric-weighted sum of squares.
+double step_norm(const Model& model, const Vector& dy);
+
+/// Largest displacement that any surface point of any element makes to first order, without the macroscopic part.
+double largest_motion(const Model& model, const Vector& dy);
+
+/// Pair of elements that may come into contact: i of the cell, j of image.
+struct ElementPair {
+  int i = 0, j = 0;
+  Image image{};
+};
+
+/// All element pairs whose bounding spheres are closer than `margin` in this state, in a fixed order.
+/// Images are found by reach: every lattice translation that the strained cell can bring that near is visited.
+std::vector<ElementPair> near_pairs(const Model& model, const State& state, double margin);
+
+/// Links of the model in a state (all body pairs within reach), in a fixed order.
+std::vector<Link> find_links(const Model& model, const State& state);
+
+/// True if the links in `state` are those at rest.
+bool links_kept(const Model& model, const State& state);
+
+/// Translations (at rest) of independent cycles of the link graph.
+std::vector<Vec3> cycle_translations(const Model& model);
+
+}  // namespace hauberk

@@ -1,0 +1,209 @@
+#include <hauberk/contact/barrier.hpp>
+#include <hauberk/contact/formulation.hpp>
+
+#include <boost/math/quadrature/gauss.hpp>
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Relative radius of curvature that makes sqrt(2 r g) a length of order of the contact zone; it only
+/// scales the stiffness, so that the three barriers push alike (see barrier.hpp). Unit: L.
+constexpr double reference_radius = 0.5;
+
+/// Surface element du dv in units of L^2, frozen so that parameters act through the gap alone.
+constexpr double surface_element = 0.25;
+
+/// Panel half-width over the distance to the nearest complex singularity. With y = 1/ratio the error of
+/// n-point Gauss falls like (y + sqrt(y^2 - 1))^(-2n): 1e-8 for n = 7 on lines, 3e-6 for n = 5 on surfaces.
+constexpr double panel_ratio = 0.5;
+
+constexpr double smallest_panel = 1e-12;
+
+template <int n>
+struct GaussRule {
+  std::array<double, n> x, w;
+};
+
+template <int n>
+const GaussRule<n>& gauss_rule()
+{
+  static const GaussRule<n> rule = [] {
+    GaussRule<n> r{};
+    const auto& a = boost::math::quadrature::gauss<double, n>::abscissa();
+    const auto& w = boost::math::quadrature::gauss<double, n>::weights();
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      r.x[k] = a[i];
+      r.w[k++] = w[i];
+      if (a[i] != 0.0) {
+        r.x[k] = -a[i];
+        r.w[k++] = w[i];
+      }
+    }
+    return r;
+  }();
+  return rule;
+}
+
+/// Smallest radius of curvature of the profile.
+double profile_radius(const Body& b) { return b.is_tube() ? b.r0 : std::min(b.r0 * b.r0 / b.r1, b.r1 * b.r1 / b.r0); }
+
+/// Smallest relative radius of curvature between P's probe set and F along any line of the probe set.
+template <int dim>
+double relative_radius(const PairFrame& f)
+{
+  const double rf = profile_radius(*f.F), rp = profile_radius(*f.P);
+  return dim == 1 ? rf + rp : rf * rp / (rf + rp);
+}
+
+template <int dim>
+class ArcIntegral {
+ public:
+  ArcIntegral(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
+              SideTerms& out)
+      : frame_(frame), probe_(frame), settings_(settings), request_(request), out_(out),
+        radius_(relative_radius<dim>(frame)),
+        weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
+                                  : surface_element / (2.0 * pi * reference_radius * settings.g_hat)))
+  {
+  }
+
+  void run()
+  {
+    constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
+    for (int i = 0; i < nu; ++i) {
+      for (int j = 0; j < nv; ++j) {
+        visit({(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
+      }
+    }
+    if (request_.points) cluster();
+  }
+
+ private:
+  void visit(const Panel& s)
+  {
+    const PanelBound b = panel_bound(probe_, s);
+    ++out_.evaluations;
+    const double g = b.value - probe_.offset - settings_.clearance;
+    out_.min_gap = std::min(out_.min_gap, g);
+    if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
+    if (g <= 0.0) return;  // min_gap tells
+    const double half = std::max(probe_.Lu * s.hu, probe_.Lv * s.hv);
+    if (half > panel_ratio * std::sqrt(2.0 * radius_ * std::min(g, 4.0 * settings_.g_hat)) && s.hu > smallest_panel) {
+      Panel first, second;
+      split(probe_, s, first, second);
+      visit(first);
+      visit(second);
+      return;
+    }
+    integrate(s);
+  }
+
+  void integrate(const Panel& s)
+  {
+    constexpr int n = dim == 1 ? 7 : 5;
+    const auto& rule = gauss_rule<n>();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double u = s.u + s.hu * rule.x[i];
+      if constexpr (dim == 1) {
+        node(u, 0.0, weight_ * s.hu * rule.w[i]);
+      } else {
+        for (std::size_t j = 0; j < n; ++j) {
+          node(u, s.v + s.hv * rule.x[j], weight_ * s.hu * rule.w[i] * s.hv * rule.w[j]);
+        }
+      }
+    }
+  }
+
+  void node(double u, double v, double w)
+  {
+    const ProbePoint q = probe_.at(u, v);
+    const FieldValue f = field_at(*frame_.F, q.p);
+    ++out_.evaluations;
+    const double g = f.m.phi - probe_.offset - settings_.clearance;
+    out_.min_gap = std::min(out_.min_gap, g);
+    if (g <= 0.0 || g >= settings_.g_hat) return;
+    const BarrierValue b = barrier<dim>(g, settings_.g_hat);
+    out_.energy += w * b.b;
+    if (request_.order >= 1) out_.add(f, q.p - frame_.o, w * b.db, w * b.ddb, request_.order);
+    if (request_.parameters) out_.template add_parameters<dim>(frame_, f, q, w * b.db);
+    if (request_.points) {
+      ContactPoint c;
+      c.normal = f.n;
+      c.on_f = q.p - f.m.phi * f.n;
+      c.on_p = c.on_f + (g + settings_.clearance) * f.n;
+      c.gap = g;
+      c.force = -w * b.db;
+      nodes_.push_back(c);
+    }
+  }
+
+  /// One resultant for each contact zone: nodes are taken by falling force and join the zone whose seed is
+  /// within a few widths sqrt(2 r g_hat) of a zone; the resultant acts at the force-weighted mean point.
+  void cluster()
+  {
+    std::stable_sort(nodes_.begin(), nodes_.end(),
+                     [](const ContactPoint& a, const ContactPoint& b) { return a.force > b.force; });
+    struct Zone {
+      ContactPoint seed;
+      Vec3 force = Vec3::Zero(), on_p = Vec3::Zero(), on_f = Vec3::Zero();
+      double weight = 0.0;
+    };
+    std::vector<Zone> zones;
+    const double width = 4.0 * std::sqrt(2.0 * (frame_.P->R) * settings_.g_hat);
+    for (const ContactPoint& c : nodes_) {
+      Zone* home = nullptr;
+      for (Zone& z : zones) {
+        if ((z.seed.on_f - c.on_f).norm() < width && z.seed.normal.dot(c.normal) > 0.0) {
+          home = &z;
+          break;
+        }
+      }
+      if (home == nullptr) {
+        zones.push_back({c});
+        home = &zones.back();
+      }
+      home->force += c.force * c.normal;
+      home->on_p += c.force * c.on_p;
+      home->on_f += c.force * c.on_f;
+      home->weight += c.force;
+      home->seed.gap = std::min(home->seed.gap, c.gap);
+    }
+    for (const Zone& z : zones) {
+      if (z.weight <= 0.0) continue;
+      ContactPoint c = z.seed;
+      c.force = z.force.norm();
+      c.normal = z.force / c.force;
+      c.on_p = z.on_p / z.weight;
+      c.on_f = z.on_f / z.weight;
+      out_.points.push_back(c);
+    }
+  }
+
+  const PairFrame& frame_;
+  Probe<dim> probe_;
+  const ContactSettings& settings_;
+  const Request& request_;
+  SideTerms& out_;
+  double radius_;
+  double weight_;
+  std::vector<ContactPoint> nodes_;
+};
+
+}  // namespace
+
+template <int dim>
+void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
+             SideTerms& out)
+{
+  ArcIntegral<dim>(frame, settings, request, share, out).run();
+}
+
+template void add_arc<1>(const PairFrame&, const ContactSettings&, const Request&, double, SideTerms&);
+template void add_arc<2>(const PairFrame&, const ContactSettings&, const Request&, double, SideTerms&);
+
+}  // namespace hauberk

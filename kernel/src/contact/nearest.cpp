@@ -1,0 +1,256 @@
+#include <hauberk/contact/barrier.hpp>
+#include <hauberk/contact/formulation.hpp>
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Panels this small hold one minimum or a merge whose depth is below rounding (depth ~ h^4).
+constexpr double merge_width = 1e-4;  // radians
+
+/// Half-width from which a Newton iteration decides what a surface panel holds.
+constexpr double seed_width = 0.06;  // L
+
+/// Minima closer than this are the same one found from two panels.
+constexpr double same_minimum = 1e-5;  // radians
+
+/// Smallest profile radius of curvature: bounds the meridian curvature k <= 1/(r + phi).
+double smallest_radius(const Body& b) { return std::min(b.r0 * b.r0 / b.r1, b.r1 * b.r1 / b.r0); }
+
+/// Value and derivatives of the field along the probe set: gradient and Hessian in (u, v).
+struct Local {
+  ProbePoint q;
+  FieldValue f;
+  double gu = 0, gv = 0, huu = 0, huv = 0, hvv = 0;
+};
+
+Vec3 curvature(const FieldValue& f, const Vec3& x)
+{
+  return (f.m.k * f.meridian.dot(x)) * f.meridian + (f.k_azimuth * f.azimuth.dot(x)) * f.azimuth;
+}
+
+template <int dim>
+Local local_at(const Probe<dim>& probe, double u, double v)
+{
+  Local l;
+  l.q = probe.at(u, v);
+  l.f = field_at(*probe.f.F, l.q.p);
+  const Body& P = *probe.f.P;
+  l.gu = l.f.n.dot(l.q.pu);
+  const Vec3 Ku = curvature(l.f, l.q.pu);
+  const double w = dim == 1 ? P.R : P.R + P.r0 * l.q.cv;
+  l.huu = Ku.dot(l.q.pu) - w * l.f.n.dot(l.q.radial);
+  if constexpr (dim == 2) {
+    const Vec3 tangent = l.q.pu / w;
+    l.gv = l.f.n.dot(l.q.pv);
+    l.huv = Ku.dot(l.q.pv) - P.r0 * l.q.sv * l.f.n.dot(tangent);
+    l.hvv = curvature(l.f, l.q.pv).dot(l.q.pv) -
+            l.f.n.dot(P.r0 * l.q.cv * l.q.radial + P.r1 * l.q.sv * probe.f.e3);
+  }
+  return l;
+}
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * pi); }
+
+void insert(std::vector<Minimum>& minima, const Minimum& m)
+{
+  for (const Minimum& o : minima) {
+    if (std::abs(wrapped(o.u - m.u)) < same_minimum && std::abs(wrapped(o.v - m.v)) < same_minimum) return;
+  }
+  minima.push_back(m);
+}
+
+/// Finds all minima by subdivision.
+template <int dim>
+class Search {
+ public:
+  Search(const PairFrame& frame, double threshold, std::vector<Minimum>& out, int& evaluations)
+      : probe_(frame), threshold_(threshold + probe_.offset), out_(out), evaluations_(evaluations),
+        rf_(smallest_radius(*frame.F))
+  {
+  }
+
+  void run()
+  {
+    // Turned by an arbitrary angle so that symmetric scenes have no minimum on a panel's end.
+    constexpr double turn = 0.1234;
+    constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
+    for (int i = 0; i < nu; ++i) {
+      for (int j = 0; j < nv; ++j) {
+        visit({turn + (2 * i + 1) * pi / nu, turn + (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
+      }
+    }
+  }
+
+ private:
+  void visit(const Panel& s)
+  {
+    const Local l = local_at(probe_, s.u, s.v);
+    ++evaluations_;
+    const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
+    if (l.f.m.phi - d > threshold_) return;
+    const PanelBound b = panel_bound(probe_, s);
+    if (b.bound > threshold_) return;
+    // Largest curvature of the field on the panel.
+    const double rho = l.f.rho - d, r = rf_ + l.f.m.phi - d;
+    if (rho > 0.0 && r > 0.0) {
+      const double k = std::max(1.0 / rho, 1.0 / r);
+      const double uu = probe_.Lu * (probe_.Lu * k + 1.0);
+      if constexpr (dim == 1) {
+        if (std::abs(l.gu) > uu * s.hu) return;
+        const double third = probe_.Lu * (3.0 * probe_.Lu * probe_.Lu * k * k + 3.0 * probe_.Lu * k + 1.0);
+        if (std::abs(l.huu) > third * s.hu || s.hu < merge_width) {
+          bracket(s);
+          return;
+        }
+      } else {
+        const double uv = probe_.Lu * probe_.Lv * k + probe_.Luv;
+        const double vv = probe_.Lv * (probe_.Lv * k + 1.0);
+        if (std::abs(l.gu) > uu * s.hu + uv * s.hv || std::abs(l.gv) > uv * s.hu + vv * s.hv) return;
+        if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed_width) {
+          descend(s);
+          return;
+        }
+      }
+    }
+    if (s.hu < 1e-9) return;
+    Panel first, second;
+    split(probe_, s, first, second);
+    visit(first);
+    visit(second);
+  }
+
+  /// Dimension 1: the second derivative keeps its sign on the panel, so it holds a minimum exactly when
+  /// the first derivative changes from negative to positive.
+  void bracket(const Panel& s)
+  {
+    double lo = s.u - s.hu * (1.0 + 1e-9), hi = s.u + s.hu * (1.0 + 1e-9);
+    const double glo = local_at(probe_, lo, 0.0).gu, ghi = local_at(probe_, hi, 0.0).gu;
+    evaluations_ += 2;
+    if (!(glo < 0.0 && ghi >= 0.0)) return;
+    double u = lo + (hi - lo) * glo / (glo - ghi);
+    Local l = local_at(probe_, u, 0.0);
+    for (int it = 0; it < 60; ++it) {
+      ++evaluations_;
+      (l.gu < 0.0 ? lo : hi) = u;
+      double next = u - l.gu / l.huu;
+      if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+      const double step = std::abs(next - u);
+      u = next;
+      l = local_at(probe_, u, 0.0);
+      if (step < 1e-9 * s.hu + 1e-15 || hi - lo < 4e-16) break;
+    }
+    if (l.f.m.phi < threshold_) insert(out_, {u, 0.0, l.f.m.phi - probe_.offset});
+  }
+
+  /// Dimension 2: Newton from the centre; accepts a minimum that is not far from the panel.
+  void descend(const Panel& s)
+  {
+    double u = s.u, v = s.v;
+    const double far = 3.0;
+    Local l = local_at(probe_, u, v);
+    for (int it = 0; it < 40; ++it) {
+      ++evaluations_;
+      // Modified Newton: shift the Hessian until it is positive definite.
+      const double su = probe_.Lu, sv = probe_.Lv;  // scaled coordinates
+      const double a = l.huu / (su * su), b = l.huv / (su * sv), c = l.hvv / (sv * sv);
+      const double mean = 0.5 * (a + c), dev = std::hypot(0.5 * (a - c), b);
+      const double shift = std::max(0.0, 1e-3 - (mean - dev));
+      const double A = a + shift, C = c + shift, det = A * C - b * b;
+      const double gx = l.gu / su, gy = l.gv / sv;
+      double dx = -(C * gx - b * gy) / det, dy = -(A * gy - b * gx) / det;
+      const double size = std::hypot(dx, dy);
+      if (size > 2.0 * seed_width) {
+        dx *= 2.0 * seed_width / size;
+        dy *= 2.0 * seed_width / size;
+      }
+      u += dx / su;
+      v += dy / sv;
+      l = local_at(probe_, u, v);
+      if (std::abs(u - s.u) > far * s.hu + 0.05 || std::abs(v - s.v) > far * s.hv + 0.05) return;
+      if (std::hypot(dx, dy) < 1e-12) {
+        const bool minimum = mean - dev > 0.0;
+        if (minimum && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});
+        return;
+      }
+    }
+  }
+
+  Probe<dim> probe_;
+  double threshold_;
+  std::vector<Minimum>& out_;
+  int& evaluations_;
+  double rf_;
+};
+
+}  // namespace
+
+template <int dim>
+std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations)
+{
+  std::vector<Minimum> minima;
+  Search<dim>(frame, threshold, minima, evaluations).run();
+  std::sort(minima.begin(), minima.end(), [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
+  return minima;
+}
+
+template <int dim>
+void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request, SideTerms& out)
+{
+  const Probe<dim> probe(frame);
+  for (const Minimum& m : local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
+    const double g = m.distance - settings.clearance;
+    out.min_gap = std::min(out.min_gap, g);
+    if (g <= 0.0) continue;
+    const Local l = local_at(probe, m.u, m.v);
+    const BarrierValue b = barrier<0>(g, settings.g_hat);
+    out.energy += b.b;
+    const Vec3 rho = l.q.p - frame.o;
+    if (request.order >= 1) out.add(l.f, rho, b.db, b.ddb, request.order);
+    if (request.order >= 2) {
+      // d g / d c of the gradient (n, rho x n), for c = u and v.
+      const auto mixed = [&](const Vec3& t) {
+        const Vec3 kn = curvature(l.f, t);
+        Vec6 x;
+        x << kn, t.cross(l.f.n) + rho.cross(kn);
+        return x;
+      };
+      const Vec6 xu = mixed(l.q.pu);
+      if constexpr (dim == 1) {
+        if (l.huu > 0.0) out.hessian.noalias() -= (b.db / l.huu) * xu * xu.transpose();
+        out.regularity = std::min(out.regularity, l.huu / (probe.Lu * probe.Lu));
+      } else {
+        const Vec6 xv = mixed(l.q.pv);
+        const double det = l.huu * l.hvv - l.huv * l.huv;
+        if (det > 0.0) {
+          out.hessian.noalias() -=
+              (b.db / det) * (l.hvv * xu * xu.transpose() + l.huu * xv * xv.transpose() -
+                              l.huv * (xu * xv.transpose() + xv * xu.transpose()));
+        }
+        const double a = l.huu / (probe.Lu * probe.Lu), c = l.hvv / (probe.Lv * probe.Lv);
+        const double o = l.huv / (probe.Lu * probe.Lv);
+        out.regularity = std::min(out.regularity, 0.5 * (a + c) - std::hypot(0.5 * (a - c), o));
+      }
+    }
+    if (request.parameters) out.template add_parameters<dim>(frame, l.f, l.q, b.db);
+    if (request.points) {
+      ContactPoint c;
+      c.normal = l.f.n;
+      c.on_f = l.q.p - l.f.m.phi * l.f.n;
+      c.on_p = l.q.p - probe.offset * l.f.n;
+      c.gap = g;
+      c.force = -b.db;
+      out.points.push_back(c);
+    }
+  }
+}
+
+template std::vector<Minimum> local_minima<1>(const PairFrame&, double, int&);
+template std::vector<Minimum> local_minima<2>(const PairFrame&, double, int&);
+template void add_nearest<1>(const PairFrame&, const ContactSettings&, const Request&, SideTerms&);
+template void add_nearest<2>(const PairFrame&, const ContactSettings&, const Request&, SideTerms&);
+
+}  // namespace hauberk

@@ -1,0 +1,94 @@
+#include <hauberk/contact/side_terms.hpp>
+
+namespace hauberk {
+
+void SideTerms::add(const FieldValue& f, const Vec3& rho, double w1, double w2, int order)
+{
+  Vec6 g;
+  g << f.n, rho.cross(f.n);
+  if (order >= 1) gradient += w1 * g;
+  if (order >= 2) {
+    Vec6 a, b;
+    a << f.meridian, rho.cross(f.meridian);
+    b << f.azimuth, rho.cross(f.azimuth);
+    const Vec6 wg = w2 * g, wa = (w1 * f.m.k) * a, wb = (w1 * f.k_azimuth) * b;
+    for (int j = 0; j < 6; ++j) {
+      for (int i = 0; i < 6; ++i) hessian(i, j) += wg[i] * g[j] + wa[i] * a[j] + wb[i] * b[j];
+    }
+    // n . 1/2 w x (w x rho) = 1/2 ((w.rho)(w.n) - |w|^2 rho.n)
+    const double rn = rho.dot(f.n);
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        hessian(3 + i, 3 + j) += w1 * (0.5 * (rho[i] * f.n[j] + f.n[i] * rho[j]) - (i == j ? rn : 0.0));
+      }
+    }
+  }
+}
+
+template <int dim>
+void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, const ProbePoint& q, double w1)
+{
+  d_clearance -= w1;  // gap = distance - clearance
+  for (int k = 0; k < 3; ++k) {
+    dP[static_cast<std::size_t>(k)] += w1 * f.n[k];
+    dF[static_cast<std::size_t>(k)] -= w1 * f.n[k];
+  }
+  const double nr = f.n.dot(q.radial), nz = f.n.dot(frame.e3);
+  dP[3] += w1 * nr;
+  if constexpr (dim == 1) {
+    // The tube's surface point faces F: its profile normal is -(nr, nz). A change of r0 (r1) moves it by
+    // cos^2 (sin^2) of its profile angle; both together by 1.
+    const double m = std::max(nr * nr + nz * nz, 1e-300);
+    dP[4] -= w1 * nr * nr / m;
+    dP[5] -= w1 * nz * nz / m;
+  } else {
+    dP[4] += w1 * nr * q.cv;
+    dP[5] += w1 * nz * q.sv;
+  }
+  dF[3] -= w1 * f.m.nr;
+  // At the closest profile point (R + r0 c, r1 s) of F.
+  dF[4] -= w1 * f.m.nr * f.m.c;
+  dF[5] -= w1 * f.m.nz * f.m.s;
+}
+
+template void SideTerms::add_parameters<1>(const PairFrame&, const FieldValue&, const ProbePoint&, double);
+template void SideTerms::add_parameters<2>(const PairFrame&, const FieldValue&, const ProbePoint&, double);
+
+PairTerms to_world(const SideTerms& side, const Mat3& M, const Vec3& xi, int order)
+{
+  PairTerms t;
+  t.energy = side.energy;
+  if (order < 1) return t;
+  const Vec3 ge = M * side.gradient.head<3>();
+  const Vec3 gp = M * side.gradient.tail<3>();
+  const Mat3 X = skew(xi);
+  t.gradient << ge, gp, -(xi.cross(ge) + gp);  // ge . (xi x w_F ...) : d eta'/d w_F = skew(xi)
+  if (order < 2) return t;
+
+  Mat6 H;
+  H.topLeftCorner<3, 3>() = M * side.hessian.topLeftCorner<3, 3>() * M.transpose();
+  H.topRightCorner<3, 3>() = M * side.hessian.topRightCorner<3, 3>() * M.transpose();
+  H.bottomLeftCorner<3, 3>() = H.topRightCorner<3, 3>().transpose();
+  H.bottomRightCorner<3, 3>() = M * side.hessian.bottomRightCorner<3, 3>() * M.transpose();
+
+  // First-order map (eta, w_P, w_F) -> (eta', w_P').
+  Eigen::Matrix<double, 6, 9> T = Eigen::Matrix<double, 6, 9>::Zero();
+  T.topLeftCorner<3, 3>().setIdentity();
+  T.block<3, 3>(0, 6) = X;
+  T.block<3, 3>(3, 3).setIdentity();
+  T.block<3, 3>(3, 6) = -Mat3::Identity();
+  t.hessian.noalias() = T.transpose() * (H * T);
+
+  // Second-order parts: ge . (-w_F x eta + 1/2 w_F x (w_F x xi)) + gp . (-1/2 w_F x w_P).
+  const Mat3 G = skew(ge);  // ge.(-w x eta) = w.(-(eta x ge)) = w . (ge x eta) = w^T G eta
+  t.hessian.block<3, 3>(6, 0) += G;
+  t.hessian.block<3, 3>(0, 6) += G.transpose();
+  t.hessian.block<3, 3>(6, 6) +=
+      0.5 * (xi * ge.transpose() + ge * xi.transpose()) - xi.dot(ge) * Mat3::Identity();
+  const Mat3 S = 0.5 * skew(gp);  // gp.(-1/2 w_F x w_P) = 1/2 w_F . (gp x w_P)
+  t.hessian.block<3, 3>(6, 3) += S;
+  t.hessian.block<3, 3>(3, 6) += S.transpose();
+  return t;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,41 @@
+#include <hauberk/geometry/body.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hauberk {
+
+Body make_body(const Primitive& primitive, int element, int index, double length)
+{
+  Body b;
+  b.element = element;
+  b.index = index;
+  b.kind = primitive.kind;
+  b.R = primitive.R() / length;
+  b.r0 = primitive.r0() / length;
+  b.r1 = primitive.r1() / length;
+  b.center = primitive.position / length;
+  b.axes = primitive.rotation;
+  // Farthest surface point from the centre: |(R + r0 cos v, r1 sin v)| <= R + max(r0, r1).
+  b.bound = b.R + std::max(b.r0, b.r1);
+  b.reach = b.center.norm() + b.bound;
+  return b;
+}
+
+double characteristic_length(const SceneSpec& spec)
+{
+  if (spec.length > 0.0) return spec.length;
+  std::vector<double> radii;
+  for (const PlacedElement& e : spec.elements) {
+    for (const Primitive& p : spec.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters)) {
+      radii.push_back(p.R());
+    }
+  }
+  if (radii.empty()) return 1.0;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,86 @@
+#include <hauberk/geometry/separation.hpp>
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace hauberk {
+namespace {
+
+constexpr double smallest_panel = 1e-10;  ///< radians; below it rounding of the angle dominates
+constexpr double pi = std::numbers::pi;
+
+template <int dim>
+Separation bound_over_panels(const PairFrame& frame, double enough, double tightness)
+{
+  const Probe<dim> probe(frame);
+  Separation s;
+  s.lower = s.upper = std::numeric_limits<double>::infinity();
+  std::vector<Panel> stack;
+  stack.reserve(64);
+  constexpr int nu = 8;
+  constexpr int nv = dim == 2 ? 4 : 1;
+  for (int i = 0; i < nu; ++i) {
+    for (int j = 0; j < nv; ++j) {
+      stack.push_back({(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
+    }
+  }
+  while (!stack.empty()) {
+    const Panel panel = stack.back();
+    stack.pop_back();
+    const PanelBound b = panel_bound(probe, panel);
+    ++s.evaluations;
+    s.upper = std::min(s.upper, b.value - probe.offset);
+    if (s.upper <= 0.0) {
+      s.lower = s.upper;
+      return s;
+    }
+    const double lower = b.bound - probe.offset;
+    if (lower >= std::min(enough, tightness * s.upper) || panel.hu < smallest_panel) {
+      s.lower = std::min(s.lower, lower);
+      continue;
+    }
+    Panel first, second;
+    split(probe, panel, first, second);
+    stack.push_back(second);
+    stack.push_back(first);
+  }
+  return s;
+}
+
+}  // namespace
+
+Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double enough,
+                      double tightness)
+{
+  // Spheres about the centres first: most pairs end here.
+  const Vec3 ca = pose_a.position + pose_a.rotation * A.center;
+  const Vec3 cb = pose_b.position + pose_b.rotation * B.center;
+  const double coarse = (ca - cb).norm() - A.bound - B.bound;
+  if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
+
+  if (A.is_tube()) return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), enough, tightness);
+  if (B.is_tube()) return bound_over_panels<1>(PairFrame(B, pose_b, A, pose_a), enough, tightness);
+  return bound_over_panels<2>(PairFrame(A, pose_a, B, pose_b), enough, tightness);
+}
+
+int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
+{
+  // In B's frame the disc is z = 0, rho < R_B. The core of A is a + R (cos u e1 + sin u e2), so
+  // z(u) = a_z + R h cos(u - u0) with h = hypot(e1_z, e2_z).
+  const PairFrame f(A, pose_a, B, pose_b);
+  const double h = std::hypot(f.e1.z(), f.e2.z());
+  if (h * A.R <= std::abs(f.a.z())) return 0;
+  const double u0 = std::atan2(f.e2.z(), f.e1.z());
+  const double w = std::acos(-f.a.z() / (A.R * h));
+  int crossings = 0;
+  for (const int sign : {-1, 1}) {
+    const double u = u0 + sign * w;
+    const Vec3 p = f.a + A.R * (std::cos(u) * f.e1 + std::sin(u) * f.e2);
+    // dz/du = -R h sin(u - u0): upwards at u0 - w, downwards at u0 + w.
+    if (std::hypot(p.x(), p.y()) < B.R) crossings -= sign;
+  }
+  return crossings;
+}
+
+}  // namespace hauberk

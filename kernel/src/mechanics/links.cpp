@@ -1,0 +1,81 @@
+#include <hauberk/geometry/separation.hpp>
+#include <hauberk/mechanics/model.hpp>
+
+#include <deque>
+
+namespace hauberk {
+
+std::vector<Link> find_links(const Model& m, const State& s)
+{
+  std::vector<Link> links;
+  const std::vector<Pose> p = poses(m, s);
+  for (const ElementPair& pair : near_pairs(m, s, 0.0)) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const Pose other = image_pose(m, s, pair.j, pair.image);
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body& A = m.bodies[static_cast<std::size_t>(a)];
+        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const double d = (p[i].position + p[i].rotation * A.center - other.position - other.rotation * B.center).norm();
+        if (d >= A.R + B.R) continue;
+        const int number = linking_number(A, p[i], B, other);
+        if (number != 0) links.push_back({a, b, pair.image, number});
+      }
+    }
+  }
+  return links;
+}
+
+bool links_kept(const Model& m, const State& s)
+{
+  const std::vector<Link> now = find_links(m, s);
+  if (now.size() != m.links.size()) return false;
+  for (const Link& l : m.links) {
+    bool found = false;
+    for (const Link& k : now) {
+      if (k.a == l.a && k.b == l.b && k.image == l.image && k.number == l.number) found = true;
+    }
+    if (!found) return false;
+  }
+  return true;
+}
+
+std::vector<Vec3> cycle_translations(const Model& m)
+{
+  // Spanning forest of the quotient graph: every element gets a translation; each further link closes a
+  // cycle whose translation is the mismatch.
+  const auto n = static_cast<std::size_t>(m.element_count());
+  std::vector<Image> at(n);
+  std::vector<bool> seen(n, false);
+  std::vector<Vec3> cycles;
+  const auto element = [&](int body) { return static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(body)].element); };
+  for (std::size_t root = 0; root < n; ++root) {
+    if (seen[root]) continue;
+    seen[root] = true;
+    std::deque<std::size_t> queue{root};
+    while (!queue.empty()) {
+      const std::size_t i = queue.front();
+      queue.pop_front();
+      for (const Link& l : m.links) {
+        const std::size_t a = element(l.a), b = element(l.b);
+        for (const bool forward : {true, false}) {
+          if ((forward ? a : b) != i) continue;
+          const std::size_t j = forward ? b : a;
+          const int sign = forward ? 1 : -1;
+          const Image to{at[i][0] + sign * l.image[0], at[i][1] + sign * l.image[1]};
+          if (!seen[j]) {
+            seen[j] = true;
+            at[j] = to;
+            queue.push_back(j);
+          } else {
+            const Image d{to[0] - at[j][0], to[1] - at[j][1]};
+            if (d[0] != 0 || d[1] != 0) cycles.push_back(m.translation(d));
+          }
+        }
+      }
+    }
+  }
+  return cycles;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,182 @@
+#include <hauberk/error.hpp>
+#include <hauberk/mechanics/model.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Mean squared arm of the macroscopic unknowns: how far a unit of strain moves elements against each other.
+double squared_arm(const Model& m)
+{
+  double sum = 0.0;
+  for (const Vec3& t : m.lattice) sum += t.squaredNorm();
+  if (!m.lattice.empty()) return std::max(1.0, sum / static_cast<double>(4 * m.lattice.size()));
+  for (const Pose& p : m.rest) sum += p.position.squaredNorm();
+  return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, m.rest.size())));
+}
+
+void set_metric(Model& m)
+{
+  m.metric = Vector::Ones(m.dofs());
+  std::vector<double> weights(static_cast<std::size_t>(m.macro_count));
+  m.load->metric(weights);
+  const double arm = squared_arm(m);
+  for (int k = 0; k < m.macro_count; ++k) m.metric[k] = arm * weights[static_cast<std::size_t>(k)];
+  for (int i = 0; i < m.element_count(); ++i) {
+    const double r = m.reach[static_cast<std::size_t>(i)];
+    m.metric.segment<3>(m.offset(i) + m.coordinate_count).setConstant(r * r);
+  }
+}
+
+}  // namespace
+
+Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
+{
+  Model m;
+  m.length = characteristic_length(spec);
+  m.clearance = clearance / m.length;
+  m.load = &load;
+  m.macro_count = load.macro_count();
+  m.coordinate_count = load.coordinate_count();
+  for (const Vec3& t : spec.lattice) m.lattice.push_back(t / m.length);
+
+  std::vector<Vec3> positions;
+  for (std::size_t k = 0; k < spec.elements.size(); ++k) {
+    const PlacedElement& e = spec.elements[k];
+    const Shape& shape = *spec.types[static_cast<std::size_t>(e.type)].shape;
+    const std::vector<Primitive> primitives = shape.primitives(e.parameters);
+    std::vector<PrimitiveJacobian> jacobians = shape.jacobians(e.parameters);
+    m.first_body.push_back(static_cast<int>(m.bodies.size()));
+    double reach = 0.0;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      m.bodies.push_back(make_body(primitives[i], static_cast<int>(k), static_cast<int>(i), m.length));
+      m.jacobians.push_back(std::move(jacobians[i]));
+      reach = std::max(reach, m.bodies.back().reach);
+    }
+    m.parameter_count.push_back(static_cast<int>(e.parameters.size()));
+    m.reach.push_back(reach);
+    m.rest.push_back({e.rest.position / m.length, e.rest.rotation});
+    positions.push_back(m.rest.back().position);
+  }
+  m.first_body.push_back(static_cast<int>(m.bodies.size()));
+  m.walls = load.inequalities(positions);
+  set_metric(m);
+  m.links = find_links(m, rest_state(m));
+  return m;
+}
+
+State rest_state(const Model& m)
+{
+  State s;
+  s.macro = Vector::Zero(m.macro_count);
+  s.e = Vector::Zero(m.element_count() * m.coordinate_count);
+  for (const Pose& p : m.rest) s.rotation.push_back(p.rotation);
+  return s;
+}
+
+Pose image_pose(const Model& m, const State& s, int element, const Image& image)
+{
+  PositionMap map;
+  const auto k = static_cast<std::size_t>(element);
+  m.load->position({s.macro.data(), static_cast<std::size_t>(m.macro_count)},
+                   {s.e.data() + element * m.coordinate_count, static_cast<std::size_t>(m.coordinate_count)},
+                   m.rest[k].position, m.translation(image), map);
+  return {map.x, s.rotation[k]};
+}
+
+std::vector<Pose> poses(const Model& m, const State& s)
+{
+  std::vector<Pose> p;
+  p.reserve(m.rest.size());
+  for (int i = 0; i < m.element_count(); ++i) p.push_back(image_pose(m, s, i, {0, 0}));
+  return p;
+}
+
+State advanced(const Model& m, const State& s, const Vector& dy, double alpha)
+{
+  State n = s;
+  n.macro += alpha * dy.head(m.macro_count);
+  for (int i = 0; i < m.element_count(); ++i) {
+    const int o = m.offset(i);
+    n.e.segment(i * m.coordinate_count, m.coordinate_count) += alpha * dy.segment(o, m.coordinate_count);
+    auto& Q = n.rotation[static_cast<std::size_t>(i)];
+    Q = rotation_exp(alpha * dy.segment<3>(o + m.coordinate_count)) * Q;
+  }
+  return n;
+}
+
+Vector difference(const Model& m, const State& from, const State& to)
+{
+  Vector dy(m.dofs());
+  dy.head(m.macro_count) = to.macro - from.macro;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const int o = m.offset(i);
+    dy.segment(o, m.coordinate_count) = to.e.segment(i * m.coordinate_count, m.coordinate_count) -
+                                        from.e.segment(i * m.coordinate_count, m.coordinate_count);
+    const auto k = static_cast<std::size_t>(i);
+    const Mat3 D = to.rotation[k] * from.rotation[k].transpose();
+    // Small turns through the antisymmetric part: exact to rounding where angle-axis loses digits.
+    const Vec3 a = 0.5 * Vec3(D(2, 1) - D(1, 2), D(0, 2) - D(2, 0), D(1, 0) - D(0, 1));
+    const double s = a.norm(), c = 0.5 * (D.trace() - 1.0);
+    const double angle = std::atan2(s, c);
+    dy.segment<3>(o + m.coordinate_count) = s > 1e-150 ? Vec3(a * (angle / s)) : Vec3(a);
+  }
+  return dy;
+}
+
+double step_norm(const Model& m, const Vector& dy) { return std::sqrt(dy.cwiseAbs2().dot(m.metric)); }
+
+double largest_motion(const Model& m, const Vector& dy)
+{
+  double most = 0.0;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const int o = m.offset(i);
+    most = std::max(most, dy.segment(o, m.coordinate_count).norm() +
+                              dy.segment<3>(o + m.coordinate_count).norm() * m.reach[static_cast<std::size_t>(i)]);
+  }
+  return most;
+}
+
+std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margin)
+{
+  const std::vector<Pose> p = poses(m, s);
+  const int n = m.element_count();
+  std::vector<ElementPair> pairs;
+  if (m.lattice.empty()) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+        if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin) pairs.push_back({i, j, {0, 0}});
+      }
+    }
+    return pairs;
+  }
+  // |F T| >= s_min |T| and |T| >= |m_k| / |b_k| with b_k the reciprocal vectors.
+  const auto [smin, smax] = m.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m.macro_count)});
+  static_cast<void>(smax);
+  const Vec3 &t1 = m.lattice[0], &t2 = m.lattice[1];
+  const double area = t1.cross(t2).norm();
+  const double b1 = t2.norm() / area, b2 = t1.norm() / area;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i; j < n; ++j) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const double r = m.reach[a] + m.reach[b] + margin;
+      const double far = ((p[a].position - p[b].position).norm() + r) / std::max(smin, 1e-6);
+      const int m1 = static_cast<int>(std::floor(far * b1)), m2 = static_cast<int>(std::floor(far * b2));
+      for (int k = -m1; k <= m1; ++k) {
+        for (int l = -m2; l <= m2; ++l) {
+          if (i == j && (k < 0 || (k == 0 && l <= 0))) continue;  // an image pair counts once
+          const Vec3 x = image_pose(m, s, j, {k, l}).position;
+          if ((p[a].position - x).norm() < r) pairs.push_back({i, j, {k, l}});
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace hauberk

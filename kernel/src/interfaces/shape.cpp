@@ -1,6 +1,7 @@
 #include <hauberk/error.hpp>
 #include <hauberk/shape.hpp>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <sstream>
 

@@ -1,0 +1,46 @@
+#pragma once
+/// The document of results.json, format "hauberk-results/1"; share/doc/results.md explains every field.
+
+#include <hauberk/results.hpp>
+
+#include <boost/json/object.hpp>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk {
+
+inline constexpr const char* results_format = "hauberk-results/1";
+
+/// Where a result comes from. Everything but `threads` must be the same for repeated runs of one build on one
+/// machine, so there is no date, host or path in it.
+struct Provenance {
+  struct Plugin {
+    std::string id, kind, version;
+  };
+  std::string version;     ///< of Hauberk
+  std::string build_type;  ///< build type and instrumentation
+  std::string compiler;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+  std::vector<Plugin> plugins;
+  std::uint64_t seed = 0;
+  int threads = 1;
+};
+
+/// Names the document needs beyond what the results carry.
+struct ResultNames {
+  /// Of the macroscopic unknowns, for `starts` of limits whose own `macro` is empty.
+  std::vector<std::string> macro{"exx", "eyy", "exy"};
+  /// Files beside results.json: what it is -> file name.
+  std::vector<std::pair<std::string, std::string>> files;
+};
+
+/// Builds the document. `experiment_json` is the resolved experiment as strict JSON text; lengths are in its
+/// unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite are null.
+/// Keys have a fixed order. Throws InputError when a JSON text is malformed, and what shapes throw. Thread safe.
+boost::json::object results_document(const RunResult& run, const std::string& experiment_json,
+                                     const Provenance& provenance, const ResultNames& names = {});
+
+}  // namespace hauberk

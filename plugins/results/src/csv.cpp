@@ -1,0 +1,81 @@
+#include <hauberk/results/csv.hpp>
+#include <hauberk/results/json_text.hpp>
+
+#include <algorithm>
+#include <optional>
+
+namespace hauberk {
+namespace {
+
+using Named = std::vector<std::pair<std::string, double>>;
+
+/// RFC 4180: quotes around text that holds a separator, quote or line end; inner quotes doubled.
+std::string text_cell(const std::string& text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+std::string number_cell(const std::optional<double>& x)
+{
+  if (!x) return {};
+  const std::string text = number_text(*x);
+  return text == "null" ? std::string() : text;
+}
+
+std::string named_cell(const Named& values, const std::string& name)
+{
+  for (const auto& [key, value] : values)
+    if (key == name) return number_cell(value);
+  return {};
+}
+
+void collect(const Named& values, std::vector<std::string>& names)
+{
+  for (const auto& [name, value] : values)
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+std::string line(const std::vector<std::string>& cells)
+{
+  std::string out;
+  for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
+  return out + '\n';
+}
+
+}  // namespace
+
+std::string limits_csv(std::span<const LimitResult> limits)
+{
+  std::vector<std::string> companions, macros;
+  for (const LimitResult& limit : limits) {
+    collect(limit.companions, companions);
+    collect(limit.macro, macros);
+  }
+  std::vector<std::string> header{"load_case", "direction_deg", "sense", "measure", "value"};
+  for (const auto* names : {&companions, &macros})
+    for (const std::string& name : *names) header.push_back(text_cell(name));
+  for (const char* name : {"status", "iterations", "evaluations", "seconds", "min_gap", "error_estimate", "links_kept",
+                           "z_range", "better_state", "force_balance", "starts", "contacts"})
+    header.emplace_back(name);
+
+  std::string out = line(header);
+  for (const LimitResult& limit : limits) {
+    std::vector<std::string> row{text_cell(limit.load_case), number_cell(limit.direction_deg), text_cell(limit.sense),
+                                 text_cell(limit.measure), number_cell(limit.value)};
+    for (const std::string& name : companions) row.push_back(named_cell(limit.companions, name));
+    for (const std::string& name : macros) row.push_back(named_cell(limit.macro, name));
+    row.insert(row.end(), {to_string(limit.status), std::to_string(limit.iterations),
+                           std::to_string(limit.evaluations), number_cell(limit.seconds), number_cell(limit.min_gap),
+                           number_cell(limit.error_estimate), limit.links_kept ? "true" : "false",
+                           number_cell(limit.z_range), limit.better_state ? "true" : "false",
+                           number_cell(limit.force_balance), std::to_string(limit.starts.size()),
+                           std::to_string(limit.contacts.size())});
+    out += line(row);
+  }
+  return out;
+}
+
+}  // namespace hauberk

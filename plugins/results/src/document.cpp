@@ -1,0 +1,127 @@
+#include <hauberk/results/document.hpp>
+#include <hauberk/results/json_text.hpp>
+
+#include "json_parts.hpp"
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+using detail::number;
+
+json::object provenance_json(const Provenance& provenance)
+{
+  json::object out;
+  out["version"] = provenance.version;
+  out["build"] = {{"type", provenance.build_type}, {"compiler", provenance.compiler}};
+  json::object& libraries = out["libraries"].emplace_object();
+  for (const auto& [name, version] : provenance.libraries) libraries[name] = version;
+  json::array& plugins = out["plugins"].emplace_array();
+  for (const Provenance::Plugin& plugin : provenance.plugins)
+    plugins.push_back({{"id", plugin.id}, {"kind", plugin.kind}, {"version", plugin.version}});
+  out["seed"] = provenance.seed;
+  out["threads"] = provenance.threads;
+  return out;
+}
+
+json::array profiles_json(const std::vector<ProfilePoint>& profiles)
+{
+  json::array out;
+  for (const ProfilePoint& p : profiles)
+    out.push_back({{"direction_deg", number(p.direction_deg)},
+                   {"e_s", number(p.e_s)},
+                   {"e_c", number(p.e_c)},
+                   {"eta", number(p.eta)}});
+  return out;
+}
+
+json::array variables_json(const std::vector<DesignVariableResult>& variables)
+{
+  json::array out;
+  for (const DesignVariableResult& v : variables)
+    out.push_back({{"name", v.name},
+                   {"initial", number(v.initial)},
+                   {"final", number(v.final)},
+                   {"lower", number(v.lower)},
+                   {"upper", number(v.upper)}});
+  return out;
+}
+
+json::array targets_json(const std::vector<DesignTargetResult>& targets)
+{
+  json::array out;
+  for (const DesignTargetResult& t : targets)
+    out.push_back({{"direction_deg", number(t.direction_deg)},
+                   {"target", number(t.target)},
+                   {"weight", number(t.weight)},
+                   {"initial", number(t.initial)},
+                   {"provisional", number(t.provisional)},
+                   {"recomputed", number(t.recomputed)},
+                   {"better_state", t.better_state},
+                   {"met", t.met}});
+  return out;
+}
+
+json::array history_json(const std::vector<DesignIterate>& history)
+{
+  json::array out;
+  for (const DesignIterate& h : history) {
+    json::array values;
+    for (const double value : h.values) values.push_back(number(value));
+    out.push_back({{"iteration", h.iteration},
+                   {"objective", number(h.objective)},
+                   {"step", number(h.step)},
+                   {"optimality", number(h.optimality)},
+                   {"constraint_violation", number(h.constraint_violation)},
+                   {"min_gap", number(h.min_gap)},
+                   {"links_kept", h.links_kept},
+                   {"seconds", number(h.seconds)},
+                   {"values", std::move(values)}});
+  }
+  return out;
+}
+
+json::object design_json(const DesignResult& design, const std::vector<std::string>& macro_names)
+{
+  json::object out;
+  out["quantity"] = design.quantity;
+  out["status"] = design.status;
+  out["message"] = design.message;
+  out["objective_initial"] = number(design.objective_initial);
+  out["objective"] = number(design.objective);
+  out["iterations"] = design.iterations;
+  out["evaluations"] = static_cast<std::int64_t>(design.evaluations);
+  out["seconds"] = number(design.seconds);
+  out["variables"] = variables_json(design.variables);
+  out["targets"] = targets_json(design.targets);
+  out["start"] = design.start;
+  json::array& starts = out["starts"].emplace_array();
+  for (const auto& [start, objective] : design.starts)
+    starts.push_back({{"start", start}, {"objective", number(objective)}});
+  out["history"] = history_json(design.history);
+  json::object& initial = out["initial"].emplace_object();
+  initial["scene"] = detail::scene_json(design.initial_scene);
+  initial["limits"] = detail::limits_json(design.initial_limits, macro_names);
+  return out;
+}
+
+}  // namespace
+
+json::object results_document(const RunResult& run, const std::string& experiment_json,
+                              const Provenance& provenance, const ResultNames& names)
+{
+  json::object out;
+  out["format"] = results_format;
+  out["experiment"] = parse_json(experiment_json, "resolved experiment");
+  out["provenance"] = provenance_json(provenance);
+  out["plan"] = run.plan_json.empty() ? json::value(nullptr) : parse_json(run.plan_json, "plan");
+  out["scene"] = detail::scene_json(run.scene);
+  out["limits"] = detail::limits_json(run.limits, names.macro);
+  out["profiles"] = profiles_json(run.profiles);
+  out["design"] = run.design ? json::value(design_json(*run.design, names.macro)) : json::value(nullptr);
+  json::object& files = out["files"].emplace_object();
+  for (const auto& [what, file] : names.files) files[what] = file;
+  return out;
+}
+
+}  // namespace hauberk

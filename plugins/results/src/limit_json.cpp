@@ -1,0 +1,92 @@
+#include "json_parts.hpp"
+
+namespace hauberk::detail {
+namespace {
+
+namespace json = boost::json;
+
+json::value macro_json(const std::vector<std::pair<std::string, double>>& macro)
+{
+  if (macro.empty()) return nullptr;  // no state was reached
+  return named_numbers(macro);
+}
+
+json::object start_json(const LockedState& state, const std::vector<std::string>& names)
+{
+  json::object out;
+  out["value"] = number(state.value);
+  json::object& macro = out["macro"].emplace_object();
+  for (std::size_t i = 0; i < state.macro.size(); ++i)
+    macro[i < names.size() ? names[i] : std::to_string(i)] = number(state.macro[i]);
+  out["z_range"] = number(state.z_range);
+  out["seed"] = state.seed;
+  out["count"] = state.count;
+  return out;
+}
+
+json::object contact_json(const ContactForce& contact)
+{
+  json::object out;
+  out["elements"] = {contact.elements[0], contact.elements[1]};
+  out["primitives"] = {contact.primitives[0], contact.primitives[1]};
+  out["image"] = {contact.image[0], contact.image[1]};
+  if (!contact.wall.empty()) out["wall"] = contact.wall;
+  out["points"] = {vector_json(contact.points[0]), vector_json(contact.points[1])};
+  out["normal"] = vector_json(contact.normal);
+  out["gap"] = number(contact.gap);
+  out["force"] = number(contact.force);
+  return out;
+}
+
+}  // namespace
+
+json::object limit_json(const LimitResult& limit, const std::vector<std::string>& macro_names)
+{
+  json::object out;
+  out["load_case"] = limit.load_case;
+  out["direction_deg"] = number(limit.direction_deg);
+  out["sense"] = limit.sense;
+  out["measure"] = limit.measure;
+  out["value"] = number(limit.value);
+  for (const auto& [name, value] : limit.companions) out[name] = number(value);
+  out["macro"] = macro_json(limit.macro);
+  out["status"] = to_string(limit.status);
+  out["message"] = limit.message;
+  out["infimum"] = number(limit.infimum);
+  out["iterations"] = limit.iterations;
+  out["evaluations"] = static_cast<std::int64_t>(limit.evaluations);
+  out["seconds"] = number(limit.seconds);
+  out["min_gap"] = number(limit.min_gap);
+  out["error_estimate"] = number(limit.error_estimate);
+  out["links_kept"] = limit.links_kept;
+  out["z_range"] = number(limit.z_range);
+  out["contact"] = limit.contact;
+  out["certificate"] = limit.certificate;
+
+  std::vector<std::string> names;
+  for (const auto& [name, value] : limit.macro) names.push_back(name);
+  json::array& starts = out["starts"].emplace_array();
+  for (const LockedState& state : limit.starts)
+    starts.push_back(start_json(state, names.empty() ? macro_names : names));
+  out["better_state"] = limit.better_state;
+
+  json::object& sensitivity = out["sensitivity"].emplace_object();
+  sensitivity["clearance"] = number(limit.sensitivity_clearance);
+  sensitivity["parameters"] = named_numbers(limit.sensitivity_parameters);
+
+  json::array& poses = out["poses"].emplace_array();
+  for (const Pose& pose : limit.poses) poses.push_back(pose_json(pose));
+  json::array& contacts = out["contacts"].emplace_array();
+  for (const ContactForce& contact : limit.contacts) contacts.push_back(contact_json(contact));
+  out["force_balance"] = number(limit.force_balance);
+  return out;
+}
+
+json::array limits_json(std::span<const LimitResult> limits, const std::vector<std::string>& macro_names)
+{
+  json::array out;
+  for (const LimitResult& limit : limits) out.push_back(limit_json(limit, macro_names));
+  return out;
+}
+
+}  // namespace hauberk::detail

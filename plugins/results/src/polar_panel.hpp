@@ -1,0 +1,35 @@
+#pragma once
+/// One polar diagram: rings, spokes, curves, legend.
+
+#include "svg.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk::detail {
+
+/// Values (>= 0) against direction in degrees; only finite ones.
+struct Curve {
+  enum class Marker { none, dot, square, target };
+  std::string label;
+  Stroke stroke;
+  Marker marker = Marker::none;
+  bool joined = true;
+  std::vector<std::pair<double, double>> points;
+  /// Directions that were asked for but have no value: the curve is interrupted there.
+  std::vector<double> holes;
+};
+
+struct Panel {
+  std::string title;
+  std::vector<Curve> curves;
+};
+
+inline constexpr double panel_width = 430.0;
+/// Height of a panel with `entries` lines of legend.
+double panel_height(std::size_t entries);
+
+void draw_panel(Svg& svg, Point2 corner, const Panel& panel);
+
+}  // namespace hauberk::detail

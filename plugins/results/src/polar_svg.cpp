@@ -1,0 +1,117 @@
+#include <hauberk/results/polar_svg.hpp>
+
+#include "polar_panel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+using detail::Curve;
+using detail::Panel;
+
+/// Direction modulo 180 degrees, in [0, 180); what rounding put just below 180 counts as 0.
+double reduced(double degrees)
+{
+  const double d = std::fmod(std::fmod(degrees, 180.0) + 180.0, 180.0);
+  return d > 180.0 - 1e-9 ? 0.0 : d;
+}
+
+/// A profile from limits; the first limit of a direction and sense counts.
+std::vector<ProfilePoint> profile_of(const std::vector<LimitResult>& limits)
+{
+  std::vector<ProfilePoint> out;
+  for (const LimitResult& limit : limits) {
+    const auto same = [&](const ProfilePoint& p) {
+      return std::abs(reduced(p.direction_deg) - reduced(limit.direction_deg)) < 1e-9;
+    };
+    auto it = std::find_if(out.begin(), out.end(), same);
+    if (it == out.end()) it = out.insert(out.end(), ProfilePoint{limit.direction_deg, {}, {}, {}});
+    auto& slot = limit.sense == "stretch" || limit.sense == "up" ? it->e_s : it->e_c;
+    if (!slot) slot = limit.value;
+  }
+  for (ProfilePoint& p : out)
+    if (p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);
+  return out;
+}
+
+using Quantity = std::optional<double> ProfilePoint::*;
+
+void fill(Curve& curve, const std::vector<ProfilePoint>& profile, Quantity quantity)
+{
+  for (const ProfilePoint& p : profile) {
+    const double degrees = reduced(p.direction_deg);
+    const std::optional<double>& value = p.*quantity;
+    if (value && std::isfinite(*value))
+      curve.points.emplace_back(degrees, std::abs(*value));
+    else
+      curve.holes.push_back(degrees);
+  }
+}
+
+/// Adds the curve of one quantity, before and after; nothing when there are no values.
+void add(Panel& panel, const RunResult& run, Quantity quantity, const std::string& name, Curve style)
+{
+  if (run.design) {
+    Curve before = style;
+    before.label = name + ", before";
+    before.stroke.colour = "#999";
+    before.stroke.width = 1.3;
+    before.marker = Curve::Marker::none;
+    fill(before, profile_of(run.design->initial_limits), quantity);
+    if (!before.points.empty()) panel.curves.push_back(std::move(before));
+  }
+  style.label = run.design ? name + ", after" : name;
+  fill(style, run.profiles.empty() ? profile_of(run.limits) : run.profiles, quantity);
+  if (!style.points.empty()) panel.curves.push_back(std::move(style));
+}
+
+void add_targets(Panel& panel, const DesignResult& design)
+{
+  Curve targets{.label = "targets", .stroke = {"#c00000", 1.0, ""}, .marker = Curve::Marker::target,
+                .joined = false, .points = {}, .holes = {}};
+  for (const DesignTargetResult& t : design.targets)
+    targets.points.emplace_back(reduced(t.direction_deg), std::abs(t.target));
+  if (!targets.points.empty()) panel.curves.push_back(std::move(targets));
+}
+
+Curve style(const char* colour, double width, const char* dash, Curve::Marker marker)
+{
+  return {.label = {}, .stroke = {colour, width, dash}, .marker = marker, .joined = true, .points = {}, .holes = {}};
+}
+
+}  // namespace
+
+std::string polar_svg(const RunResult& run, const PlotLabels& labels)
+{
+  Panel eta{"\u03b7 = (e_s \u2212 e_c) / (1 + e_c), dimensionless", {}};
+  add(eta, run, &ProfilePoint::eta, "\u03b7", style("#111", 2.2, "", Curve::Marker::dot));
+  Panel limits{labels.positive + " and " + labels.negative + " limits (magnitude, " + labels.unit + ")", {}};
+  add(limits, run, &ProfilePoint::e_s, labels.positive, style("#1f4e79", 2.2, "", Curve::Marker::dot));
+  add(limits, run, &ProfilePoint::e_c, labels.negative, style("#c55a11", 2.2, "7,4", Curve::Marker::square));
+  if (run.design && run.design->quantity == "eta") add_targets(eta, *run.design);
+  if (run.design && run.design->quantity != "eta") add_targets(limits, *run.design);
+
+  std::vector<const Panel*> panels;
+  for (const Panel* panel : {&eta, &limits})
+    if (!panel->curves.empty()) panels.push_back(panel);
+
+  constexpr double header = 62.0, margin = 16.0;
+  double height = header + 40.0;
+  for (const Panel* panel : panels)
+    height = std::max(height, header + detail::panel_height(panel->curves.size()));
+  const double width = detail::panel_width * static_cast<double>(std::max<std::size_t>(panels.size(), 1));
+  detail::Svg svg(width, height + margin);
+  svg.text({width / 2.0, 28.0}, labels.title, 18, "middle", true);
+  if (!labels.subtitle.empty()) svg.text({width / 2.0, 48.0}, labels.subtitle, 12, "middle");
+  if (panels.empty()) svg.text({width / 2.0, header + 20.0}, "No direction has a limit to show.", 13, "middle");
+  double x = 0.0;
+  for (const Panel* panel : panels) {
+    detail::draw_panel(svg, {x, header}, *panel);
+    x += detail::panel_width;
+  }
+  return svg.str();
+}
+
+}  // namespace hauberk

@@ -1,0 +1,31 @@
+#include <hauberk/results/atomic_file.hpp>
+#include <hauberk/results/csv.hpp>
+#include <hauberk/results/designed_experiment.hpp>
+#include <hauberk/results/json_text.hpp>
+#include <hauberk/results/write_results.hpp>
+
+namespace hauberk {
+namespace {
+
+bool has_designed_scene(const RunResult& run) { return run.design.has_value() && run.scene.lattice.size() == 2; }
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run)
+{
+  std::vector<std::pair<std::string, std::string>> out{{"limits", limits_file}, {"profile", profile_file}};
+  if (has_designed_scene(run)) out.emplace_back("designed", designed_file);
+  return out;
+}
+
+void write_results(const std::filesystem::path& directory, const boost::json::object& document, const RunResult& run,
+                   const std::string& experiment_json, const PlotLabels& labels)
+{
+  write_file_atomically(directory / limits_file, limits_csv(run.limits));
+  write_file_atomically(directory / profile_file, polar_svg(run, labels));
+  if (has_designed_scene(run))
+    write_file_atomically(directory / designed_file, write_json(designed_experiment(experiment_json, run.scene)));
+  write_file_atomically(directory / results_file, write_json(document));
+}
+
+}  // namespace hauberk

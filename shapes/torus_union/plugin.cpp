@@ -2,7 +2,7 @@
 
 #include <hauberk/plugin.hpp>
 
-extern "C" HAUBERK_EXPORT const hauberk::PluginTable hauberk_plugin = {
+extern "C" HAUBERK_EXPORT constinit const hauberk::PluginTable hauberk_plugin = {
     HAUBERK_HANDSHAKE,
     hauberk::PluginKind::shape,
     "torus_union",

@@ -1,0 +1,66 @@
+#pragma once
+/// Periodic sheet under a macroscopic in-plane strain, stretched or compressed along a direction.
+
+#include <hauberk/load_case.hpp>
+#include <hauberk/settings.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace hauberk {
+
+/// The reported value of a strain eps along n = (c, s).
+enum class StrainMeasure {
+  tensor,  ///< n^T eps n = exx c^2 + eyy s^2 + 2 exy c s
+  paper,   ///< (d . eps)/(d . d), d = (c^2, s^2, c s)
+};
+
+/// Elements at x = F (X + T) + u with F = I + [[exx, exy], [exy, eyy]] in the plane (z untouched).
+///
+/// Macroscopic unknowns are (exx, eyy, exy), coordinates of an element u = (ux, uy), and uz where elements
+/// may leave the plane. Transverse and shear strains are free.
+class InPlanePeriodic final : public LoadCase {
+ public:
+  /// How far elements may leave their height at rest, after removing the mean.
+  struct OutOfPlane {
+    bool free = false;
+    double half_height = 0.0;  ///< when not free; 0 fixes z; scaled by L
+  };
+
+  InPlanePeriodic(StrainMeasure measure, OutOfPlane out_of_plane);
+
+ protected:
+  const std::vector<MacroInfo>& do_macros() const override { return macros_; }
+  int do_coordinate_count() const override;
+  bool do_periodic() const override { return true; }
+  void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
+                   PositionMap& out) const override;
+  bool do_admissible(std::span<const double> macro) const override;
+  std::pair<double, double> do_stretch_range(std::span<const double> macro) const override;
+  void do_load(double theta, std::span<double> t) const override;
+  double do_value(double theta, std::span<const double> macro) const override;
+  std::string do_measure() const override;
+  int do_value_length_power() const override { return 0; }
+  std::vector<std::pair<std::string, double>> do_companions(double theta,
+                                                            std::span<const double> macro) const override;
+  std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
+  void do_metric(std::span<double> m) const override;
+  std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override;
+  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override;
+
+ private:
+  /// Rate of the value when only the strain along the unit vector (x, y) grows: load . (x^2, y^2, x y).
+  double transverse_rate(double theta, double x, double y) const;
+
+  std::vector<MacroInfo> macros_;
+  StrainMeasure measure_;
+  OutOfPlane out_of_plane_;
+};
+
+/// The fields of the load case's own settings.
+void in_plane_periodic_fields(std::vector<Field>& out);
+
+/// Builds the load case from a section checked against these fields; `length` is L in file units.
+std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double length, Problems& problems);
+
+}  // namespace hauberk

@@ -1,0 +1,317 @@
+#include "../in_plane_periodic.hpp"
+
+#include <gtest/gtest.h>
+#include <hauberk/error.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+const InPlanePeriodic flat(StrainMeasure::tensor, {});
+const InPlanePeriodic paper(StrainMeasure::paper, {});
+const InPlanePeriodic layer(StrainMeasure::tensor, {false, 0.3});
+const InPlanePeriodic spatial(StrainMeasure::tensor, {true, 0.0});
+
+const std::vector<double> strain = {0.21, -0.13, 0.17};
+
+Mat3 deformation(const std::vector<double>& m)
+{
+  Mat3 F = Mat3::Identity();
+  F(0, 0) += m[0];
+  F(1, 1) += m[1];
+  F(0, 1) += m[2];
+  F(1, 0) += m[2];
+  return F;
+}
+
+TEST(InPlanePeriodic, Unknowns)
+{
+  ASSERT_EQ(flat.macro_count(), 3);
+  EXPECT_EQ(flat.macros()[0].name, "exx");
+  EXPECT_EQ(flat.macros()[1].name, "eyy");
+  EXPECT_EQ(flat.macros()[2].name, "exy");
+  for (const MacroInfo& macro : flat.macros()) EXPECT_EQ(macro.length_power, 0);
+  EXPECT_EQ(flat.coordinate_count(), 2);
+  EXPECT_EQ(layer.coordinate_count(), 3);
+  EXPECT_EQ(spatial.coordinate_count(), 3);
+  EXPECT_TRUE(flat.periodic());
+  EXPECT_EQ(flat.value_length_power(), 0);
+  EXPECT_EQ(flat.sense_names(), (std::pair<std::string, std::string>("stretch", "compress")));
+  EXPECT_EQ(flat.measure(), "tensor");
+  EXPECT_EQ(paper.measure(), "paper");
+  double metric[3];
+  flat.metric(metric);
+  EXPECT_EQ(metric[0], 1.0);
+  EXPECT_EQ(metric[1], 1.0);
+  EXPECT_EQ(metric[2], 2.0);
+}
+
+TEST(InPlanePeriodic, RestIsRest)
+{
+  const Vec3 X(1.5, -2.5, 0.75);
+  const Vec3 T(3, 4, 0);
+  PositionMap map;
+  flat.position(std::vector<double>(3, 0.0), std::vector<double>(2, 0.0), X, T, map);
+  EXPECT_EQ(map.x, Vec3(4.5, 1.5, 0.75));
+}
+
+TEST(InPlanePeriodic, PositionIsDeformedRestPlusDisplacement)
+{
+  const Vec3 X(1.5, -2.5, 0.75);
+  const Vec3 T(3, 4, 0);
+  PositionMap map;
+  spatial.position(strain, std::vector<double>{0.1, 0.2, 0.3}, X, T, map);
+  EXPECT_NEAR((map.x - (deformation(strain) * (X + T) + Vec3(0.1, 0.2, 0.3))).norm(), 0.0, 1e-15);
+  flat.position(strain, std::vector<double>{0.1, 0.2}, X, T, map);
+  EXPECT_NEAR((map.x - (deformation(strain) * (X + T) + Vec3(0.1, 0.2, 0))).norm(), 0.0, 1e-15);
+  EXPECT_EQ(map.x.z(), 0.75);
+}
+
+TEST(InPlanePeriodic, DerivativeOfPositionIsExact)
+{
+  // Affine in the unknowns, so differences over any step are exact up to rounding.
+  const Vec3 X(1.5, -2.5, 0.75);
+  const Vec3 T(3, 4, 0);
+  for (const InPlanePeriodic* load_case : {&flat, &layer, &spatial}) {
+    std::vector<double> q = strain;
+    for (int k = 0; k < load_case->coordinate_count(); ++k) q.push_back(0.1 * (k + 1));
+    const auto at = [&](const std::vector<double>& y) {
+      PositionMap map;
+      map.J.setConstant(7.0);  // what was there before must not survive
+      map.curved = true;
+      const std::span<const double> all(y);
+      load_case->position(all.first(3), all.subspan(3), X, T, map);
+      return map;
+    };
+    const PositionMap base = at(q);
+    EXPECT_FALSE(base.curved);
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      std::vector<double> y = q;
+      y[k] += 0.5;
+      const Vec3 difference = (at(y).x - base.x) / 0.5;
+      EXPECT_NEAR((base.J.col(static_cast<Eigen::Index>(k)) - difference).norm(), 0.0, 1e-14) << k;
+      EXPECT_GT(difference.norm(), 0.9);
+    }
+    for (auto k = static_cast<Eigen::Index>(q.size()); k < PositionMap::n; ++k) {
+      EXPECT_EQ(base.J.col(k).norm(), 0.0);
+    }
+  }
+  EXPECT_EQ(flat.acceleration_bound(strain, strain, strain, strain, X, T), 0.0);
+}
+
+TEST(InPlanePeriodic, WrongSizesAreRefused)
+{
+  PositionMap map;
+  EXPECT_THROW(flat.position(strain, strain, Vec3::Zero(), Vec3::Zero(), map), PluginError);
+  EXPECT_THROW(flat.position(std::vector<double>(2), std::vector<double>(2), Vec3::Zero(), Vec3::Zero(), map),
+               PluginError);
+  EXPECT_THROW(flat.position(std::vector<double>{std::nan(""), 0, 0}, std::vector<double>(2), Vec3::Ones(),
+                             Vec3::Zero(), map),
+               PluginError);
+}
+
+TEST(InPlanePeriodic, AdmissibleMeansPositiveDefinite)
+{
+  EXPECT_TRUE(flat.admissible(strain));
+  EXPECT_TRUE(flat.admissible(std::vector<double>{3.0, -0.75, 0.99}));  // det = 1 - 0.9801
+  EXPECT_FALSE(flat.admissible(std::vector<double>{3.0, -0.75, 1.01}));
+  EXPECT_FALSE(flat.admissible(std::vector<double>{-1.0, 0.0, 0.0}));
+  EXPECT_FALSE(flat.admissible(std::vector<double>{-2.0, -2.0, 0.0}));  // det > 0 but negative definite
+  EXPECT_FALSE(flat.admissible(std::vector<double>{std::nan(""), 0.0, 0.0}));
+}
+
+TEST(InPlanePeriodic, StretchRangeHoldsTheEigenvalues)
+{
+  for (const auto& m : {strain, std::vector<double>{0, 0, 0}, std::vector<double>{999, -0.999, 0.5}}) {
+    const auto [smallest, largest] = flat.stretch_range(m);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(deformation(m).topLeftCorner<2, 2>());
+    EXPECT_NEAR(smallest, solver.eigenvalues()[0], 1e-12);
+    EXPECT_NEAR(largest, solver.eigenvalues()[1], 1e-12 * largest);
+  }
+}
+
+TEST(InPlanePeriodic, TensorValue)
+{
+  for (const double theta : {0.0, 0.3, 1.2, 2.5}) {
+    const Vec3 n(std::cos(theta), std::sin(theta), 0);
+    EXPECT_NEAR(flat.value(theta, strain), n.dot(deformation(strain) * n) - 1.0, 1e-15);
+    EXPECT_NEAR(flat.value(theta, strain), flat.value(theta + std::numbers::pi, strain), 1e-15);
+  }
+}
+
+TEST(InPlanePeriodic, PaperValueIsTheLeastSquaresMultiple)
+{
+  for (const double theta : {0.0, 0.3, 1.2, 2.5}) {
+    const double c = std::cos(theta);
+    const double s = std::sin(theta);
+    const Vec3 d(c * c, s * s, c * s);
+    EXPECT_NEAR(paper.value(theta, strain), d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
+    // The published strain of size e along theta is e d: its value is e.
+    const Vec3 e = 0.37 * d;
+    EXPECT_NEAR(paper.value(theta, std::span<const double>(e.data(), 3)), 0.37, 1e-15);
+  }
+}
+
+TEST(InPlanePeriodic, LoadIsTheDerivativeOfTheValue)
+{
+  for (const InPlanePeriodic* load_case : {&flat, &paper}) {
+    for (const double theta : {0.0, 0.4, 1.5, 2.9}) {
+      double t[3];
+      load_case->load(theta, t);
+      double norm = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double> m = strain;
+        m[k] += 0.25;
+        EXPECT_NEAR(t[k], (load_case->value(theta, m) - load_case->value(theta, strain)) / 0.25, 1e-14);
+        norm += t[k] * t[k];
+      }
+      EXPECT_GT(norm, 0.9);
+    }
+  }
+}
+
+TEST(InPlanePeriodic, LineStretch)
+{
+  const double theta = 0.7;
+  const Vec3 n(std::cos(theta), std::sin(theta), 0);
+  const auto companions = flat.companions(theta, strain);
+  ASSERT_EQ(companions.size(), 1U);
+  EXPECT_EQ(companions[0].first, "line_stretch");
+  EXPECT_NEAR(companions[0].second, (deformation(strain) * n).norm() - 1.0, 1e-15);
+  // No digits are lost for small strains.
+  const std::vector<double> tiny = {1e-14, 0.0, 0.0};
+  EXPECT_NEAR(flat.companions(0.0, tiny)[0].second, 1e-14, 1e-28);
+}
+
+TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
+{
+  const std::vector<Vec3> X = {Vec3(0, 0, 5), Vec3(1, 0, 0), Vec3(0, 1, -2)};
+  EXPECT_TRUE(flat.inequalities(X).empty());
+  EXPECT_TRUE(spatial.inequalities(X).empty());
+  EXPECT_TRUE(layer.inequalities(std::span<const Vec3>(X).first(1)).empty());
+  const auto walls = layer.inequalities(X);
+  ASSERT_EQ(walls.size(), 6U);
+  const std::vector<double> u = {0.5, -0.1, 0.35};  // mean 0.25
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const std::size_t side : {0U, 1U}) {
+      const LinearInequality& wall = walls[2 * i + side];
+      EXPECT_EQ(wall.name, side == 0 ? "upper" : "lower");
+      EXPECT_EQ(wall.terms[0].element, static_cast<int>(i));
+      double value = wall.offset;
+      double sum = 0.0;
+      for (const auto& term : wall.terms) {
+        EXPECT_EQ(term.coordinate, 2);
+        value += term.coefficient * u[static_cast<std::size_t>(term.element)];
+        sum += term.coefficient;
+      }
+      EXPECT_NEAR(value, 0.3 - (side == 0 ? 1.0 : -1.0) * (u[i] - 0.25), 1e-15);
+      EXPECT_NEAR(sum, 0.0, 1e-15);  // moving all together meets no wall
+    }
+  }
+}
+
+Boundedness bounded(const InPlanePeriodic& load_case, double deg, Sense sense, std::vector<Vec3> cycles)
+{
+  return load_case.boundedness(deg * degree, sense, cycles);
+}
+
+TEST(InPlanePeriodic, BoundedWhereCyclesSpanThePlane)
+{
+  const std::vector<Vec3> square = {Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(5, 1, 0)};
+  for (const InPlanePeriodic* load_case : {&flat, &paper}) {
+    for (const double deg : {0.0, 30.0, 90.0}) {
+      for (const Sense sense : {Sense::positive, Sense::negative}) {
+        EXPECT_EQ(bounded(*load_case, deg, sense, square), Boundedness::attained);
+      }
+    }
+  }
+}
+
+TEST(InPlanePeriodic, ChainsBoundStretchOnlyAlongThemselves)
+{
+  const Vec3 T = 12.0 * Vec3(std::cos(30 * degree), std::sin(30 * degree), 0);
+  // Twice the same direction, a closed cycle, and one that is zero up to rounding do not span anything.
+  const std::vector<Vec3> chain = {T, -2 * T, Vec3::Zero(), Vec3(-1e-16, 1e-16, 0)};
+  EXPECT_EQ(bounded(flat, 30, Sense::positive, chain), Boundedness::attained);
+  EXPECT_EQ(bounded(flat, 210, Sense::positive, chain), Boundedness::attained);
+  EXPECT_EQ(bounded(flat, 31, Sense::positive, chain), Boundedness::unbounded);
+  EXPECT_EQ(bounded(flat, 120, Sense::positive, chain), Boundedness::unbounded);
+  // Across itself a sheet of chains is pressed together; along itself it turns aside while it spreads.
+  EXPECT_EQ(bounded(flat, 30, Sense::negative, chain), Boundedness::not_attained);
+  EXPECT_EQ(bounded(flat, 31, Sense::negative, chain), Boundedness::attained);
+  EXPECT_EQ(bounded(flat, 120, Sense::negative, chain), Boundedness::attained);
+}
+
+TEST(InPlanePeriodic, ObliqueChainsInThePaperMeasure)
+{
+  // The paper's measure counts the strain across an oblique chain, so spreading raises it.
+  const std::vector<Vec3> oblique = {Vec3(1, 1, 0)};
+  EXPECT_EQ(bounded(paper, 45, Sense::positive, oblique), Boundedness::unbounded);
+  EXPECT_EQ(bounded(paper, 45, Sense::negative, oblique), Boundedness::attained);
+  EXPECT_EQ(bounded(paper, 90, Sense::positive, {Vec3(0, 6, 0)}), Boundedness::attained);
+  EXPECT_EQ(bounded(paper, 90, Sense::negative, {Vec3(0, 6, 0)}), Boundedness::not_attained);
+}
+
+TEST(InPlanePeriodic, NothingLinkedIsUnbounded)
+{
+  for (const double deg : {0.0, 30.0, 90.0}) {
+    EXPECT_EQ(bounded(flat, deg, Sense::positive, {}), Boundedness::unbounded);
+    EXPECT_EQ(bounded(flat, deg, Sense::negative, {}), Boundedness::not_attained);
+    EXPECT_EQ(bounded(paper, deg, Sense::positive, {Vec3::Zero()}), Boundedness::unbounded);
+  }
+}
+
+TEST(InPlanePeriodic, NotAttainedChainTendsToItsInfimum)
+{
+  // The path behind `not_attained`: the chain vector F t keeps its length, turns away from t, and F stays
+  // positive definite with a determinant that does not vanish, while the value tends to -1.
+  double previous = 1.0;
+  for (const double phi : {0.5, 1.0, 1.4, 1.5, 1.57}) {
+    const double p = std::cos(phi);
+    const double q = std::sin(phi);
+    const std::vector<double> m = {p - 1.0, (1.0 + q * q) / p - 1.0, q};
+    EXPECT_TRUE(flat.admissible(m));
+    EXPECT_NEAR((deformation(m) * Vec3::UnitX()).norm(), 1.0, 1e-14);
+    EXPECT_NEAR(deformation(m).determinant(), 1.0, 1e-9);
+    EXPECT_LT(flat.value(0.0, m), previous);
+    previous = flat.value(0.0, m);
+  }
+  EXPECT_LT(previous, -0.999);
+}
+
+TEST(InPlanePeriodic, SettingsAreRead)
+{
+  std::vector<Field> fields;
+  in_plane_periodic_fields(fields);
+  ASSERT_EQ(fields.size(), 2U);
+  EXPECT_EQ(fields[0].default_json, "\"tensor\"");
+  EXPECT_EQ(fields[1].default_json, "0");
+  const auto make = [](const char* measure, Node height) {
+    Node section;
+    section.type = Node::Type::object;
+    Node text;
+    text.type = Node::Type::string;
+    text.string = measure;
+    section.members = {{"measure", text}, {"out_of_plane", std::move(height)}};
+    Problems problems;
+    return make_in_plane_periodic(section, 5.0, problems);
+  };
+  Node number;
+  number.type = Node::Type::number;
+  Node text;
+  text.type = Node::Type::string;
+  text.string = "free";
+  EXPECT_EQ(make("tensor", number)->coordinate_count(), 2);
+  EXPECT_EQ(make("paper", text)->measure(), "paper");
+  EXPECT_EQ(make("paper", text)->coordinate_count(), 3);
+  number.number = 2.0;
+  const std::vector<Vec3> X(2, Vec3::Zero());
+  const auto walls = make("tensor", number)->inequalities(X);
+  ASSERT_EQ(walls.size(), 4U);
+  EXPECT_EQ(walls[0].offset, 0.4);  // 2 in file units over L = 5
+}
+
+}  // namespace
+}  // namespace hauberk

@@ -62,33 +62,39 @@ std::string text(const std::vector<char>& table, std::uint64_t offset)
   return {begin, strnlen(begin, table.size() - offset)};
 }
 
-bool read_tables(Reader& reader, const Header& header, ElfSummary& summary)
+/// Fills the lists of `summary` from one section; false if the file ends before it does.
+bool read_section(Reader& reader, const Section& s, const Section& strings_section, ElfSummary& summary)
 {
+  const auto strings = reader.section<char>(strings_section);
+  if (!strings) return false;
+  if (s.sh_type == SHT_DYNSYM) {
+    const auto symbols = reader.section<Symbol>(s);
+    if (!symbols) return false;
+    for (const Symbol& symbol : *symbols) {
+      if (symbol.st_shndx != SHN_UNDEF) summary.exported.push_back(text(*strings, symbol.st_name));
+    }
+    summary.tables = true;
+    return true;
+  }
+  const auto entries = reader.section<Dynamic>(s);
+  if (!entries) return false;
+  for (const Dynamic& entry : *entries) {
+    if (entry.d_tag == DT_NEEDED) summary.needed.push_back(text(*strings, entry.d_un.d_val));
+  }
+  return true;
+}
+
+/// False if the file is damaged. A file without sections is not: they are not needed to load it.
+bool read_sections(Reader& reader, const Header& header, ElfSummary& summary)
+{
+  if (header.e_shnum == 0) return true;
   if (header.e_shentsize != sizeof(Section)) return false;
   const auto sections = reader.array<Section>(header.e_shoff, header.e_shnum);
   if (!sections) return false;
-  bool symbols_found = false;
-  for (const Section& s : *sections) {
-    if (s.sh_type != SHT_DYNSYM && s.sh_type != SHT_DYNAMIC) continue;
-    if (s.sh_link >= sections->size()) return false;
-    const auto strings = reader.section<char>((*sections)[s.sh_link]);
-    if (!strings) return false;
-    if (s.sh_type == SHT_DYNSYM) {
-      const auto symbols = reader.section<Symbol>(s);
-      if (!symbols) return false;
-      for (const Symbol& symbol : *symbols) {
-        if (symbol.st_shndx != SHN_UNDEF) summary.exported.push_back(text(*strings, symbol.st_name));
-      }
-      symbols_found = true;
-    } else {
-      const auto entries = reader.section<Dynamic>(s);
-      if (!entries) return false;
-      for (const Dynamic& entry : *entries) {
-        if (entry.d_tag == DT_NEEDED) summary.needed.push_back(text(*strings, entry.d_un.d_val));
-      }
-    }
-  }
-  return symbols_found;
+  return std::all_of(sections->begin(), sections->end(), [&](const Section& s) {
+    if (s.sh_type != SHT_DYNSYM && s.sh_type != SHT_DYNAMIC) return true;
+    return s.sh_link < sections->size() && read_section(reader, s, (*sections)[s.sh_link], summary);
+  });
 }
 
 }  // namespace
@@ -105,9 +111,10 @@ ElfSummary read_elf(const std::filesystem::path& file)
   constexpr unsigned char order = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
   if ((*ident)[EI_CLASS] != word || (*ident)[EI_DATA] != order) return summary;
   const auto header = reader.array<Header>(0, 1);
-  if (!header) return summary;
+  summary.damaged = !header;
+  if (summary.damaged) return summary;
   summary.this_machine = machine == EM_NONE || header->front().e_machine == machine;
-  if (summary.this_machine) summary.tables = read_tables(reader, header->front(), summary);
+  if (summary.this_machine) summary.damaged = !read_sections(reader, header->front(), summary);
   return summary;
 }
 

@@ -5,14 +5,15 @@ namespace {
 
 class GuardedShape final : public Shape {
  public:
-  GuardedShape(std::unique_ptr<Shape> inner, const Guard& guard) : inner_(std::move(inner)), guard_(guard) {}
+  GuardedShape(std::unique_ptr<Shape> inner, const Guard& guard)
+      : inner_(std::move(inner)),
+        guard_(guard),
+        parameters_(guard_("parameters", [&] { return inner_->parameters(); }))
+  {
+  }
 
  protected:
-  const std::vector<ParameterInfo>& do_parameters() const override
-  {
-    return guard_(
-        "parameters", [&]() -> const auto& { return inner_->parameters(); });
-  }
+  const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
   void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
   {
     guard_("primitives", [&] { out = inner_->primitives(p); });
@@ -25,6 +26,7 @@ class GuardedShape final : public Shape {
  private:
   std::unique_ptr<Shape> inner_;
   Guard guard_;
+  std::vector<ParameterInfo> parameters_;
 };
 
 }  // namespace

@@ -44,6 +44,8 @@ void check_contents(const fs::path& file)
 {
   const ElfSummary elf = read_elf(file);
   if (!elf.elf) fail("plugin '{}' is not a shared library; build it with hauberk_add_plugin", file.native());
+  // The loader would map what is not there, and the program would end at the first touch.
+  if (elf.damaged) fail("plugin '{}' is incomplete; build or copy it again", file.native());
   if (!elf.this_machine) {
     fail("plugin '{}' was built for another kind of processor than this program; rebuild it here",
          file.native());

@@ -1,0 +1,211 @@
+#include "support.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/host/floating_point.hpp>
+#include <hauberk/host/handshake.hpp>
+#include <hauberk/host/plugin_library.hpp>
+
+#include <cstring>
+
+namespace hauberk::test {
+namespace {
+
+std::string error_of(const fs::path& file)
+{
+  return message_of<PluginError>([&] { PluginLibrary::load(file); });
+}
+
+std::string quote(const fs::path& file) { return "plugin '" + file.native() + "'"; }
+
+const std::string rebuild = "; rebuild the plugin with this program's headers and compiler settings";
+
+/// What the error about a handshake field of bad plugin `id` must be.
+std::string differs(const std::string& id, const std::string& what, const std::string& plugin,
+                    const std::string& program)
+{
+  return quote(bad(id)) + " was built with " + what + " " + plugin + ", this program with " + program +
+         rebuild;
+}
+
+TEST(PluginLibrary, LoadsAGoodPlugin)
+{
+  const PluginLibrary library = PluginLibrary::load(bad("good_shape"));
+  EXPECT_STREQ(library.table().id, "good_shape");
+  EXPECT_EQ(library.table().kind, PluginKind::shape);
+  EXPECT_EQ(library.file(), bad("good_shape"));
+  // Loading again gives the same table: the library is in memory once.
+  EXPECT_EQ(&PluginLibrary::load(bad("good_shape")).table(), &library.table());
+}
+
+TEST(PluginLibrary, TableOutlivesTheLibraryObject)
+{
+  const PluginTable* table = nullptr;
+  {
+    table = &PluginLibrary::load(bad("good_shape")).table();
+  }
+  EXPECT_STREQ(table->summary, "A ring for tests.");
+}
+
+TEST(PluginLibrary, Magic)
+{
+  EXPECT_EQ(error_of(bad("bad_magic")),
+            quote(bad("bad_magic")) +
+                ": its 'hauberk_plugin' begins with \"hAUBERK\", expected \"HAUBERK\"; it must be a constant "
+                "hauberk::PluginTable");
+}
+
+TEST(PluginLibrary, EachHandshakeFieldNamesBothSides)
+{
+  const auto number = [](std::size_t n) { return std::to_string(n); };
+  const auto text = [](const char* t) { return "\"" + std::string(t) + "\""; };
+  EXPECT_EQ(error_of(bad("bad_size")), differs("bad_size", "a plugin table of size",
+                                               number(sizeof(PluginTable) + 8), number(sizeof(PluginTable))));
+  EXPECT_EQ(error_of(bad("bad_revision")),
+            differs("bad_revision", "interface revision", "999", number(interface_revision)));
+  EXPECT_EQ(error_of(bad("bad_compiler")),
+            differs("bad_compiler", "compiler", "\"gcc 99\"", text(HAUBERK_COMPILER)));
+  EXPECT_EQ(error_of(bad("null_compiler")),
+            differs("null_compiler", "compiler", "nothing", text(HAUBERK_COMPILER)));
+  EXPECT_EQ(
+      error_of(bad("bad_standard_library")),
+      differs("bad_standard_library", "standard library", "\"libstdc++ cxx11-abi=0\"", text(HAUBERK_STDLIB)));
+  EXPECT_EQ(error_of(bad("bad_eigen")),
+            differs("bad_eigen", "Eigen", "\"3.3.9\"", text(program_handshake().eigen)));
+  EXPECT_EQ(error_of(bad("bad_alignment")),
+            differs("bad_alignment", "Eigen alignment", number(2 * EIGEN_MAX_ALIGN_BYTES),
+                    number(EIGEN_MAX_ALIGN_BYTES)));
+  EXPECT_EQ(error_of(bad("bad_sanitizers")),
+            differs("bad_sanitizers", "sanitizers", "\"memory\"", text(HAUBERK_SANITIZERS)));
+}
+
+TEST(PluginLibrary, NothingBehindTheFirstDifferenceIsRead)
+{
+  EXPECT_EQ(error_of(bad("bad_all")),
+            differs("bad_all", "interface revision", "7", std::to_string(interface_revision)));
+}
+
+TEST(PluginLibrary, HandshakeIsCheckedInTheOrderOfItsFields)
+{
+  // Start with every field wrong, mend one after the other: the next one is reported each time.
+  const Handshake good = program_handshake();
+  Handshake h{{'x'}, 1, 2, "a", "b", "c", 3, "d"};
+  const auto what = [&] { return message_of<PluginError>([&] { check_handshake(h, "/p.so"); }); };
+  EXPECT_NE(what().find("begins with \"x\""), std::string::npos);
+  std::memcpy(h.magic, good.magic, sizeof h.magic);
+  EXPECT_NE(what().find("table of size 1,"), std::string::npos);
+  h.table_size = good.table_size;
+  EXPECT_NE(what().find("interface revision 2,"), std::string::npos);
+  h.revision = good.revision;
+  EXPECT_NE(what().find("compiler \"a\","), std::string::npos);
+  h.compiler = good.compiler;
+  EXPECT_NE(what().find("standard library \"b\","), std::string::npos);
+  h.standard_library = good.standard_library;
+  EXPECT_NE(what().find("Eigen \"c\","), std::string::npos);
+  h.eigen = good.eigen;
+  EXPECT_NE(what().find("Eigen alignment 3,"), std::string::npos);
+  h.eigen_alignment = good.eigen_alignment;
+  EXPECT_NE(what().find("sanitizers \"d\","), std::string::npos);
+  h.sanitizers = good.sanitizers;
+  EXPECT_NO_THROW(check_handshake(h, "/p.so"));
+}
+
+TEST(PluginLibrary, Table)
+{
+  EXPECT_EQ(error_of(bad("bad_kind")),
+            quote(bad("bad_kind")) + " is of kind 7; expected 1 (shape), 2 (load case) or 3 (optimizer)");
+  EXPECT_EQ(error_of(bad("bad_id")),
+            quote(bad("bad_id")) +
+                " calls itself 'something_else'; rename the file to 'something_else.so' "
+                "or change the id");
+  EXPECT_EQ(error_of(bad("null_summary")),
+            quote(bad("null_summary")) +
+                ": 'summary' is null; id, version, summary, citation and fields must all be set");
+  EXPECT_EQ(error_of(bad("null_fields")),
+            quote(bad("null_fields")) +
+                ": 'fields' is null; id, version, summary, citation and fields must all be set");
+  EXPECT_EQ(error_of(bad("no_factory")),
+            quote(bad("no_factory")) +
+                " is a shape but does not set 'make_shape'; set exactly the factory "
+                "of its kind");
+  EXPECT_EQ(error_of(bad("two_factories")), quote(bad("two_factories")) +
+                                                " is a shape but also sets 'make_optimizer'; set exactly the "
+                                                "factory of its kind");
+}
+
+TEST(PluginLibrary, MissingEntryIsFoundWithoutRunningTheLibrary)
+{
+  // Its constructor would end this test.
+  EXPECT_EQ(error_of(bad("no_entry")), quote(bad("no_entry")) +
+                                           " does not export 'hauberk_plugin'; expected one constant "
+                                           "hauberk::PluginTable of that name, marked HAUBERK_EXPORT");
+}
+
+TEST(PluginLibrary, UndefinedSymbolIsFoundAtOnce)
+{
+  const fs::path file = bad("missing_symbol");
+  EXPECT_EQ(error_of(file), quote(file) + " cannot be loaded: " + file.native() +
+                                ": undefined symbol: hauberk_test_undefined_function");
+}
+
+TEST(PluginLibrary, FastMathIsNoticedAndUndone)
+{
+#if defined(__x86_64__)
+  const FloatingPointMode before = floating_point_mode();
+  EXPECT_EQ(error_of(bad("fast_math")), quote(bad("fast_math")) +
+                                            " changed the floating-point mode (flush-to-zero) when it was "
+                                            "loaded; build it without -ffast-math");
+  EXPECT_EQ(floating_point_mode(), before);
+#endif
+}
+
+TEST(PluginLibrary, SanitizerIsFoundWithoutRunningTheLibrary)
+{
+  if (std::string(HAUBERK_SANITIZERS) != "none") GTEST_SKIP() << "this program is instrumented itself";
+  if (!fs::exists(bad("instrumented"))) GTEST_SKIP() << "not built under a sanitizer";
+  EXPECT_EQ(error_of(bad("instrumented")), differs("instrumented", "sanitizers", "\"address\"", "\"none\""));
+}
+
+TEST(PluginLibrary, NotALibrary)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of(folder / "a.so"), quote(folder / "a.so") + " does not exist");
+  EXPECT_EQ(error_of(folder.folder("b.so")),
+            quote(folder / "b.so") + " is a folder; expected a shared library");
+  fs::create_symlink("nowhere.so", folder / "c.so");
+  EXPECT_EQ(error_of(folder / "c.so"),
+            quote(folder / "c.so") + " is a link to 'nowhere.so', which does not exist; remove or mend it");
+  for (const std::string content : {"",
+                                    "\x7f"
+                                    "EL",
+                                    "#!/bin/sh\nexit 0\n"}) {
+    EXPECT_EQ(error_of(folder.file("d.so", content)),
+              quote(folder / "d.so") + " is not a shared library; build it with hauberk_add_plugin");
+  }
+}
+
+TEST(PluginLibrary, OtherProcessor)
+{
+  const TemporaryFolder folder;
+  std::string header(
+      "\x7f"
+      "ELF\x01\x02\x01",
+      7);  // 32 bits, most significant byte first
+  header.resize(128, '\0');
+  EXPECT_EQ(
+      error_of(folder.file("a.so", header)),
+      quote(folder / "a.so") + " was built for another kind of processor than this program; rebuild it here");
+}
+
+TEST(PluginLibrary, TruncatedFileIsAnError)
+{
+  std::ifstream in(bad("good_shape"), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const TemporaryFolder folder;
+  for (const std::size_t size : {whole.size() / 2, whole.size() / 8, std::size_t{64}, std::size_t{20}}) {
+    const fs::path file = folder.file("good_shape.so", whole.substr(0, size));
+    EXPECT_EQ(error_of(file), quote(file) + " is incomplete; build or copy it again") << size;
+  }
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -1,0 +1,133 @@
+#include "support.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/host/registry.hpp>
+
+#include <thread>
+#include <vector>
+
+namespace hauberk::test {
+namespace {
+
+/// Two folders: `one` with a good shape, an optimizer and a broken plugin, `two` with another copy of the
+/// shape.
+class RegistryTest : public testing::Test {
+ protected:
+  RegistryTest()
+  {
+    for (const char* id : {"good_shape", "hasty_optimizer", "bad_revision"}) {
+      fs::copy_file(bad(id), one_ / (std::string(id) + ".so"));
+    }
+    fs::copy_file(bad("good_shape"), two_ / "good_shape.so");
+    fs::copy_file(bad("bad_revision"), two_ / "later.so");
+    folder_.file("one/README.md", "not a plugin");
+  }
+
+  std::string find_error(PluginKind kind, const std::string& id) const
+  {
+    return message_of<InputError>([&] { registry_.find(kind, id); });
+  }
+
+  TemporaryFolder folder_;
+  fs::path one_ = folder_.folder("one"), two_ = folder_.folder("two");
+  Registry registry_{{folder_ / "absent", one_, two_}};
+  std::string searched_ =
+      " (searched: " + (folder_ / "absent").native() + ", " + one_.native() + ", " + two_.native() + ")";
+};
+
+TEST_F(RegistryTest, FindsById)
+{
+  const PluginTable& table = registry_.find(PluginKind::shape, "good_shape");
+  EXPECT_STREQ(table.id, "good_shape");
+  EXPECT_EQ(&registry_.find(PluginKind::shape, "good_shape"), &table);
+  EXPECT_STREQ(registry_.find(PluginKind::optimizer, "hasty_optimizer").id, "hasty_optimizer");
+}
+
+TEST_F(RegistryTest, EarlierFoldersWin)
+{
+  const Registry reversed({two_, one_});
+  EXPECT_NE(&registry_.find(PluginKind::shape, "good_shape"),
+            &reversed.find(PluginKind::shape, "good_shape"));
+}
+
+TEST_F(RegistryTest, ListShowsBrokenAndShadowedOnes)
+{
+  const std::vector<PluginEntry> entries = registry_.list();
+  ASSERT_EQ(entries.size(), 5u);
+  EXPECT_EQ(entries[0].file, one_ / "bad_revision.so");
+  EXPECT_EQ(entries[0].table, nullptr);
+  EXPECT_EQ(entries[0].problem, "plugin '" + (one_ / "bad_revision.so").native() +
+                                    "' was built with interface revision 999, this program with " +
+                                    std::to_string(interface_revision) +
+                                    "; rebuild the plugin with this program's headers and compiler settings");
+  EXPECT_EQ(entries[1].id, "good_shape");
+  EXPECT_EQ(entries[1].table, &registry_.find(PluginKind::shape, "good_shape"));
+  EXPECT_EQ(entries[1].problem, "");
+  EXPECT_FALSE(entries[1].shadowed_by);
+  EXPECT_EQ(entries[2].id, "hasty_optimizer");
+  EXPECT_EQ(entries[3].file, two_ / "good_shape.so");
+  EXPECT_EQ(entries[3].table, nullptr);
+  EXPECT_EQ(entries[3].problem, "");
+  EXPECT_EQ(entries[3].shadowed_by, one_ / "good_shape.so");
+  EXPECT_EQ(entries[4].id, "later");
+  EXPECT_FALSE(entries[4].problem.empty());
+}
+
+TEST_F(RegistryTest, Missing)
+{
+  EXPECT_EQ(find_error(PluginKind::shape, "god_shape"),
+            "no shape 'god_shape' found; did you mean 'good_shape'?" + searched_);
+  EXPECT_EQ(find_error(PluginKind::optimizer, "sqp"),
+            "no optimizer 'sqp' found; known: hasty_optimizer" + searched_);
+  EXPECT_EQ(find_error(PluginKind::load_case, "in_plane"), "no load case 'in_plane' found" + searched_);
+}
+
+TEST_F(RegistryTest, WrongKind)
+{
+  EXPECT_EQ(find_error(PluginKind::optimizer, "good_shape"), "'good_shape' is a shape, not an optimizer");
+  EXPECT_EQ(find_error(PluginKind::load_case, "hasty_optimizer"),
+            "'hasty_optimizer' is an optimizer, not a load case");
+}
+
+TEST_F(RegistryTest, BrokenPluginIsReportedNotPassedOver)
+{
+  EXPECT_EQ(find_error(PluginKind::shape, "bad_revision"), registry_.list()[0].problem);
+  fs::create_symlink("gone.so", one_ / "link.so");
+  EXPECT_EQ(find_error(PluginKind::shape, "link"),
+            "plugin '" + (one_ / "link.so").native() +
+                "' is a link to 'gone.so', which does not exist; remove "
+                "or mend it");
+}
+
+TEST_F(RegistryTest, IdsCannotLeaveTheFolders)
+{
+  for (const std::string id : {"../two/good_shape", "", "a.b", "a b", "/etc/passwd"}) {
+    EXPECT_EQ(find_error(PluginKind::shape, id),
+              "'" + id + "' is not a plugin id; expected letters, digits, '_' and '-'");
+  }
+}
+
+TEST_F(RegistryTest, CurrentDirectoryIsNotSearched)
+{
+  const fs::path before = fs::current_path();
+  fs::current_path(one_);
+  const std::string message =
+      message_of<InputError>([] { Registry({"/absent"}).find(PluginKind::shape, "good_shape"); });
+  fs::current_path(before);
+  EXPECT_EQ(message, "no shape 'good_shape' found (searched: /absent)");
+}
+
+TEST_F(RegistryTest, ThreadsGetTheSameTable)
+{
+  std::vector<const PluginTable*> found(8);
+  {
+    std::vector<std::jthread> threads;
+    for (auto& slot : found) {
+      threads.emplace_back([&] { slot = &registry_.find(PluginKind::shape, "good_shape"); });
+    }
+  }
+  for (const PluginTable* table : found) EXPECT_EQ(table, found[0]);
+}
+
+}  // namespace
+}  // namespace hauberk::test

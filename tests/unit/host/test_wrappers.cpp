@@ -1,0 +1,190 @@
+#include "support.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/host/factories.hpp>
+#include <hauberk/host/floating_point.hpp>
+#include <hauberk/host/plugin_library.hpp>
+
+#include <stdexcept>
+
+namespace hauberk::test {
+namespace {
+
+Node text(const std::string& value)
+{
+  Node node;
+  node.type = Node::Type::string;
+  node.string = value;
+  return node;
+}
+
+Node flag(bool value)
+{
+  Node node;
+  node.type = Node::Type::boolean;
+  node.boolean = value;
+  return node;
+}
+
+Node object(std::vector<std::pair<std::string, Node>> members)
+{
+  Node node;
+  node.type = Node::Type::object;
+  node.pointer = "/section";
+  node.line = 3;
+  node.members = std::move(members);
+  return node;
+}
+
+const PluginTable& throwing() { return PluginLibrary::load(bad("throwing")).table(); }
+
+std::unique_ptr<Shape> make_throwing(const std::string& where, const std::string& how)
+{
+  Problems problems;
+  return make_shape(throwing(), object({{"where", text(where)}, {"how", text(how)}}), problems);
+}
+
+TEST(Factories, ExceptionsNameThePluginAndTheCall)
+{
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("make", "std"); }),
+            "plugin 'throwing': make_shape failed: the dog ate it");
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("make", "int"); }),
+            "plugin 'throwing': make_shape failed: it threw something that is no std::exception");
+  EXPECT_EQ(message_of<InputError>([] { make_throwing("make", "input"); }), "ring.R: 3 is too small");
+  EXPECT_EQ(message_of<PluginError>([] { plugin_fields(throwing()); }),
+            "plugin 'throwing': fields failed: no fields today");
+}
+
+TEST(Factories, NullNeedsAProblem)
+{
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("", "null"); }),
+            "plugin 'throwing': make_shape returned nothing and reported no problem");
+}
+
+TEST(Factories, AProblemMeansNoObject)
+{
+  Problems problems;
+  const Node section = object({{"where", text("")}, {"how", text("problem")}});
+  EXPECT_EQ(make_shape(throwing(), section, problems), nullptr);
+  ASSERT_EQ(problems.list().size(), 1u);
+  EXPECT_EQ(problems.list()[0].pointer, "/section");
+  EXPECT_EQ(problems.list()[0].line, 3);
+  EXPECT_EQ(problems.list()[0].message, "expected something else");
+}
+
+TEST(Factories, EarlierProblemsDoNotCount)
+{
+  Problems problems;
+  problems.add({"/other", 1, "elsewhere"});
+  const Node section = object({{"where", text("")}, {"how", text("")}});
+  EXPECT_NE(make_shape(throwing(), section, problems), nullptr);
+}
+
+TEST(Factories, GoodPluginWorks)
+{
+  Problems problems;
+  const PluginLibrary library = PluginLibrary::load(bad("good_shape"));
+  EXPECT_TRUE(plugin_fields(library.table()).empty());
+  const auto shape = make_shape(library.table(), object({}), problems);
+  ASSERT_NE(shape, nullptr);
+  EXPECT_TRUE(shape->parameters().empty());
+  const std::vector<Primitive> primitives = shape->primitives({});
+  ASSERT_EQ(primitives.size(), 1u);
+  EXPECT_EQ(primitives[0].R(), 5.0);
+  EXPECT_EQ(shape->jacobians({}).size(), 1u);
+}
+
+TEST(GuardedShape, EveryCallIsGuarded)
+{
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("parameters", "std"); }),
+            "plugin 'throwing': parameters failed: the dog ate it");
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("primitives", "std")->primitives({}); }),
+            "plugin 'throwing': primitives failed: the dog ate it");
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("jacobians", "plugin")->jacobians({}); }),
+            "plugin 'throwing': jacobians failed: shape: 2 sizes expected");
+  EXPECT_EQ(message_of<ComputationError>([] { make_throwing("primitives", "computation")->primitives({}); }),
+            "no convergence");
+}
+
+TEST(GuardedShape, FloatingPointModeIsKept)
+{
+  const FloatingPointMode before = floating_point_mode();
+  const std::string rest = "; it was restored, but what the call computed cannot be used";
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("primitives", "rounding")->primitives({}); }),
+            "plugin 'throwing': primitives changed the floating-point mode (rounding)" + rest);
+  EXPECT_EQ(floating_point_mode(), before);
+#if defined(__x86_64__)
+  EXPECT_EQ(message_of<PluginError>([] { make_throwing("primitives", "flush_to_zero")->primitives({}); }),
+            "plugin 'throwing': primitives changed the floating-point mode (flush-to-zero)" + rest);
+  EXPECT_EQ(floating_point_mode(), before);
+#endif
+  EXPECT_EQ(
+      message_of<PluginError>([] { make_throwing("primitives", "rounding_and_throw")->primitives({}); }),
+      "plugin 'throwing': primitives failed: the dog ate it");
+  EXPECT_EQ(floating_point_mode(), before);
+}
+
+/// f(x) = x^2 on [0, 2]; evaluation throws when asked to.
+class Parabola final : public OptimizationProblem {
+ public:
+  explicit Parabola(bool fail) : fail_(fail) {}
+  std::span<const double> lower() const override { return lower_; }
+  std::span<const double> upper() const override { return upper_; }
+  int constraint_count() const override { return 0; }
+  Evaluation evaluate(std::span<const double> x, bool) override
+  {
+    if (fail_) throw std::out_of_range("a defect of the program");
+    Evaluation evaluation;
+    evaluation.ok = true;
+    evaluation.value = x[0] * x[0];
+    return evaluation;
+  }
+  void constraints(std::span<const double>, std::span<double>, std::span<double>) override {}
+  double largest_safe_step(std::span<const double>, std::span<const double>) override { return 1.0; }
+  void accept(std::span<const double>) override {}
+
+ private:
+  bool fail_;
+  std::array<double, 1> lower_{0.0}, upper_{2.0};
+};
+
+class Silent final : public OptimizerObserver {
+ public:
+  bool on_iterate(const OptimizerIterate&) override { return true; }
+};
+
+OptimizerResult run_hasty(bool problem_fails, bool swallow, bool plugin_fails)
+{
+  Problems problems;
+  const auto optimizer =
+      make_optimizer(PluginLibrary::load(bad("hasty_optimizer")).table(),
+                     object({{"swallow", flag(swallow)}, {"throw", flag(plugin_fails)}}), problems);
+  Parabola problem(problem_fails);
+  Silent observer;
+  const std::array<double, 1> start{1.5};
+  return optimizer->minimize(problem, start, observer);
+}
+
+TEST(GuardedOptimizer, ResultComesThrough)
+{
+  const OptimizerResult result = run_hasty(false, false, false);
+  EXPECT_EQ(result.value, 2.25);
+  EXPECT_EQ(result.x, std::vector<double>{1.5});
+}
+
+TEST(GuardedOptimizer, ItsOwnFailureIsThePlugins)
+{
+  EXPECT_EQ(message_of<PluginError>([] { run_hasty(false, false, true); }),
+            "plugin 'hasty_optimizer': minimize failed: out of patience");
+}
+
+TEST(GuardedOptimizer, WhatTheProblemThrowsIsNotBlamedOnThePlugin)
+{
+  EXPECT_EQ(message_of<std::out_of_range>([] { run_hasty(true, false, false); }), "a defect of the program");
+  // Neither is it lost when the plugin swallows it, or throws something else afterwards.
+  EXPECT_EQ(message_of<std::out_of_range>([] { run_hasty(true, true, false); }), "a defect of the program");
+  EXPECT_EQ(message_of<std::out_of_range>([] { run_hasty(true, true, true); }), "a defect of the program");
+}
+
+}  // namespace
+}  // namespace hauberk::test

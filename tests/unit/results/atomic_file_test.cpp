@@ -1,0 +1,116 @@
+#include <hauberk/error.hpp>
+#include <hauberk/results/atomic_file.hpp>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+namespace hauberk {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class AtomicFile : public ::testing::Test {
+ protected:
+  void SetUp() override
+  {
+    char name[] = "/tmp/hauberk-test-XXXXXX";
+    ASSERT_NE(::mkdtemp(name), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::size_t entries() const
+  {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  fs::path folder_;
+};
+
+/// Lets files grow to `bytes` only: beyond, writing fails as on a full disk.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes)
+  {
+    ::getrlimit(RLIMIT_FSIZE, &former_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, former_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk()
+  {
+    ::setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit former_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST_F(AtomicFile, ReplacesAndLeavesNothingElse)
+{
+  write_file_atomically(folder_ / "results.json", "first");
+  write_file_atomically(folder_ / "results.json", std::string(100000, 'x'));
+  EXPECT_EQ(content(folder_ / "results.json"), std::string(100000, 'x'));
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(AtomicFile, FullDiskKeepsTheFormerFileAndNamesIt)
+{
+  const fs::path path = folder_ / "results.json";
+  write_file_atomically(path, "former");
+  std::string message;
+  {
+    const SmallDisk disk(4096);
+    try {
+      write_file_atomically(path, std::string(100000, 'x'));
+    } catch (const ComputationError& error) {
+      message = error.what();
+    }
+  }
+  EXPECT_EQ(message, path.string() + ": cannot be written: File too large");
+  EXPECT_EQ(content(path), "former");
+  EXPECT_EQ(entries(), 1u) << "the temporary file must be gone";
+}
+
+TEST_F(AtomicFile, MissingFolderAndFolderInTheWay)
+{
+  EXPECT_THROW(write_file_atomically(folder_ / "none" / "a.json", "x"), ComputationError);
+  fs::create_directory(folder_ / "a.json");
+  EXPECT_THROW(write_file_atomically(folder_ / "a.json", "x"), ComputationError);
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(AtomicFile, OutputFolderIsPreparedOrRefused)
+{
+  const fs::path out = folder_ / "deep" / "out";
+  prepare_output_directory(out, false);
+  EXPECT_TRUE(fs::is_directory(out));
+  EXPECT_TRUE(fs::is_empty(out));
+  write_file_atomically(out / "results.json", "{}");
+  try {
+    prepare_output_directory(out, false);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), out.string() + ": holds results already; give another folder with -o, or --force");
+  }
+  EXPECT_NO_THROW(prepare_output_directory(out, true));
+  EXPECT_EQ(content(out / "results.json"), "{}");
+  write_file_atomically(folder_ / "file", "");
+  EXPECT_THROW(prepare_output_directory(folder_ / "file", false), InputError);
+  EXPECT_THROW(prepare_output_directory(folder_ / "file" / "out", false), InputError);
+}
+
+}  // namespace
+}  // namespace hauberk

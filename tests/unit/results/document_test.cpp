@@ -1,0 +1,148 @@
+#include <hauberk/error.hpp>
+#include <hauberk/results/csv.hpp>
+#include <hauberk/results/designed_experiment.hpp>
+#include <hauberk/results/document.hpp>
+#include <hauberk/results/json_text.hpp>
+
+#include <boost/json/value.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sample_run.hpp"
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+
+json::value sample_document(const RunResult& run)
+{
+  return results_document(run, test::sample_experiment(), test::sample_provenance(), {});
+}
+
+TEST(Document, HasTheKeysOfTheContractInOrder)
+{
+  const json::value document = sample_document(test::sample_run());
+  std::string keys;
+  for (const auto& [key, value] : document.as_object()) keys += std::string(key) + ' ';
+  EXPECT_EQ(keys, "format experiment provenance plan scene limits profiles design files ");
+  EXPECT_EQ(document.at("format").as_string(), "hauberk-results/1");
+  keys.clear();
+  for (const auto& [key, value] : document.at_pointer("/limits/0").as_object()) keys += std::string(key) + ' ';
+  EXPECT_EQ(keys,
+            "load_case direction_deg sense measure value line_stretch macro status message infimum iterations "
+            "evaluations seconds min_gap error_estimate links_kept z_range contact certificate starts better_state "
+            "sensitivity poses contacts force_balance ");
+}
+
+TEST(Document, SceneHasPrimitivesAndUnitQuaternions)
+{
+  const json::value document = sample_document(test::sample_run());
+  EXPECT_EQ(document.at_pointer("/scene/cell_vectors"), json::value({{12.0, 0.0}, {0.0, 100.0}}));
+  EXPECT_EQ(document.at_pointer("/scene/length").as_double(), 4.5);
+  const json::value& second = document.at_pointer("/scene/elements/1");
+  EXPECT_EQ(second.at_pointer("/primitives/0/kind").as_string(), "circle_tube");
+  EXPECT_EQ(second.at_pointer("/primitives/0/parameters/r0").as_double(), 0.6);
+  EXPECT_EQ(second.at_pointer("/parameters/ring.R").as_double(), 4.0);
+  const json::array& q = second.at_pointer("/rest/quaternion").as_array();
+  EXPECT_NEAR(q[0].as_double(), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(q[1].as_double(), std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(q[2].as_double(), 0.0);
+}
+
+TEST(Document, QuaternionsHaveNonNegativeW)
+{
+  RunResult run = test::sample_run();
+  for (const double degrees : {190.0, 350.0, 180.0, -180.0, 0.0}) {
+    run.limits[0].poses[0].rotation = rotation_exp({0.0, 0.0, degrees * degree});
+    const json::value document = sample_document(run);
+    const json::array& q = document.at_pointer("/limits/0/poses/0/quaternion").as_array();
+    double norm = 0.0;
+    for (const json::value& c : q) norm += c.as_double() * c.as_double();
+    EXPECT_GE(q[0].as_double(), 0.0);
+    EXPECT_NEAR(norm, 1.0, 1e-15);
+    EXPECT_NEAR(2.0 * std::atan2(std::abs(q[3].as_double()), q[0].as_double()),
+                std::abs(std::remainder(degrees * degree, 2.0 * std::numbers::pi)), 1e-12);
+  }
+}
+
+TEST(Document, AbsentAndNotFiniteAreNull)
+{
+  RunResult run = test::sample_run();
+  run.limits[0].value.reset();
+  run.limits[0].min_gap = std::nan("");
+  run.limits[0].macro.clear();
+  run.plan_json.clear();
+  const json::value document = sample_document(run);
+  EXPECT_TRUE(document.at_pointer("/limits/0/value").is_null());
+  EXPECT_TRUE(document.at_pointer("/limits/0/min_gap").is_null());
+  EXPECT_TRUE(document.at_pointer("/limits/0/macro").is_null());
+  EXPECT_TRUE(document.at_pointer("/limits/0/error_estimate").is_null());
+  EXPECT_TRUE(document.at("plan").is_null());
+  EXPECT_TRUE(document.at("design").is_null());
+  EXPECT_EQ(document.at_pointer("/limits/0/starts/0/macro/eyy").as_double(), 0.1);
+}
+
+TEST(Document, ExperimentNumbersAreNotTouched)
+{
+  const json::value document = sample_document(test::sample_run());
+  EXPECT_EQ(document.at_pointer("/experiment/load_case/step").as_double(), 12.323883579598581);
+  EXPECT_NE(write_json(document).find("12.323883579598581"), std::string::npos);
+  EXPECT_NE(write_json(document).find("12345678901234567890"), std::string::npos);
+}
+
+TEST(Document, DesignCarriesItsStart)
+{
+  const json::value document = sample_document(test::sample_design());
+  EXPECT_EQ(document.at_pointer("/design/variables/0/final").as_double(), 5.25);
+  EXPECT_EQ(document.at_pointer("/design/targets").as_array().size(), 6u);
+  EXPECT_TRUE(document.at_pointer("/design/targets/0/recomputed").is_null());
+  EXPECT_EQ(document.at_pointer("/design/initial/limits").as_array().size(), 24u);
+  EXPECT_EQ(document.at_pointer("/design/initial/scene/elements").as_array().size(), 2u);
+}
+
+TEST(Csv, OneRowPerLimitWithExactNumbers)
+{
+  RunResult run = test::sample_run();
+  run.limits.resize(2);
+  run.limits[1].value.reset();
+  run.limits[1].companions.clear();
+  run.limits[1].macro[0].second = 1.0 / 3.0;
+  run.limits[1].load_case = "a,\"b\"";
+  EXPECT_EQ(limits_csv(run.limits),
+            "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
+            "seconds,min_gap,error_estimate,links_kept,z_range,better_state,force_balance,starts,contacts\n"
+            "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n"
+            "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n");
+}
+
+TEST(DesignedExperiment, DescribesTheFinalSceneAlone)
+{
+  const RunResult run = test::sample_design();
+  const json::value out = designed_experiment(test::sample_experiment(), run.scene);
+  EXPECT_EQ(out.at("name").as_string(), "chain_designed");
+  EXPECT_EQ(out.at("task").as_string(), "limits");
+  EXPECT_EQ(out.as_object().count("design") + out.as_object().count("expect"), 0u);
+  EXPECT_EQ(out.at_pointer("/cell/vectors"), json::value({{12.0, 0.0}, {0.0, 100.0}}));
+  EXPECT_EQ(out.at_pointer("/cell/repeat"), json::value({1, 1}));
+  EXPECT_EQ(out.at("elements").as_object().size(), 2u);
+  EXPECT_EQ(out.at_pointer("/elements/link_1/parameters/ring.R").as_double(), 4.0);
+  EXPECT_EQ(out.at_pointer("/elements/link_0/parameters/ring.r").as_double(), 0.7);
+  EXPECT_EQ(out.at_pointer("/elements/link_1/shape").as_string(), "torus_union");
+  EXPECT_EQ(out.at_pointer("/cell/place/1/element").as_string(), "link_1");
+  EXPECT_EQ(out.at_pointer("/cell/place/1/position"), json::value({6.0, 0.0, 0.0}));
+  EXPECT_NEAR(out.at_pointer("/cell/place/1/rotation/degrees").as_double(), 90.0, 1e-12);
+  EXPECT_NEAR(out.at_pointer("/cell/place/1/rotation/axis/0").as_double(), 1.0, 1e-15);
+}
+
+TEST(DesignedExperiment, PatchesAreRefused)
+{
+  SceneSpec scene = test::sample_run().scene;
+  scene.lattice.clear();
+  EXPECT_THROW(designed_experiment(test::sample_experiment(), scene), ComputationError);
+}
+
+}  // namespace
+}  // namespace hauberk

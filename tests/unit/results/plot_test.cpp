@@ -1,0 +1,74 @@
+#include <hauberk/results/json_text.hpp>
+#include <hauberk/results/polar_svg.hpp>
+#include <hauberk/results/write_results.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "sample_run.hpp"
+
+namespace hauberk {
+namespace {
+
+std::size_t count(const std::string& text, const std::string& what)
+{
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
+  return n;
+}
+
+TEST(PolarPlot, DesignShowsBeforeAfterAndTargets)
+{
+  const std::string svg = polar_svg(test::sample_design(), {"chain <1>", "tensor & clearance 0"});
+  EXPECT_EQ(count(svg, "<path "), 6u) << "eta, stretch, compression; before and after";
+  EXPECT_EQ(count(svg, R"(r="5.00" fill="#c00000")"), 13u) << "six targets twice, and the legend";
+  EXPECT_EQ(count(svg, "chain &lt;1&gt;"), 1u);
+  EXPECT_EQ(count(svg, "tensor &amp; clearance 0"), 1u);
+  EXPECT_EQ(count(svg, "<svg "), 1u);
+  EXPECT_EQ(count(svg, "</svg>"), 1u);
+}
+
+TEST(PolarPlot, ClosedCurvesOnlyWithoutHoles)
+{
+  RunResult run = test::sample_run();
+  EXPECT_EQ(count(polar_svg(run, {}), " Z\""), 3u);
+  run.profiles[4].eta.reset();
+  const std::string holed = polar_svg(run, {});
+  EXPECT_EQ(count(holed, " Z\""), 2u);
+  EXPECT_EQ(count(holed, "<path "), 4u) << "eta in two halves";
+}
+
+TEST(PolarPlot, SingleDirectionIsDotsAndEmptyResultsSaySo)
+{
+  RunResult run = test::sample_run();
+  run.profiles = {{0.0, 0.43, std::nullopt, std::nullopt}};
+  const std::string svg = polar_svg(run, {});
+  EXPECT_EQ(count(svg, "<path "), 0u);
+  EXPECT_EQ(count(svg, R"(r="2.40")"), 3u) << "0 and 180 degrees, and the legend";
+  run.profiles = {{0.0, std::nullopt, std::nullopt, std::nullopt}};
+  EXPECT_EQ(count(polar_svg(run, {}), "No direction has a limit to show."), 1u);
+}
+
+TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
+{
+  char name[] = "/tmp/hauberk-test-XXXXXX";
+  ASSERT_NE(::mkdtemp(name), nullptr);
+  const std::filesystem::path folder = name;
+  const RunResult run = test::sample_design();
+  const auto document = results_document(run, test::sample_experiment(), test::sample_provenance(),
+                                         {.files = result_files(run)});
+  write_results(folder, document, run, test::sample_experiment(), {"chain", "tensor"});
+  write_results(folder, document, run, test::sample_experiment(), {"chain", "tensor"});
+  const auto back = read_json_file((folder / "results.json").string());
+  EXPECT_EQ(write_json(back), write_json(document));
+  EXPECT_EQ(back.at("files").as_object().size(), 3u);
+  for (const auto& [what, file] : back.at("files").as_object())
+    EXPECT_GT(std::filesystem::file_size(folder / file.as_string().c_str()), 100u) << what;
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 4);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace hauberk

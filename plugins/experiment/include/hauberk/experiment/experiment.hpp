@@ -1,0 +1,109 @@
+#pragma once
+/// An experiment, read, checked and expanded: everything resolved into plain types and kernel structs.
+
+#include <hauberk/experiment/diagnostics.hpp>
+#include <hauberk/experiment/expect.hpp>
+#include <hauberk/plugin.hpp>
+#include <hauberk/scene.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk {
+
+/// Finds a plugin by kind and id; null and a sentence in `error` when there is none. The table must outlive
+/// every experiment that was read with it.
+using PluginLookup =
+    std::function<const PluginTable*(PluginKind kind, const std::string& id, std::string& error)>;
+
+enum class Task { limits, design };
+
+/// The section `solver`. Absent values are decided by the preset.
+struct ExperimentSolver {
+  std::string preset;      ///< "fast", "accurate", "paper"
+  double clearance = 0.0;  ///< file units
+  std::string contact;     ///< "auto", "nearest", "arc"
+  int starts = 1;
+  double perturbation = 0.0;  ///< characteristic lengths and radians
+  std::uint64_t start_seed = 1;
+  std::optional<int> max_stages, max_iterations;
+  std::optional<double> tolerance;
+};
+
+/// One parameter of one placed element.
+struct ParameterRef {
+  int element = 0;
+  int parameter = 0;  ///< in the order of the element's shape
+};
+
+/// One design variable; all its parameters have the same value.
+struct ExperimentVariable {
+  std::string name;  ///< "3/ring.R" (element 3), "link/ring.R" (type), "*/ring.R" (all)
+  double initial = 0.0, lower = 0.0, upper = 0.0;
+  std::vector<ParameterRef> parameters;
+};
+
+struct ExperimentTarget {
+  double direction_deg = 0.0, value = 0.0, weight = 1.0;
+};
+
+/// The section `design`.
+struct ExperimentDesign {
+  std::string optimizer_plugin;
+  std::shared_ptr<const Optimizer> optimizer;
+  std::string quantity;  ///< "eta", "stretch", "compress", "curvature"
+  std::vector<ExperimentVariable> variables;
+  std::vector<ExperimentTarget> targets;
+  double hole_clearance = 0.0, rest_clearance = 0.0;  ///< file units
+  int starts = 1;
+  double perturbation = 0.0;  ///< fraction of upper - lower
+  std::optional<int> max_iterations;
+  std::optional<double> tolerance;  ///< relative deviation at which a target counts as reached
+};
+
+struct Experiment {
+  std::string name;
+  Task task = Task::limits;
+  std::string length_unit;  ///< "m", "mm", "um": a label
+  std::uint64_t seed = 1;
+  SceneSpec scene;     ///< with `repeat` expanded; scene.length is the characteristic length L
+  bool relax = false;  ///< cell.relax
+  std::string load_case_plugin;
+  std::shared_ptr<const LoadCase> load_case;
+  std::vector<double> directions_deg;  ///< as given; of the final profile for a design
+  std::vector<Sense> senses;           ///< as given; both when absent
+  ExperimentSolver solver;
+  std::optional<ExperimentDesign> design;  ///< set whenever the file has the section
+  std::vector<Expectation> expect;
+  Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
+};
+
+/// What to read.
+struct ExperimentSource {
+  std::string file;                    ///< named in messages
+  std::string text;                    ///< JSON with comments and trailing commas
+  std::vector<std::string> overrides;  ///< --set assignments, applied in order
+};
+
+/// Reads, checks and expands an experiment. Every problem is put into `diagnostics`; null when there is any.
+/// Thread safe as far as the lookup is.
+std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& plugins,
+                                          Diagnostics& diagnostics);
+
+/// Text of a file. Throws InputError "cannot read 'x.json': ..." when it cannot be read or is beyond 64 MB.
+std::string read_text_file(const std::string& path);
+
+/// Reads the file at `path`. Throws InputError with all problems, one per line.
+Experiment load_experiment(const std::string& path, const std::vector<std::string>& overrides,
+                           const PluginLookup& plugins);
+
+/// An experiment that computes the limits of `scene` (an expansion of `experiment`'s scene, e.g. a design's
+/// result) with the same load case and solver: every element placed by itself, without design and expect.
+/// Write it with write_json.
+Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, const std::string& name);
+
+}  // namespace hauberk

@@ -1,0 +1,108 @@
+#include "node_access.hpp"
+#include "sections.hpp"
+
+#include <hauberk/experiment/json_writer.hpp>
+
+namespace hauberk {
+
+namespace {
+
+/// Reports a quantity that the load case cannot give.
+void check_quantity(const Node& section, const LoadCase& load_case, Problems& problems)
+{
+  const Node* quantity = section.find("quantity");
+  if (quantity == nullptr) return;
+  const auto [positive, negative] = load_case.sense_names();
+  const bool strain = load_case.value_length_power() == 0;
+  const std::string& name = quantity->string;
+  const bool given = name == "curvature" ? load_case.value_length_power() == -1
+                                         : strain && positive == "stretch" && negative == "compress";
+  if (given) return;
+  problems.add(*quantity, "'" + name + "' needs a load case " +
+                              (name == "curvature" ? "that bends" : "that stretches and compresses") +
+                              "; this one reports '" + load_case.measure() + "' in the senses " + positive +
+                              " and " + negative);
+}
+
+void check_target_value(const Node& value, const std::string& quantity, Problems& problems)
+{
+  const double v = value.number;
+  if ((quantity == "eta" || quantity == "stretch") && v < 0.0) {
+    problems.add(value, "expected a number >= 0 for " + quantity + ", found " + format_number(v));
+  } else if (quantity == "compress" && !(v <= 0.0 && v > -1.0)) {
+    problems.add(value, "expected a number <= 0 and > -1 for compress, found " + format_number(v));
+  }
+}
+
+std::vector<ExperimentTarget> read_targets(const Node& section, Problems& problems)
+{
+  std::vector<ExperimentTarget> targets;
+  const Node* list = find_typed(section, "targets", Node::Type::array);
+  if (list == nullptr) return targets;
+  std::vector<std::pair<const Node*, double>> directions;
+  for (const Node& item : list->items) {
+    const Node* direction = item.find("direction_deg");
+    const Node* value = item.find("value");
+    if (direction != nullptr) directions.emplace_back(direction, direction->number);
+    if (value != nullptr) check_target_value(*value, string_or(section, "quantity", ""), problems);
+    if (direction == nullptr || value == nullptr) continue;
+    targets.push_back({direction->number, value->number, number_or(item, "weight", 1.0)});
+  }
+  check_directions(directions, problems);
+  return targets;
+}
+
+/// A clearance of the design: not below the clearance at which surfaces touch, which is also its default.
+double read_clearance(Node& section, const std::string& key, double least, Problems& problems)
+{
+  set_default(section, key, number_node(least));
+  const Node& value = section.at(key);
+  if (value.number < least) {
+    problems.add(value, "expected at least solver.clearance, which is " + format_number(least) + ", found " +
+                            format_number(value.number));
+  }
+  return value.number;
+}
+
+}  // namespace
+
+ExperimentSolver read_solver(Node& section, std::uint64_t seed)
+{
+  ExperimentSolver solver;
+  set_default(section, "start_seed", number_node(static_cast<double>(seed)));
+  solver.preset = string_or(section, "preset", "accurate");
+  solver.clearance = number_or(section, "clearance", 0.0);
+  solver.contact = string_or(section, "contact", "auto");
+  solver.starts = int_or(section, "starts", 1);
+  solver.perturbation = number_or(section, "perturbation", 0.0);
+  solver.start_seed = seed_or(section, "start_seed", seed);
+  solver.max_stages = optional_int(section, "max_stages");
+  solver.max_iterations = optional_int(section, "max_iterations");
+  solver.tolerance = optional_number(section, "tolerance");
+  return solver;
+}
+
+ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& problems,
+                             const Experiment& experiment, bool scene_complete)
+{
+  ExperimentDesign design;
+  if (const Node* optimizer = section.find("optimizer")) {
+    design.optimizer_plugin = string_or(*optimizer, "plugin", "");
+    design.optimizer = plugins.optimizer(*optimizer, problems);
+  }
+  design.quantity = string_or(section, "quantity", "");
+  if (experiment.load_case) check_quantity(section, *experiment.load_case, problems);
+  if (const Node* variables = find_typed(section, "variables", Node::Type::array)) {
+    design.variables = read_variables(*variables, experiment.scene, scene_complete, problems);
+  }
+  design.targets = read_targets(section, problems);
+  design.hole_clearance = read_clearance(section, "hole_clearance", experiment.solver.clearance, problems);
+  design.rest_clearance = read_clearance(section, "rest_clearance", experiment.solver.clearance, problems);
+  design.starts = int_or(section, "starts", 1);
+  design.perturbation = number_or(section, "perturbation", 0.0);
+  design.max_iterations = optional_int(section, "max_iterations");
+  design.tolerance = optional_number(section, "tolerance");
+  return design;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,138 @@
+#include <hauberk/experiment/experiment.hpp>
+
+#include "node_access.hpp"
+#include "scene_reader.hpp"
+#include "sections.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/check.hpp>
+#include <hauberk/experiment/fields.hpp>
+#include <hauberk/experiment/jsonc.hpp>
+#include <hauberk/experiment/overrides.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace hauberk {
+
+namespace {
+
+void read_task(const Node& root, Problems& problems, Experiment& experiment)
+{
+  const Node* task = root.find("task");
+  if (task == nullptr) return;
+  if (task->string == "design") {
+    experiment.task = Task::design;
+    if (root.find("design") == nullptr) problems.add(root, "missing key 'design': task design needs it");
+  } else if (task->string != "limits") {
+    problems.add(*task,
+                 "task '" + task->string + "' is not supported yet by this version; use limits or design");
+  }
+}
+
+/// Frozen for the whole run; 1 where the scene cannot say, so that later sections can still be checked.
+double scene_length(const Node& root, const SceneSpec& scene, bool scene_complete, Problems& problems)
+{
+  if (!scene_complete) return 1.0;
+  try {
+    return characteristic_length(scene);
+  } catch (const InputError& error) {
+    problems.add(root.at("cell"), error.what());
+  }
+  return 1.0;
+}
+
+/// Without directions of its own a design's final profile is taken in the directions of its targets.
+void complete_directions(Node& root, Problems& problems, Experiment& experiment)
+{
+  Node* section = find_mutable(root, "load_case");
+  if (section == nullptr || section->find("directions_deg") != nullptr) return;
+  const std::string pointer = section->pointer + "/directions_deg";
+  for (const Problem& problem : problems.list()) {
+    if (pointer_within(problem.pointer, pointer)) return;  // given, but wrong
+  }
+  if (experiment.task != Task::design) {
+    problems.add(*section, "missing key 'directions_deg': expected an array of at least 1 numbers");
+  } else if (experiment.design) {
+    for (const ExperimentTarget& target : experiment.design->targets) {
+      experiment.directions_deg.push_back(target.direction_deg);
+    }
+    set_default(*section, "directions_deg", numbers_node(experiment.directions_deg));
+  }
+}
+
+}  // namespace
+
+std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& lookup,
+                                          Diagnostics& diagnostics)
+{
+  diagnostics.file = source.file;
+  Problems& problems = diagnostics.problems;
+  std::optional<Node> root = read_jsonc(source.text, problems);
+  if (!root) return std::nullopt;
+  for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
+
+  PluginResolver plugins(lookup);
+  const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
+    return plugins.extra_fields(field, object, found);
+  };
+  if (!check_fields(*root, experiment_fields(), problems, extra)) return std::nullopt;
+
+  Experiment experiment;
+  experiment.name = string_or(*root, "name", "");
+  if (const Node* name = root->find("name"); name != nullptr && name->string.empty()) {
+    problems.add(*name, "expected a name, found \"\"");
+  }
+  experiment.length_unit = string_or(*root, "length_unit", "mm");
+  experiment.seed = seed_or(*root, "seed", 1);
+  read_task(*root, problems, experiment);
+
+  experiment.scene = read_scene(*root, plugins, problems);
+  const bool scene_complete = problems.empty();
+  experiment.scene.length = scene_length(*root, experiment.scene, scene_complete, problems);
+  if (const Node* cell = root->find("cell")) experiment.relax = boolean_or(*cell, "relax", false);
+  if (Node* solver = find_mutable(*root, "solver")) experiment.solver = read_solver(*solver, experiment.seed);
+  read_load_case(*root, plugins, problems, experiment);
+  if (Node* design = find_mutable(*root, "design")) {
+    experiment.design = read_design(*design, plugins, problems, experiment, scene_complete);
+  }
+  complete_directions(*root, problems, experiment);
+  if (const Node* expect = find_typed(*root, "expect", Node::Type::array)) {
+    experiment.expect = read_expectations(*expect, problems);
+  }
+  if (!problems.empty()) return std::nullopt;
+  experiment.resolved = std::move(*root);
+  return experiment;
+}
+
+std::string read_text_file(const std::string& path)
+{
+  constexpr std::streamsize largest = 64 << 20;
+  const auto refuse = [&](const std::string& why) { throw InputError("cannot read '" + path + "': " + why); };
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(errno != 0 ? std::generic_category().message(errno) : "it cannot be opened");
+  std::string text;
+  std::string block(1 << 16, '\0');
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (static_cast<std::streamsize>(text.size()) > largest) refuse("it is larger than 64 MB");
+  }
+  if (file.bad()) refuse("reading failed");
+  return text;
+}
+
+Experiment load_experiment(const std::string& path, const std::vector<std::string>& overrides,
+                           const PluginLookup& plugins)
+{
+  Diagnostics diagnostics;
+  std::optional<Experiment> experiment =
+      read_experiment({path, read_text_file(path), overrides}, plugins, diagnostics);
+  if (!experiment) throw InputError(diagnostics.text());
+  return std::move(*experiment);
+}
+
+}  // namespace hauberk

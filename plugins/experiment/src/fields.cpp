@@ -1,0 +1,228 @@
+#include <hauberk/experiment/fields.hpp>
+
+#include "field_helpers.hpp"
+
+#include <algorithm>
+
+namespace hauberk {
+
+using namespace fields;
+
+namespace {
+
+Field elements_field()
+{
+  Field parameters =
+      map("parameters", "Values of the shape's parameters by name; the others keep the shape's defaults.",
+          number("parameter", "Value of one parameter.", "as declared by the shape"));
+  Field element = object("element", "One kind of element.",
+                         {required(string("shape", "Plugin that turns parameters into primitives.")),
+                          with_default(std::move(parameters), "{}")});
+  Field elements = required(map("elements", "The kinds of elements, by name.", std::move(element)));
+  elements.min_items = 1;
+  return elements;
+}
+
+Field place_field()
+{
+  Field rotation =
+      object("rotation",
+             "Active, right-handed rotation about the element's origin, applied before translation: axis and "
+             "degrees, "
+             "or a quaternion. Absent: none.",
+             {numbers("axis", "Axis; normalised.", 3), number("degrees", "Angle about the axis.", "degree"),
+              numbers("quaternion", "Quaternion [w, x, y, z]; normalised.", 4)});
+  Field overrides = map("parameters", "Values for this placement only, over those of the element.",
+                        number("parameter", "Value of one parameter.", "as declared by the shape"));
+  Field entry = object("placement", "One placed element.",
+                       {required(string("element", "Name of an entry of elements.")),
+                        required(in_unit(numbers("position", "Place of the element's origin.", 3), "length")),
+                        std::move(rotation), std::move(overrides)});
+  Field place = required(list("place", "What is in the cell, before it is repeated.", std::move(entry)));
+  place.min_items = 1;
+  return place;
+}
+
+Field patch_field()
+{
+  Field outline = object("outline", "Which cells belong to the patch; exactly one of these.",
+                         {at_least(number("disk", "Radius of a disk.", "length"), 0.0, true),
+                          at_least(integer("hexagon", "Rings of cells around the middle one."), 0),
+                          integers("rectangle", "Cells along both vectors.", 2, 1)});
+  return object(
+      "patch", "A finite patch instead of vectors and repeat.",
+      {required(vectors_field("vectors", "The two vectors that the patch is laid out with.")),
+       required(std::move(outline)),
+       with_default(integers("tile", "Period, in cells, with which element parameters repeat.", 2, 1),
+                    "[1, 1]")});
+}
+
+Field cell_field()
+{
+  return required(object(
+      "cell", "What is simulated: a periodic cell, or a finite patch.",
+      {vectors_field("vectors", "The two lattice vectors (x, y) of the cell before it is repeated."),
+       with_default(integers("repeat", "m and n: the m x n supercell becomes the cell.", 2, 1), "[1, 1]"),
+       patch_field(), place_field(),
+       with_default(
+           boolean("relax", "Allow a rest state that violates the clearance, to be relaxed before loading."),
+           "false")}));
+}
+
+Field load_case_field()
+{
+  return required(object(
+      "load_case", "How the fabric is loaded, and which value is reported.",
+      {required(string("plugin", "Plugin that defines the load.")),
+       in_unit(
+           any_numbers("directions_deg",
+                       "Directions of loading, modulo 180. A design uses them for its final profile; absent "
+                       "there, the directions of its targets are used."),
+           "degree"),
+       at_least_items(list("senses", "Senses to load in, as the load case names them; absent: both.",
+                           string("sense", "stretch or compress, up or down.")),
+                      1)}));
+}
+
+Field solver_field()
+{
+  return with_default(
+      object(
+          "solver", "How limits are computed.",
+          {with_default(
+               choice("preset", "Goal of the settings that are not given.", {"fast", "accurate", "paper"}),
+               "\"accurate\""),
+           with_default(at_least(number("clearance", "Surface distance at which surfaces count as touching.",
+                                        "length"),
+                                 0.0),
+                        "0"),
+           with_default(choice("contact", "Contact formulation.", {"auto", "nearest", "arc"}), "\"auto\""),
+           with_default(at_least(integer("starts", "Perturbed starts per limit."), 1), "1"),
+           with_default(
+               at_least(number("perturbation",
+                               "Size of the random displacement of a start, in characteristic lengths "
+                               "and radians.",
+                               "1"),
+                        0.0),
+               "0.01"),
+           seed_field("start_seed", "Seed of the first perturbed start; absent: seed."),
+           at_least(integer("max_stages", "Most stages of falling stiffness; absent: as the preset says."),
+                    1),
+           at_least(integer("max_iterations", "Most Newton steps of one stage; absent: as the preset says."),
+                    1),
+           at_least(
+               number("tolerance", "Relative error of 1 + value to reach; absent: as the preset says.", "1"),
+               0.0, true)}),
+      "{}");
+}
+
+Field design_field()
+{
+  Field optimizer = object("optimizer", "What searches the design space.",
+                           {required(string("plugin", "Plugin that minimises."))});
+  Field name = string("parameters", "One parameter.");
+  Field names = at_least_items(
+      list("parameters", "Several parameters, a variable each.", string("parameter", "A name.")), 1);
+  Field variable =
+      object("variable", "A group of design variables with the same bounds.",
+             {required(any_of("parameters", "Parameters to vary, as the shapes name them.", {name, names})),
+              with_default(
+                  choice("per", "One variable per placed element, per entry of elements, or for all of them.",
+                         {"element", "type", "all"}),
+                  "\"element\""),
+              required(number("lower", "Lower bound.", "as declared by the shape")),
+              required(number("upper", "Upper bound.", "as declared by the shape"))});
+  Field target = object(
+      "target", "A value to reach in one direction.",
+      {required(number("direction_deg", "Direction, modulo 180.", "degree")),
+       required(number("value", "Value of the quantity to reach.", "as the quantity")),
+       with_default(at_least(number("weight", "Weight of the squared residual.", "1"), 0.0, true), "1")});
+  return object(
+      "design", "What is designed, and for which limits. Needed by task design.",
+      {with_default(std::move(optimizer), "{\"plugin\": \"sqp\"}"),
+       required(choice("quantity", "What the targets prescribe; eta is (e_s - e_c)/(1 + e_c).",
+                       {"eta", "stretch", "compress", "curvature"})),
+       required(at_least_items(
+           list("variables", "What may change; parameters named by no entry are fixed.", variable), 1)),
+       required(at_least_items(
+           list("targets", "Values to reach; their directions are those of the design.", target), 1)),
+       at_least(
+           number(
+               "hole_clearance",
+               "Least clearance between a ring's hole and the cross-section threaded through it, for every "
+               "linked pair; absent: solver.clearance.",
+               "length"),
+           0.0),
+       at_least(number("rest_clearance",
+                       "Least surface distance of every pair at rest; absent: solver.clearance.", "length"),
+                0.0),
+       with_default(at_least(integer("starts", "Perturbed starting designs."), 1), "1"),
+       with_default(
+           at_least(number("perturbation",
+                           "Size of the random change of a starting design, as a fraction of the distance "
+                           "between the bounds.",
+                           "1"),
+                    0.0),
+           "0.02"),
+       at_least(integer("max_iterations", "Most iterations; absent: as the optimizer says."), 0),
+       at_least(number("tolerance",
+                       "Stop once every target is met to within this fraction of it; absent: go on until "
+                       "the optimizer stops.",
+                       "1"),
+                0.0, true)});
+}
+
+Field expect_field()
+{
+  Field entry =
+      object("expectation", "A value the results must hold.",
+             {required(string("pointer", "JSON pointer into results.json.")),
+              any("value", "Expected value; numbers may deviate by rel or abs, anything else must be equal."),
+              at_least(number("rel", "Allowed deviation, relative to value.", "1"), 0.0),
+              at_least(number("abs", "Allowed deviation.", "as the value"), 0.0),
+              number("min", "Smallest allowed number.", "as the value"),
+              number("max", "Largest allowed number.", "as the value")});
+  return with_default(
+      list("expect", "Checked after a run; one that fails makes it exit with 1.", std::move(entry)), "[]");
+}
+
+}  // namespace
+
+Field experiment_fields()
+{
+  return object("experiment", "A Hauberk experiment.",
+                {string("$schema", "Place of the schema file, for editors."),
+                 required(string("name", "Name of the experiment.")), string("description", "What it shows."),
+                 with_default(choice("task", "What is computed. This version does limits and design.",
+                                     {"limits", "design", "sweep", "chart", "stability"}),
+                              "\"limits\""),
+                 with_default(choice("length_unit",
+                                     "What lengths in this file mean; a label in everything that is written.",
+                                     {"m", "mm", "um"}),
+                              "\"mm\""),
+                 with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(),
+                 cell_field(), load_case_field(), solver_field(), design_field(), expect_field()});
+}
+
+std::optional<PluginSection> plugin_section(const Field& object)
+{
+  if (object.name == "element") return PluginSection{PluginKind::shape, "shape"};
+  if (object.name == "load_case") return PluginSection{PluginKind::load_case, "plugin"};
+  if (object.name == "optimizer") return PluginSection{PluginKind::optimizer, "plugin"};
+  return std::nullopt;
+}
+
+std::vector<Field> merge_fields(std::vector<Field> declared, const std::vector<Field>& extra)
+{
+  for (const Field& field : extra) {
+    const auto same =
+        std::find_if(declared.begin(), declared.end(), [&](const Field& f) { return f.name == field.name; });
+    if (same != declared.end())
+      *same = field;
+    else
+      declared.push_back(field);
+  }
+  return declared;
+}
+
+}  // namespace hauberk

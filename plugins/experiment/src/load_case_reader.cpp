@@ -1,0 +1,78 @@
+#include "node_access.hpp"
+#include "sections.hpp"
+
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/experiment/nearest.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+
+namespace {
+
+constexpr double same_direction = 1e-9;  ///< degrees; far below what changes a limit visibly
+
+void read_senses(Node& section, const LoadCase& load_case, Problems& problems, std::vector<Sense>& senses)
+{
+  const auto [positive, negative] = load_case.sense_names();
+  const Node* list = find_typed(section, "senses", Node::Type::array);
+  if (list == nullptr) {
+    senses = {Sense::positive, Sense::negative};
+    Node both;
+    both.type = Node::Type::array;
+    both.items = {string_node(positive), string_node(negative)};
+    set_default(section, "senses", std::move(both));
+    return;
+  }
+  for (const Node& item : list->items) {
+    if (item.string != positive && item.string != negative) {
+      problems.add(item, "expected one of " + positive + ", " + negative + ", found " +
+                             quote_json(item.string) +
+                             nearest_hint("value", item.string, {positive, negative}));
+      continue;
+    }
+    const Sense sense = item.string == positive ? Sense::positive : Sense::negative;
+    if (std::find(senses.begin(), senses.end(), sense) != senses.end()) {
+      problems.add(item, "sense '" + item.string + "' is given twice");
+    }
+    senses.push_back(sense);
+  }
+}
+
+}  // namespace
+
+void check_directions(const std::vector<std::pair<const Node*, double>>& directions, Problems& problems)
+{
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    for (std::size_t j = 0; j < k; ++j) {
+      const double difference = std::remainder(directions[k].second - directions[j].second, 180.0);
+      if (std::abs(difference) > same_direction) continue;
+      const bool equal = directions[k].second == directions[j].second;
+      problems.add(*directions[k].first,
+                   "direction " + format_number(directions[k].second) +
+                       (equal ? " is given twice"
+                              : " is the same as " + format_number(directions[j].second) +
+                                    ": directions count modulo 180 degrees"));
+      break;
+    }
+  }
+}
+
+void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Experiment& experiment)
+{
+  Node* section = find_mutable(root, "load_case");
+  if (section == nullptr) return;
+  experiment.load_case_plugin = string_or(*section, "plugin", "");
+  experiment.load_case = plugins.load_case(*section, experiment.scene.length, problems);
+  if (experiment.load_case) read_senses(*section, *experiment.load_case, problems, experiment.senses);
+
+  if (const Node* list = find_typed(*section, "directions_deg", Node::Type::array)) {
+    std::vector<std::pair<const Node*, double>> directions;
+    for (const Node& item : list->items) directions.emplace_back(&item, item.number);
+    check_directions(directions, problems);
+    experiment.directions_deg = list->numbers();
+  }
+}
+
+}  // namespace hauberk

@@ -1,0 +1,55 @@
+#include <hauberk/experiment/nearest.hpp>
+
+#include <algorithm>
+
+namespace hauberk {
+
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::size_t substitution(char a, char b)
+{
+  if (a == b) return 0;
+  return lower(a) == lower(b) ? 1 : 2;
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+  // Rows of the dynamic programme for a[0..i-2], a[0..i-1] and a[0..i].
+  std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = 2 * j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = 2 * i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      current[j] =
+          std::min({previous[j] + 2, current[j - 1] + 2, previous[j - 1] + substitution(a[i - 1], b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        current[j] = std::min(current[j], before[j - 2] + 2);
+      }
+    }
+    std::swap(before, previous);
+    std::swap(previous, current);
+  }
+  return previous[b.size()];
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates)
+{
+  const auto best = std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
+    return edit_distance(name, a) < edit_distance(name, b);
+  });
+  return best == candidates.end() ? std::string() : *best;
+}
+
+std::string nearest_hint(std::string_view what, std::string_view name,
+                         const std::vector<std::string>& candidates)
+{
+  const std::string nearest = nearest_name(name, candidates);
+  if (nearest.empty()) return "";
+  return "; the nearest known " + std::string(what) + " is '" + nearest + "'";
+}
+
+}  // namespace hauberk

@@ -1,0 +1,102 @@
+#include "plugin_resolver.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/fields.hpp>
+#include <hauberk/experiment/jsonc.hpp>
+#include <hauberk/host/factories.hpp>
+
+#include <algorithm>
+
+namespace hauberk {
+
+namespace {
+
+/// Plugins are promised a checked section: true when nothing is missing in it and nothing that the plugin
+/// declared is wrong. (A wrong value has been removed, and would look absent.)
+bool is_intact(const Node& section, const PluginTable& table, const Problems& problems)
+{
+  const std::vector<Field> fields = plugin_fields(table);
+  return std::none_of(problems.list().begin(), problems.list().end(), [&](const Problem& problem) {
+    if (problem.pointer == section.pointer) return true;
+    return std::any_of(fields.begin(), fields.end(), [&](const Field& field) {
+      return pointer_within(problem.pointer, section.pointer + "/" + pointer_token(field.name));
+    });
+  });
+}
+
+/// Calls a factory; what it throws is reported at the section.
+template <class Factory>
+auto make_guarded(const Node& section, const PluginTable* table, Problems& problems, const Factory& factory)
+    -> decltype(factory())
+{
+  if (table == nullptr) return nullptr;
+  try {
+    if (is_intact(section, *table, problems)) return factory();
+  } catch (const InputError& error) {
+    problems.add(section, error.what());
+  } catch (const PluginError& error) {
+    problems.add(section, error.what());
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const PluginResolver::Found& PluginResolver::look_up(PluginKind kind, const std::string& id)
+{
+  const auto key = std::make_pair(kind, id);
+  const auto known = found_.find(key);
+  if (known != found_.end()) return known->second;
+  Found found;
+  found.table = lookup_(kind, id, found.error);
+  if (found.table == nullptr && found.error.empty()) found.error = "no plugin '" + id + "'";
+  return found_.emplace(key, std::move(found)).first->second;
+}
+
+const PluginTable* PluginResolver::find(const Node& section, PluginKind kind, const char* key)
+{
+  const Node* id = section.find(key);
+  return id != nullptr && id->is(Node::Type::string) ? look_up(kind, id->string).table : nullptr;
+}
+
+ExtraFields PluginResolver::extra_fields(const Field& field, const Node& object, Problems& problems)
+{
+  const std::optional<PluginSection> section = plugin_section(field);
+  if (!section) return {};
+  const Node* id = object.find(section->key);
+  if (id == nullptr || !id->is(Node::Type::string))
+    return {{}, true};  // reported as missing or of wrong type
+  const Found& found = look_up(section->kind, id->string);
+  if (found.table == nullptr) {
+    problems.add(*id, found.error);
+    return {{}, true};
+  }
+  try {
+    return {plugin_fields(*found.table), false};
+  } catch (const PluginError& error) {
+    problems.add(*id, error.what());
+    return {{}, true};
+  }
+}
+
+std::shared_ptr<const Shape> PluginResolver::shape(const Node& section, Problems& problems)
+{
+  const PluginTable* table = find(section, PluginKind::shape, "shape");
+  return make_guarded(section, table, problems, [&] { return make_shape(*table, section, problems); });
+}
+
+std::shared_ptr<const LoadCase> PluginResolver::load_case(const Node& section, double length,
+                                                          Problems& problems)
+{
+  const PluginTable* table = find(section, PluginKind::load_case, "plugin");
+  return make_guarded(section, table, problems,
+                      [&] { return make_load_case(*table, section, length, problems); });
+}
+
+std::shared_ptr<const Optimizer> PluginResolver::optimizer(const Node& section, Problems& problems)
+{
+  const PluginTable* table = find(section, PluginKind::optimizer, "plugin");
+  return make_guarded(section, table, problems, [&] { return make_optimizer(*table, section, problems); });
+}
+
+}  // namespace hauberk

@@ -1,0 +1,38 @@
+#pragma once
+#include <hauberk/experiment/check.hpp>
+#include <hauberk/experiment/experiment.hpp>
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace hauberk {
+
+/// Looks plugins up once each, and makes what sections ask for. Whatever a plugin does wrong becomes a
+/// problem.
+class PluginResolver {
+ public:
+  explicit PluginResolver(const PluginLookup& lookup) : lookup_(lookup) {}
+
+  /// The plugin named by `section`, null when it names none or there is none.
+  const PluginTable* find(const Node& section, PluginKind kind, const char* key);
+
+  /// For check_fields: the fields of the plugin of a section; reports plugins that are missing.
+  ExtraFields extra_fields(const Field& field, const Node& object, Problems& problems);
+
+  std::shared_ptr<const Shape> shape(const Node& section, Problems& problems);
+  std::shared_ptr<const LoadCase> load_case(const Node& section, double length, Problems& problems);
+  std::shared_ptr<const Optimizer> optimizer(const Node& section, Problems& problems);
+
+ private:
+  struct Found {
+    const PluginTable* table = nullptr;
+    std::string error;
+  };
+  const Found& look_up(PluginKind kind, const std::string& id);
+
+  const PluginLookup& lookup_;
+  std::map<std::pair<PluginKind, std::string>, Found> found_;
+};
+
+}  // namespace hauberk

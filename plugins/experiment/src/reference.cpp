@@ -1,0 +1,115 @@
+#include <hauberk/experiment/check.hpp>
+#include <hauberk/experiment/fields.hpp>
+#include <hauberk/experiment/schema.hpp>
+#include <hauberk/host/factories.hpp>
+
+namespace hauberk {
+
+namespace {
+
+using Kind = Field::Kind;
+
+const char* introduction =
+    "# Experiment files\n"
+    "\n"
+    "An experiment is JSON with comments and trailing commas. This page is generated from the table of "
+    "fields "
+    "that also checks the files and makes `share/schema/experiment.schema.json`; a test fails when it is out "
+    "of "
+    "date. `hauberk check FILE` reports everything that is wrong in a file at once.\n"
+    "\n"
+    "In the headings, `*` stands for any name and any index. Lengths are in the unit of the file. A key in "
+    "**bold** is required.\n";
+
+std::string escape_cell(const std::string& text)
+{
+  std::string out;
+  for (const char c : text) {
+    if (c == '|')
+      out += "\\|";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// A described object and where it stands.
+struct Section {
+  std::string place;
+  std::string doc;
+  const std::vector<Field>* fields;
+};
+
+/// Objects below `field`, which stands at `place`.
+void collect(const Field& field, const std::string& place, std::vector<Section>& out)
+{
+  switch (field.kind) {
+    case Kind::object:
+      out.push_back({place, field.doc, &field.children});
+      return;
+    case Kind::list:
+    case Kind::map:
+      if (!field.children.empty()) collect(field.children[0], place + "/*", out);
+      return;
+    case Kind::any_of:
+      for (const Field& child : field.children) collect(child, place, out);
+      return;
+    default:
+      return;
+  }
+}
+
+void write_section(const Section& section, std::string& out)
+{
+  out += "\n## `" + (section.place.empty() ? std::string("/") : section.place) + "`\n\n";
+  if (!section.doc.empty()) out += section.doc + "\n\n";
+  out += "| key | value | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n";
+  for (const Field& field : *section.fields) {
+    const std::string key = "`" + field.name + "`";
+    out += "| " + (field.required ? "**" + key + "**" : key) + " | " + escape_cell(describe_expected(field)) +
+           " | " + escape_cell(field.unit) + " | " +
+           (field.default_json.empty() ? "" : "`" + escape_cell(field.default_json) + "`") + " | " +
+           escape_cell(field.doc) + " |\n";
+  }
+  std::vector<Section> below;
+  for (const Field& field : *section.fields) collect(field, section.place + "/" + field.name, below);
+  for (const Section& next : below) write_section(next, out);
+}
+
+const char* section_place(PluginKind kind)
+{
+  switch (kind) {
+    case PluginKind::shape:
+      return "/elements/*";
+    case PluginKind::load_case:
+      return "/load_case";
+    case PluginKind::optimizer:
+      return "/design/optimizer";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string fields_reference(const std::vector<Field>& fields, const std::string& place)
+{
+  std::string out;
+  write_section({place, "", &fields}, out);
+  return out.substr(1);  // without the empty line before the first heading
+}
+
+std::string experiment_reference(std::span<const PluginTable* const> plugins)
+{
+  const Field root = experiment_fields();
+  std::string out = introduction;
+  write_section({"", "", &root.children}, out);
+  for (const PluginTable* plugin : plugins) {
+    const std::vector<Field> fields = plugin_fields(*plugin);
+    out += "\n# Plugin `" + std::string(plugin->id) + "`\n\n" + plugin->summary + "\n\n";
+    out += fields.empty() ? "It has no fields of its own.\n"
+                          : fields_reference(fields, section_place(plugin->kind));
+  }
+  return out;
+}
+
+}  // namespace hauberk

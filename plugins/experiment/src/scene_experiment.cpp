@@ -1,0 +1,72 @@
+#include "node_access.hpp"
+
+#include <hauberk/experiment/experiment.hpp>
+#include <hauberk/experiment/jsonc.hpp>
+
+#include <Eigen/Geometry>
+
+#include <array>
+
+namespace hauberk {
+
+namespace {
+
+Node array_node(std::vector<Node> items)
+{
+  Node node;
+  node.type = Node::Type::array;
+  node.items = std::move(items);
+  return node;
+}
+
+Node placement(const SceneSpec& scene, const PlacedElement& element)
+{
+  const ElementType& type = scene.types[static_cast<std::size_t>(element.type)];
+  const Vec3& x = element.rest.position;
+  Eigen::Quaterniond q(element.rest.rotation);
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  Node rotation = object_node();
+  set_default(rotation, "quaternion", numbers_node(std::array{q.w(), q.x(), q.y(), q.z()}));
+  Node parameters = object_node();
+  for (std::size_t k = 0; k < element.parameters.size(); ++k) {
+    set_default(parameters, type.shape->parameters()[k].name, number_node(element.parameters[k]));
+  }
+  Node entry = object_node();
+  set_default(entry, "element", string_node(type.name));
+  set_default(entry, "position", numbers_node(std::array{x.x(), x.y(), x.z()}));
+  set_default(entry, "rotation", std::move(rotation));
+  set_default(entry, "parameters", std::move(parameters));
+  return entry;
+}
+
+}  // namespace
+
+Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, const std::string& name)
+{
+  Node cell = object_node();
+  if (!scene.lattice.empty()) {
+    std::vector<Node> vectors;
+    for (const Vec3& v : scene.lattice) vectors.push_back(numbers_node(std::array{v.x(), v.y()}));
+    set_default(cell, "vectors", array_node(std::move(vectors)));
+  }
+  set_default(cell, "repeat", numbers_node(std::array{1.0, 1.0}));
+  std::vector<Node> place;
+  for (const PlacedElement& element : scene.elements) place.push_back(placement(scene, element));
+  set_default(cell, "place", array_node(std::move(place)));
+  Node relax;
+  relax.type = Node::Type::boolean;
+  relax.boolean = experiment.relax;
+  set_default(cell, "relax", std::move(relax));
+
+  Node root = object_node();
+  set_default(root, "name", string_node(name));
+  set_default(root, "task", string_node("limits"));
+  for (const char* key : {"length_unit", "seed", "elements"})
+    set_default(root, key, experiment.resolved.at(key));
+  set_default(root, "cell", std::move(cell));
+  for (const char* key : {"load_case", "solver"}) set_default(root, key, experiment.resolved.at(key));
+  relocate(root, "", 0);
+  return root;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,262 @@
+#include "scene_reader.hpp"
+
+#include "node_access.hpp"
+#include "rotation.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/experiment/jsonc.hpp>
+#include <hauberk/experiment/nearest.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace hauberk {
+
+namespace {
+
+constexpr double largest_scene = 100000;  ///< placed elements; more is a slip of the keyboard
+
+class SceneReader {
+ public:
+  SceneReader(Node& root, PluginResolver& plugins, Problems& problems)
+      : root_(root), plugins_(plugins), problems_(problems)
+  {
+  }
+
+  SceneSpec read()
+  {
+    if (Node* elements = find_mutable(root_, "elements")) {
+      for (auto& [name, element] : elements->members) read_type(name, element);
+    }
+    if (const Node* cell = find_typed(root_, "cell", Node::Type::object)) read_cell(*cell);
+    return std::move(spec_);
+  }
+
+ private:
+  Node& root_;
+  PluginResolver& plugins_;
+  Problems& problems_;
+  SceneSpec spec_;
+  std::vector<std::vector<double>> type_parameters_;
+  std::vector<const Node*> type_nodes_;
+  std::set<std::pair<const Node*, std::size_t>> reported_;  ///< parameters without a value
+
+  void read_type(const std::string& name, Node& element)
+  {
+    if (!is_name(name)) {
+      problems_.add(element,
+                    "expected a name that starts with a letter and has only letters, digits, '_', '-' and "
+                    "'.', found '" +
+                        name + "'");
+    }
+    std::shared_ptr<const Shape> shape = plugins_.shape(element, problems_);
+    std::vector<double> values;
+    if (shape) {
+      for (const ParameterInfo& info : shape->parameters()) values.push_back(info.default_value);
+      const bool good = read_parameters(element, *shape, values);
+      if (good) check_geometry(element, *shape, values);
+      complete_parameters(element, *shape, values);
+    }
+    spec_.types.push_back({name, std::move(shape)});
+    type_parameters_.push_back(std::move(values));
+    type_nodes_.push_back(&element);
+  }
+
+  /// Such names keep variable names ("link/ring.R", "3/ring.R", "*/ring.R") and pointers unambiguous.
+  static bool is_name(const std::string& name)
+  {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto other = [](char c) { return (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
+    return !name.empty() && letter(name[0]) &&
+           std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || other(c); });
+  }
+
+  /// Values in `section`/parameters over `values`. True when all are usable.
+  bool read_parameters(const Node& section, const Shape& shape, std::vector<double>& values)
+  {
+    const Node* map = find_typed(section, "parameters", Node::Type::object);
+    if (map == nullptr) return true;
+    bool good = true;
+    for (const auto& [name, value] : map->members) {
+      const int index = parameter_index(shape, name);
+      if (index < 0) {
+        problems_.add(value, "unknown parameter '" + name + "'" +
+                                 nearest_hint("parameter", name, parameter_names(shape)));
+        good = false;
+        continue;
+      }
+      const ParameterInfo& info = shape.parameters()[static_cast<std::size_t>(index)];
+      if (!value.is(Node::Type::number)) continue;
+      if (value.number < info.lower || value.number > info.upper) {
+        Field range;
+        range.minimum = info.lower;
+        range.maximum = info.upper;
+        problems_.add(value, "expected " + describe_expected(range) + ", found " + describe_found(value));
+        good = false;
+      }
+      values[static_cast<std::size_t>(index)] = value.number;
+    }
+    return good;
+  }
+
+  /// The shape's own say on a complete set of values.
+  void check_geometry(const Node& section, const Shape& shape, const std::vector<double>& values)
+  {
+    if (std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); })) return;
+    const Node* map = section.find("parameters");
+    try {
+      shape.primitives(values);
+    } catch (const InputError& error) {
+      problems_.add(map != nullptr ? *map : section, error.what());
+    } catch (const PluginError& error) {
+      problems_.add(section, error.what());
+    }
+  }
+
+  static void complete_parameters(Node& element, const Shape& shape, const std::vector<double>& values)
+  {
+    set_default(element, "parameters", object_node());
+    Node& map = *find_mutable(element, "parameters");
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (!std::isnan(values[k])) set_default(map, shape.parameters()[k].name, number_node(values[k]));
+    }
+  }
+
+  void read_cell(const Node& cell)
+  {
+    if (const Node* patch = cell.find("patch")) {
+      problems_.add(*patch, "finite patches are not supported yet by this version; use vectors and repeat");
+    } else if (cell.find("vectors") == nullptr) {
+      // Also absent when it was wrong; then it has been reported below its own pointer.
+      const std::string pointer = cell.pointer + "/vectors";
+      const auto& list = problems_.list();
+      const auto about_vectors = [&](const Problem& problem) {
+        return pointer_within(problem.pointer, pointer);
+      };
+      if (std::none_of(list.begin(), list.end(), about_vectors)) {
+        problems_.add(cell, "missing key 'vectors': expected an array of 2 arrays of 2 numbers");
+      }
+    }
+    std::array<Vec3, 2> v{Vec3::Zero(), Vec3::Zero()};
+    const bool lattice = read_vectors(cell.find("vectors"), v);
+    std::array<int, 2> repeat{1, 1};
+    const Node* counts = cell.find("repeat");
+    if (counts != nullptr) {
+      for (std::size_t k = 0; k < 2; ++k) repeat[k] = static_cast<int>(counts->items[k].number);
+    }
+    std::vector<PlacedElement> placed = read_place(cell);
+    const double total = static_cast<double>(repeat[0]) * repeat[1] * static_cast<double>(placed.size());
+    if (total > largest_scene) {
+      problems_.add(*counts, "expected at most " + format_number(largest_scene) + " placed elements, found " +
+                                 format_number(total));
+      return;
+    }
+    if (lattice) spec_.lattice = {repeat[0] * v[0], repeat[1] * v[1]};
+    // Element k = (j m + i) |place| + index in place.
+    for (int j = 0; j < repeat[1]; ++j) {
+      for (int i = 0; i < repeat[0]; ++i) {
+        for (PlacedElement element : placed) {
+          element.rest.position += i * v[0] + j * v[1];
+          spec_.elements.push_back(std::move(element));
+        }
+      }
+    }
+  }
+
+  bool read_vectors(const Node* node, std::array<Vec3, 2>& v)
+  {
+    if (node == nullptr) return false;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::vector<double> xy = node->items[k].numbers();
+      v[k] = Vec3(xy[0], xy[1], 0.0);
+    }
+    const double area = std::abs(v[0].x() * v[1].y() - v[0].y() * v[1].x());
+    // Below an angle of 1e-9 rounding decides about the cell.
+    if (!(area > 1e-9 * v[0].norm() * v[1].norm()) || !std::isfinite(area)) {
+      problems_.add(*node, "expected two vectors that span the plane, found " + write_json(node->items[0]) +
+                               " and " + write_json(node->items[1]) + ", which are linearly dependent");
+    }
+    return true;
+  }
+
+  std::vector<PlacedElement> read_place(const Node& cell)
+  {
+    std::vector<PlacedElement> placed;
+    const Node* place = find_typed(cell, "place", Node::Type::array);
+    if (place == nullptr) return placed;
+    for (const Node& entry : place->items) {
+      if (std::optional<PlacedElement> element = read_placement(entry)) placed.push_back(std::move(*element));
+    }
+    return placed;
+  }
+
+  std::optional<PlacedElement> read_placement(const Node& entry)
+  {
+    PlacedElement element;
+    element.rest.rotation = read_rotation(entry.find("rotation"), problems_);
+    if (const Node* position = entry.find("position")) {
+      const std::vector<double> x = position->numbers();
+      element.rest.position = Vec3(x[0], x[1], x[2]);
+    }
+    const Node* name = entry.find("element");
+    if (name == nullptr) return std::nullopt;
+    element.type = find_type(*name);
+    if (element.type < 0) return std::nullopt;
+    const auto type = static_cast<std::size_t>(element.type);
+    const Shape* shape = spec_.types[type].shape.get();
+    if (shape == nullptr) return std::nullopt;
+    element.parameters = type_parameters_[type];
+    const bool good = read_parameters(entry, *shape, element.parameters);
+    check_complete(entry, *type_nodes_[type], *shape, element.parameters);
+    if (good && entry.find("parameters") != nullptr) check_geometry(entry, *shape, element.parameters);
+    return element;
+  }
+
+  int find_type(const Node& name)
+  {
+    std::vector<std::string> names;
+    for (const ElementType& type : spec_.types) names.push_back(type.name);
+    const auto found = std::find(names.begin(), names.end(), name.string);
+    if (found != names.end()) return static_cast<int>(found - names.begin());
+    problems_.add(name,
+                  "unknown element '" + name.string + "'" + nearest_hint("element", name.string, names));
+    return -1;
+  }
+
+  void check_complete(const Node& entry, const Node& type, const Shape& shape,
+                      const std::vector<double>& values)
+  {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (!std::isnan(values[k]) || !reported_.insert({&type, k}).second) continue;
+      problems_.add(entry, "parameter '" + shape.parameters()[k].name +
+                               "' has no value and no default: give it in " + type.pointer + "/parameters");
+    }
+  }
+};
+
+}  // namespace
+
+SceneSpec read_scene(Node& root, PluginResolver& plugins, Problems& problems)
+{
+  return SceneReader(root, plugins, problems).read();
+}
+
+std::vector<std::string> parameter_names(const Shape& shape)
+{
+  std::vector<std::string> names;
+  for (const ParameterInfo& info : shape.parameters()) names.push_back(info.name);
+  return names;
+}
+
+int parameter_index(const Shape& shape, std::string_view name)
+{
+  const std::vector<ParameterInfo>& list = shape.parameters();
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const ParameterInfo& info) { return info.name == name; });
+  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+}  // namespace hauberk

@@ -1,0 +1,35 @@
+#pragma once
+/// The parts that read_experiment is made of, one per section of the file. Each reads a checked section,
+/// reports mistakes and fills what can be filled; defaults that depend on other sections are written back.
+
+#include "plugin_resolver.hpp"
+
+#include <hauberk/experiment/experiment.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk {
+
+/// Reports entries of `directions` that repeat an earlier one modulo 180 degrees.
+void check_directions(const std::vector<std::pair<const Node*, double>>& directions, Problems& problems);
+
+/// solver. The experiment's seed must have been read.
+ExperimentSolver read_solver(Node& section, std::uint64_t seed);
+
+/// load_case: plugin, directions, senses, into `experiment`, whose scene.length must be set.
+void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Experiment& experiment);
+
+/// design; needs scene, load case and solver of `experiment`. `scene_complete`: nothing was wrong with it.
+ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& problems,
+                             const Experiment& experiment, bool scene_complete);
+
+/// design.variables.
+std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec& scene, bool scene_complete,
+                                               Problems& problems);
+
+/// expect.
+std::vector<Expectation> read_expectations(const Node& list, Problems& problems);
+
+}  // namespace hauberk

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Sets up, then redesigns a chainmail so that its limits meet published targets.
+#
+#   share/demo.sh [DIR] [options of `hauberk run`]     results go to DIR (default: out/chainmail_c of the checkout)
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+
+out=$(dirname "$here")/out/chainmail_c
+if (($# > 0)) && [[ $1 != -* ]]; then
+  out=$1
+  shift
+fi
+
+"$here/setup.sh"
+status=0
+"$(dirname "$here")/build/release/bin/hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force "$@" || status=$?
+
+out=$(cd "$out" 2>/dev/null && pwd) || exit "$status"
+echo
+for plot in "$out"/*.svg; do
+  [[ -e $plot ]] && echo "demo: limits before and after, as a polar plot: $plot"
+done
+[[ -e $out/results.json ]] && echo "demo: everything that was computed:             $out/results.json"
+exit "$status"

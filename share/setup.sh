@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# Installs what is missing to build Hauberk on Debian 12, then builds it. Safe to run again.
+#
+#   share/setup.sh              packages, then the program and its plugins in build/release
+#   share/setup.sh --no-build   packages only
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=(
+  g++ cmake ninja-build
+  libeigen3-dev                     # vectors and matrices
+  libboost1.81-dev                  # plugin loading, intervals (1.74, the default, is too old)
+  libboost-json1.81-dev libboost-program-options1.81-dev
+  libsuitesparse-dev                # CHOLMOD
+  libfmt-dev
+  libgtest-dev python3-jsonschema   # tests only
+)
+
+usage() { sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+build=yes
+for argument in "$@"; do
+  case $argument in
+    --no-build) build=no ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "setup: unknown option '$argument'" >&2; usage >&2; exit 2 ;;
+  esac
+done
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    # "ok installed": a removed package whose settings were kept does not count.
+    [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) == *"ok installed" ]] || echo "$package"
+  done
+}
+
+as_root() {
+  if [[ $(id -u) == 0 ]]; then
+    "$@"
+  elif ! command -v sudo >/dev/null; then
+    echo "setup: not root, and there is no sudo; run as root: $*" >&2
+    exit 1
+  elif [[ -t 0 ]]; then
+    sudo "$@"
+  else
+    sudo -n "$@"  # nobody there to type a password
+  fi
+}
+
+install_packages() {
+  local quiet=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
+  # --no-remove: Boost 1.81 cannot be installed beside the development files of another Boost.
+  local install=("${quiet[@]}" install --yes --no-remove --no-install-recommends "$@")
+  if apt-cache show "$@" >/dev/null 2>&1 && as_root "${install[@]}"; then return; fi
+  echo "setup: package lists are missing or old: apt-get update"
+  as_root "${quiet[@]}" update
+  if as_root "${install[@]}"; then return; fi
+  echo "setup: apt-get could not install: $*" >&2
+  echo "setup: on Debian 12, if it would remove libboost1.74-dev or the like, remove that first" >&2
+  exit 1
+}
+
+if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
+  mapfile -t missing < <(missing_packages)
+  if ((${#missing[@]} == 0)); then
+    echo "setup: all packages are there"
+  else
+    echo "setup: installing ${missing[*]}"
+    install_packages "${missing[@]}"
+  fi
+else
+  echo "setup: no Debian package manager; these must be there already: ${packages[*]}"
+fi
+
+if [[ $build == yes ]]; then
+  echo "setup: building in build/release"
+  cmake --preset release --log-level=WARNING
+  cmake --build --preset release --parallel "$(nproc)" --target program
+  echo "setup: done: build/release/bin/hauberk"
+fi

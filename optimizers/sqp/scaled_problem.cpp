@@ -1,0 +1,81 @@
+#include "scaled_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+VectorXd copy(std::span<const double> x)
+{
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size()));
+}
+
+std::span<const double> view(const VectorXd& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
+
+}  // namespace
+
+ScaledProblem::ScaledProblem(OptimizationProblem& problem, std::span<const double> start)
+    : problem_(problem), lower_(copy(problem.lower())), upper_(copy(problem.upper())), scale_(upper_ - lower_)
+{
+  for (Index i = 0; i < scale_.size(); ++i) {
+    if (std::isfinite(scale_[i]) && scale_[i] > 0.0) continue;
+    scale_[i] = std::max(1.0, std::abs(start[static_cast<std::size_t>(i)]));
+  }
+}
+
+VectorXd ScaledProblem::moved(const VectorXd& x, const VectorXd& d, double alpha) const
+{
+  return (x + alpha * scale_.cwiseProduct(d)).cwiseMax(lower_).cwiseMin(upper_);
+}
+
+Trial ScaledProblem::evaluate(const VectorXd& x)
+{
+  ++evaluations_;
+  OptimizationProblem::Evaluation evaluation = problem_.evaluate(view(x), true);
+  Trial trial;
+  trial.value = evaluation.value;
+  trial.why = std::move(evaluation.why);
+  if (!evaluation.ok) return trial;
+  if (evaluation.gradient.size() != static_cast<std::size_t>(x.size())) {
+    trial.why = "the gradient has " + std::to_string(evaluation.gradient.size()) + " components";
+    return trial;
+  }
+  trial.gradient = copy(evaluation.gradient).cwiseProduct(scale_);
+  trial.ok = std::isfinite(trial.value) && trial.gradient.allFinite();
+  if (!trial.ok) trial.why = "the value or its gradient is not finite";
+  return trial;
+}
+
+VectorXd ScaledProblem::constraints(const VectorXd& x)
+{
+  VectorXd c(problem_.constraint_count());
+  if (c.size() > 0) problem_.constraints(view(x), {c.data(), static_cast<std::size_t>(c.size())}, {});
+  return c;
+}
+
+void ScaledProblem::linearise(const VectorXd& x, Linearisation& at)
+{
+  at.c.resize(problem_.constraint_count());
+  RowMajor J(at.c.size(), x.size());
+  if (at.c.size() > 0) {
+    problem_.constraints(view(x), {at.c.data(), static_cast<std::size_t>(at.c.size())},
+                         {J.data(), static_cast<std::size_t>(J.size())});
+  }
+  at.J = J * scale_.asDiagonal();
+}
+
+double ScaledProblem::largest_safe_step(const VectorXd& x, const VectorXd& d)
+{
+  const VectorXd unscaled = scale_.cwiseProduct(d);
+  const double alpha = problem_.largest_safe_step(view(x), view(unscaled));
+  return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0;  // not-a-number: nothing is safe
+}
+
+void ScaledProblem::accept(const VectorXd& x) { problem_.accept(view(x)); }
+
+}  // namespace hauberk

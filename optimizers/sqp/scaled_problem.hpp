@@ -1,0 +1,54 @@
+#pragma once
+/// A kernel problem in variables scaled by their ranges, with checked values and counted calls.
+
+#include "subproblem.hpp"
+
+#include <hauberk/optimizer.hpp>
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+
+namespace hauberk {
+
+/// Objective and gradient at one point; `ok` is false when either could not be had.
+struct Trial {
+  bool ok = false;
+  double value = 0.0;
+  Eigen::VectorXd gradient;  ///< with respect to scaled variables
+  std::string why;
+};
+
+/// x = scale * z, component-wise, with scale = upper - lower (where that is 0 or infinite, max(1, |start|)),
+/// so that a step of 1 crosses a variable's range. Points are kept in x, which alone goes to the problem;
+/// steps and derivatives are scaled.
+class ScaledProblem {
+ public:
+  ScaledProblem(OptimizationProblem& problem, std::span<const double> start);
+
+  Eigen::Index size() const { return scale_.size(); }
+
+  /// Bounds of a scaled step from x.
+  Eigen::VectorXd step_lower(const Eigen::VectorXd& x) const { return (lower_ - x).cwiseQuotient(scale_); }
+  Eigen::VectorXd step_upper(const Eigen::VectorXd& x) const { return (upper_ - x).cwiseQuotient(scale_); }
+  /// x + alpha scale d, within the bounds.
+  Eigen::VectorXd moved(const Eigen::VectorXd& x, const Eigen::VectorXd& d, double alpha) const;
+
+  /// Value and gradient together: the gradient costs hardly more, and nearly every accepted point needs it.
+  Trial evaluate(const Eigen::VectorXd& x);
+  Eigen::VectorXd constraints(const Eigen::VectorXd& x);
+  /// Fills c and J.
+  void linearise(const Eigen::VectorXd& x, Linearisation& at);
+  /// In [0, 1].
+  double largest_safe_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d);
+  void accept(const Eigen::VectorXd& x);
+
+  int evaluations() const { return evaluations_; }
+
+ private:
+  OptimizationProblem& problem_;
+  Eigen::VectorXd lower_, upper_, scale_;
+  int evaluations_ = 0;
+};
+
+}  // namespace hauberk

@@ -1,0 +1,36 @@
+#pragma once
+/// The quadratic model of a constrained problem at an iterate, and the step it proposes.
+
+#include <Eigen/Core>
+
+namespace hauberk {
+
+/// First-order information at an iterate.
+struct Linearisation {
+  Eigen::VectorXd gradient;  ///< n
+  Eigen::VectorXd c;         ///< m constraint values, feasible where >= 0
+  Eigen::MatrixXd J;         ///< m x n
+};
+
+/// sum_i max(0, -c_i).
+double total_violation(const Eigen::VectorXd& c);
+/// max(0, -min c).
+double largest_violation(const Eigen::VectorXd& c);
+
+struct Step {
+  bool ok = false;
+  bool elastic = false;          ///< the linearised constraints had no common point and were relaxed
+  Eigen::VectorXd d;             ///< n
+  Eigen::VectorXd multipliers;   ///< m, >= 0
+  double model_violation = 0.0;  ///< total violation of c + J d
+};
+
+/// min g.d + 1/2 d.B d subject to c + J d >= 0 and lower <= d <= upper, where lower <= 0 <= upper.
+///
+/// Where the constraints have no common point, those that are violated at d = 0 get a slack each whose sum is
+/// charged with an exact penalty, raised from `penalty` until a dearer slack would not get smaller; the result
+/// then reduces the violation as far as the model allows.
+Step propose_step(const Eigen::MatrixXd& B, const Linearisation& at, const Eigen::VectorXd& lower,
+                  const Eigen::VectorXd& upper, double penalty);
+
+}  // namespace hauberk

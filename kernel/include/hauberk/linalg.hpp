@@ -5,6 +5,7 @@
 /// 3x3 matrices of double (24 and 72 bytes, never over-aligned) and spans of double.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <numbers>
 #include <span>
 

@@ -27,8 +27,8 @@ struct PositionMap {
   Vec3 x = Vec3::Zero();
   /// dx/d(macro, e): column k < macro_count is macro k, column macro_count + k is element coordinate k.
   Eigen::Matrix<double, 3, n> J = Eigen::Matrix<double, 3, n>::Zero();
-  /// Second derivatives of each component; only read when `curved`.
-  std::array<std::array<std::array<double, n>, n>, 3> H{};
+  /// Second derivatives of each component; left unset and not read unless `curved`.
+  std::array<std::array<std::array<double, n>, n>, 3> H;
   bool curved = false;
 };
 

@@ -1,0 +1,61 @@
+#pragma once
+/// Minimisation of E(y) = -load . macro + mu contact(y) at fixed stiffness, without passing through anything.
+
+#include <hauberk/mechanics/contact_energy.hpp>
+
+#include <functional>
+#include <string>
+
+namespace hauberk {
+
+/// One stage: contact formulation, activation distance and stiffness (scaled).
+struct Stage {
+  ContactSettings contact;
+  double mu = 0.0;          ///< E has the unit of the value
+  double tolerance = 1e-3;  ///< stop when the Newton step can lower E by less than tolerance * mu
+  int most_iterations = 200;
+};
+
+enum class StageStatus { minimum, stalled, iteration_limit, unbounded, interrupted };
+
+/// Outcome of a stage.
+struct StageResult {
+  StageStatus status = StageStatus::stalled;
+  std::string message;
+  int iterations = 0;
+  long evaluations = 0;
+  double energy = 0.0;
+  double residual = 0.0;        ///< norm of dE/dy over the norm of the load, in the dual of the step norm
+  double lowest_curvature = 0;  ///< smallest eigenvalue of the Hessian in the step norm, when it was needed
+  int escapes = 0;              ///< saddles left along a direction of negative curvature
+  double regularity = 0.0;      ///< smallest relative curvature over the contacts (nearest)
+};
+
+/// Called between iterations; returns false to interrupt. Must be thread safe.
+using KeepGoing = std::function<bool()>;
+
+/// Trust-region Newton from `state` (gaps positive) to a minimum of E.
+///
+/// Every trial step is first shortened by conservative advancement, so the path from the first to the last
+/// state is free of intersections; F stays positive definite. The quadratic model is shifted by
+/// lambda * metric until it is positive definite and its step stays within the trust radius. A stationary
+/// point with negative curvature is left along it. Null directions (spins, rattlers, translations) carry a
+/// tiny shift and cost nothing. Thread safe; deterministic.
+StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
+                        const KeepGoing& keep_going);
+
+/// -load . macro + mu contact, with derivatives as asked.
+struct TotalEnergy {
+  double energy = 0.0;
+  Vector gradient;
+  Matrix hessian;
+  ContactEnergy contact;
+  bool admissible = false;  ///< all gaps positive
+};
+TotalEnergy total_energy(const Model& model, const State& state, const Vector& load, const Stage& stage,
+                         const std::vector<ElementPair>& pairs, int order);
+
+/// Element pairs that can matter within this stage's range, in this state.
+std::vector<ElementPair> stage_pairs(const Model& model, const State& state, const Stage& stage);
+
+}  // namespace hauberk

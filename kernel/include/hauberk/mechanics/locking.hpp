@@ -1,0 +1,61 @@
+#pragma once
+/// From a state to the locked state that a load drives it to: stages of falling activation distance.
+
+#include <hauberk/mechanics/equilibrium.hpp>
+
+#include <optional>
+
+namespace hauberk {
+
+/// How contact is treated along the stages.
+enum class ContactChoice {
+  automatic,  ///< arc while contacts may merge and split, nearest to finish; arc again where nearest stalls
+  nearest,
+  arc
+};
+
+/// Stages g_hat = first, first * ratio, ... down to last (lengths in L), mu = stiffness * g_hat * |load|.
+struct Schedule {
+  double first = 0.03;
+  double ratio = 0.1;
+  double last = 1e-8;
+  double change = 3e-4;       ///< `automatic` changes from arc to nearest at this activation distance
+  double stiffness = 0.03;    ///< sets gaps at equilibrium to about a tenth of g_hat
+  double tolerance = 1e-3;    ///< of a stage, relative to its mu
+  double last_tolerance = 1e-8;
+  int most_iterations = 300;  ///< per stage
+};
+
+/// One finished stage.
+struct StageRecord {
+  double g_hat = 0.0, value = 0.0, estimate = 0.0;  ///< estimate = -E, value minus contact energy
+  Formulation formulation = Formulation::arc;
+  int iterations = 0;
+  double residual = 0.0;
+  int escapes = 0;
+};
+
+enum class LockStatus { locked, stalled, unbounded, interrupted };
+
+/// A locked state and how it was reached.
+struct Locked {
+  LockStatus status = LockStatus::stalled;
+  std::string message;
+  State state;
+  Stage stage;                    ///< the last one finished
+  std::vector<StageRecord> stages;
+  int iterations = 0;
+  long evaluations = 0;
+  std::optional<State> warm;      ///< state of the stage nearest to a gap of about 1e-2 L, for warm starts
+  std::optional<double> error_estimate;
+};
+
+/// The load on the macroscopic unknowns for a direction and sense.
+Vector load_vector(const Model& model, double theta, Sense sense);
+
+/// Runs all stages from `start`. Later stages start from the extrapolation of the last two, along which
+/// positions are linear in g_hat. Thread safe; deterministic.
+Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+            const Schedule& schedule, const KeepGoing& keep_going);
+
+}  // namespace hauberk

@@ -1,0 +1,36 @@
+#pragma once
+/// Conservative advancement: how far along a step nothing collides, certified.
+
+#include <hauberk/mechanics/model.hpp>
+
+namespace hauberk {
+
+/// A motion of the whole model over s in [0, 1]: state advanced along dy, with primitives changing by at
+/// most a known speed.
+struct Motion {
+  const Model* model = nullptr;
+  const State* from = nullptr;
+  const Vector* dy = nullptr;
+};
+
+/// What the check found.
+struct SafeStep {
+  double alpha = 1.0;      ///< nothing collides for s in [0, alpha]
+  long evaluations = 0;
+  int tight_pairs = 0;     ///< pairs that needed more than the first look
+};
+
+/// Largest certified alpha: for every pair of bodies the gap stays above `keep` times its certified gap at
+/// the start. Gaps are surface distances minus clearance.
+///
+/// Over s in [s0, s0 + tau] the field at a probe point is bounded below by its value and first derivatives
+/// at (u_mid, s0), and by second derivatives of known size:
+///   phi >= phi_mid - |phi_u| h + min(0, phi_s) tau
+///          - 1/2 ((|p_u| h + V tau)^2/rho_min + |p_uu| h^2 + a tau^2 + 2 W |p_u| h tau),
+/// V: bound of the relative speed of material points, a: of their relative acceleration in F's frame, W: of
+/// the relative angular speed. Panels are halved where the bound fails because of h, tau where it fails
+/// because of tau. As tangential sliding enters only through V^2 tau^2, sliding at a small gap costs
+/// V/sqrt(g rho) steps, not V/g. Thread safe, deterministic.
+SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep);
+
+}  // namespace hauberk

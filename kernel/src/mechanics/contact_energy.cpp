@@ -1,0 +1,276 @@
+#include <hauberk/contact/barrier.hpp>
+#include <hauberk/mechanics/contact_energy.hpp>
+
+namespace hauberk {
+namespace {
+
+/// Most unknowns one pair can touch: macro, two elements' coordinates and rotations.
+constexpr int most_local = max_macro + 2 * (max_coordinates + 3);
+
+class Assembler {
+ public:
+  Assembler(const Model& model, const State& state, const ContactSettings& settings, const Request& request)
+      : m_(model), s_(state), settings_(settings), request_(request), maps_(model.rest.size())
+  {
+    for (int i = 0; i < m_.element_count(); ++i) map(i, {0, 0}, maps_[static_cast<std::size_t>(i)]);
+    if (request_.order >= 1) out_.gradient = Vector::Zero(m_.dofs());
+    if (request_.order >= 2) out_.hessian = Matrix::Zero(m_.dofs(), m_.dofs());
+    if (request_.parameters) {
+      int most = 0;
+      for (const int n : m_.parameter_count) most = std::max(most, n);
+      out_.parameters = Matrix::Zero(most, m_.element_count());
+    }
+  }
+
+  void add_pair(const ElementPair& pair)
+  {
+    PositionMap image;
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const bool shifted = pair.image != Image{0, 0};
+    if (shifted) map(pair.j, pair.image, image);
+    const PositionMap& mj = shifted ? image : maps_[j];
+    const Pose pi{maps_[i].x, s_.rotation[i]}, pj{mj.x, s_.rotation[j]};
+    const double range = settings_.g_hat + settings_.clearance;
+    if ((pi.position - pj.position).norm() >= m_.reach[i] + m_.reach[j] + range) return;
+    PairTerms sum;
+    bool any = false;
+    for (int a = m_.first_body[i]; a < m_.first_body[i + 1]; ++a) {
+      const Body& A = m_.bodies[static_cast<std::size_t>(a)];
+      const Vec3 ca = pi.position + pi.rotation * A.center;
+      for (int b = m_.first_body[j]; b < m_.first_body[j + 1]; ++b) {
+        const Body& B = m_.bodies[static_cast<std::size_t>(b)];
+        const Vec3 cb = pj.position + pj.rotation * B.center;
+        if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
+        any |= add_bodies(a, b, pair.image, pi, pj, sum);
+      }
+    }
+    if (any && request_.order >= 1) scatter(pair, maps_[i], mj, sum);
+  }
+
+  void add_walls()
+  {
+    const int nc = m_.coordinate_count;
+    for (std::size_t w = 0; w < m_.walls.size(); ++w) {
+      const LinearInequality& wall = m_.walls[w];
+      double g = wall.offset;
+      for (const auto& t : wall.terms) g += t.coefficient * s_.e[t.element * nc + t.coordinate];
+      out_.min_gap = std::min(out_.min_gap, g);
+      if (g <= 0.0 || g >= settings_.g_hat) continue;
+      const BarrierValue b = barrier<0>(g, settings_.g_hat);
+      out_.energy += b.b;
+      if (request_.order >= 1) {
+        for (const auto& t : wall.terms) out_.gradient[m_.offset(t.element) + t.coordinate] += b.db * t.coefficient;
+      }
+      if (request_.order >= 2) {
+        for (const auto& t : wall.terms) {
+          for (const auto& r : wall.terms) {
+            out_.hessian(m_.offset(t.element) + t.coordinate, m_.offset(r.element) + r.coordinate) +=
+                b.ddb * t.coefficient * r.coefficient;
+          }
+        }
+      }
+      if (request_.points) {
+        ContactEnergy::Point p;
+        p.a = wall.terms.front().element;
+        p.b = -1;
+        p.wall = static_cast<int>(w);
+        p.contact.gap = g;
+        p.contact.force = -b.db;
+        p.contact.on_p = p.contact.on_f = maps_[static_cast<std::size_t>(p.a)].x;
+        Vec3 n = Vec3::Zero();
+        n[wall.terms.front().coordinate] = wall.terms.front().coefficient > 0 ? -1.0 : 1.0;
+        p.contact.normal = n;  // towards the wall
+        out_.points.push_back(p);
+      }
+    }
+  }
+
+  ContactEnergy take() { return std::move(out_); }
+
+ private:
+  void map(int element, const Image& image, PositionMap& out) const
+  {
+    m_.load->position({s_.macro.data(), static_cast<std::size_t>(m_.macro_count)},
+                      {s_.e.data() + element * m_.coordinate_count, static_cast<std::size_t>(m_.coordinate_count)},
+                      m_.rest[static_cast<std::size_t>(element)].position, m_.translation(image), out);
+  }
+
+  bool add_bodies(int a, int b, const Image& image, const Pose& pa, const Pose& pb, PairTerms& sum)
+  {
+    const Body& A = m_.bodies[static_cast<std::size_t>(a)];
+    const Body& B = m_.bodies[static_cast<std::size_t>(b)];
+    const int da = probe_dimension(A), db = probe_dimension(B);
+    const bool arc = settings_.formulation == Formulation::arc;
+    // The cheaper probe set; both, half each, for an arc between equals, so that labels do not matter.
+    const bool both = arc && da == db;
+    bool any = false;
+    if (da <= db || both) any |= add_side(a, b, image, pa, pb, both ? 0.5 : 1.0, sum, false);
+    if (da > db || both) any |= add_side(b, a, image, pb, pa, both ? 0.5 : 1.0, sum, true);
+    return any;
+  }
+
+  bool add_side(int p, int f, const Image& image, const Pose& pp, const Pose& pf, double share, PairTerms& sum,
+                bool swapped)
+  {
+    const Body& P = m_.bodies[static_cast<std::size_t>(p)];
+    const Body& F = m_.bodies[static_cast<std::size_t>(f)];
+    const PairFrame frame(P, pp, F, pf);
+    SideTerms t;
+    if (settings_.formulation == Formulation::arc) {
+      if (P.is_tube()) {
+        add_arc<1>(frame, settings_, request_, share, t);
+      } else {
+        add_arc<2>(frame, settings_, request_, share, t);
+      }
+    } else if (P.is_tube()) {
+      add_nearest<1>(frame, settings_, request_, t);
+    } else {
+      add_nearest<2>(frame, settings_, request_, t);
+    }
+    out_.evaluations += t.evaluations;
+    out_.min_gap = std::min(out_.min_gap, t.min_gap);
+    out_.regularity = std::min(out_.regularity, t.regularity);
+    if (t.energy == 0.0) return false;
+    out_.energy += t.energy;
+    if (request_.order >= 1) {
+      const PairTerms w = to_world(t, frame.M, pp.position - pf.position, request_.order);
+      accumulate(w, swapped, sum);
+    }
+    if (request_.parameters) add_parameters(p, f, frame.M, pp, pf, t);
+    if (request_.points) {
+      for (ContactPoint c : t.points) {
+        const Vec3 origin = pf.position + pf.rotation * F.center;
+        c.on_p = origin + frame.M * c.on_p;
+        c.on_f = origin + frame.M * c.on_f;
+        c.normal = -(frame.M * c.normal);  // from P to F
+        ContactEnergy::Point q;
+        q.image = image;
+        q.contact = c;
+        q.a = p;
+        q.b = f;
+        if (swapped) {
+          std::swap(q.a, q.b);
+          std::swap(q.contact.on_p, q.contact.on_f);
+          q.contact.normal = -q.contact.normal;
+        }
+        out_.points.push_back(q);
+      }
+    }
+    return true;
+  }
+
+  /// Adds terms in (x_P - x_F, w_P, w_F) to terms in (x_A - x_B, w_A, w_B).
+  void accumulate(const PairTerms& w, bool swapped, PairTerms& sum) const
+  {
+    sum.energy += w.energy;
+    if (!swapped) {
+      sum.gradient += w.gradient;
+      if (request_.order >= 2) sum.hessian += w.hessian;
+      return;
+    }
+    constexpr std::array<int, 9> at{0, 1, 2, 6, 7, 8, 3, 4, 5};
+    for (int i = 0; i < 9; ++i) {
+      const double si = i < 3 ? -1.0 : 1.0;
+      sum.gradient[at[static_cast<std::size_t>(i)]] += si * w.gradient[i];
+      if (request_.order < 2) continue;
+      for (int j = 0; j < 9; ++j) {
+        sum.hessian(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]) +=
+            si * (j < 3 ? -1.0 : 1.0) * w.hessian(i, j);
+      }
+    }
+  }
+
+  /// Chain rule from (x_A - x_B, w_A, w_B) to the unknowns, through the load case's position maps.
+  void scatter(const ElementPair& pair, const PositionMap& A, const PositionMap& B, const PairTerms& t)
+  {
+    const int nm = m_.macro_count, nc = m_.coordinate_count;
+    const int n = nm + 2 * nc + 6;
+    Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_local> C(9, n);
+    C.setZero();
+    std::array<int, most_local> index{};
+    const auto at = [&index](int k) -> int& { return index[static_cast<std::size_t>(k)]; };
+    for (int k = 0; k < nm; ++k) at(k) = k;
+    for (int k = 0; k < nc; ++k) {
+      at(nm + k) = m_.offset(pair.i) + k;
+      at(nm + nc + k) = m_.offset(pair.j) + k;
+    }
+    for (int k = 0; k < 3; ++k) {
+      at(nm + 2 * nc + k) = m_.offset(pair.i) + nc + k;
+      at(nm + 2 * nc + 3 + k) = m_.offset(pair.j) + nc + k;
+    }
+    C.topLeftCorner(3, nm) = A.J.leftCols(nm) - B.J.leftCols(nm);
+    C.block(0, nm, 3, nc) = A.J.middleCols(nm, nc);
+    C.block(0, nm + nc, 3, nc) = -B.J.middleCols(nm, nc);
+    C.bottomRightCorner<6, 6>().setIdentity();
+
+    const auto g = (C.transpose() * t.gradient).eval();
+    for (int k = 0; k < n; ++k) out_.gradient[at(k)] += g[k];
+    if (request_.order < 2) return;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_local, most_local> H(n, n);
+    H.noalias() = C.transpose() * (t.hessian * C).eval();
+    if (A.curved || B.curved) add_curvature(A, B, t.gradient.head<3>(), H);
+    for (int c = 0; c < n; ++c) {
+      for (int r = 0; r < n; ++r) out_.hessian(at(r), at(c)) += H(r, c);
+    }
+  }
+
+  /// gradient . second derivatives of the positions.
+  template <typename Local>
+  void add_curvature(const PositionMap& A, const PositionMap& B, const Vec3& g, Local& H) const
+  {
+    const int nm = m_.macro_count, nc = m_.coordinate_count;
+    for (int r = 0; r < nm + nc; ++r) {
+      for (int c = 0; c < nm + nc; ++c) {
+        double ha = 0.0, hb = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto rr = static_cast<std::size_t>(r), cc = static_cast<std::size_t>(c);
+          if (A.curved) ha += g[static_cast<int>(k)] * A.H[k][rr][cc];
+          if (B.curved) hb -= g[static_cast<int>(k)] * B.H[k][rr][cc];
+        }
+        H(r, c) += ha;
+        H(r < nm ? r : r + nc, c < nm ? c : c + nc) += hb;
+      }
+    }
+  }
+
+  /// Chain rule to element parameters; positions of bodies are in the element frame.
+  void add_parameters(int p, int f, const Mat3& M, const Pose& pp, const Pose& pf, const SideTerms& t)
+  {
+    out_.d_clearance += t.d_clearance;
+    const auto add = [&](int body, const Pose& pose, const std::array<double, primitive_dofs>& d) {
+      const auto k = static_cast<std::size_t>(body);
+      const Vec3 local = pose.rotation.transpose() * (M * Vec3(d[0], d[1], d[2]));
+      const std::array<double, primitive_dofs> full{local[0], local[1], local[2], d[3], d[4], d[5]};
+      const int element = m_.bodies[k].element;
+      const int n = m_.parameter_count[static_cast<std::size_t>(element)];
+      for (int r = 0; r < primitive_dofs; ++r) {
+        for (int c = 0; c < n; ++c) {
+          out_.parameters(c, element) += full[static_cast<std::size_t>(r)] *
+                                         m_.jacobians[k][static_cast<std::size_t>(r * n + c)] / m_.length;
+        }
+      }
+    };
+    add(p, pp, t.dP);
+    add(f, pf, t.dF);
+  }
+
+  const Model& m_;
+  const State& s_;
+  const ContactSettings& settings_;
+  const Request& request_;
+  std::vector<PositionMap> maps_;
+  ContactEnergy out_;
+};
+
+}  // namespace
+
+ContactEnergy contact_energy(const Model& model, const State& state, const std::vector<ElementPair>& pairs,
+                             const ContactSettings& settings, const Request& request)
+{
+  Assembler a(model, state, settings, request);
+  for (const ElementPair& p : pairs) a.add_pair(p);
+  a.add_walls();
+  return a.take();
+}
+
+}  // namespace hauberk

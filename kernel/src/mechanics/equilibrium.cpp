@@ -1,0 +1,245 @@
+#include <hauberk/mechanics/equilibrium.hpp>
+#include <hauberk/motion/advancement.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+constexpr double first_radius = 0.1;    ///< L: trust radius at the start of a stage
+constexpr double largest_radius = 0.5;  ///< L
+constexpr double smallest_radius = 1e-13;
+constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
+constexpr double keep_gap = 0.1;        ///< a step may use up this much less than all of any gap
+constexpr double noise = 1e-15;         ///< relative rounding of energies
+
+/// Shift that null directions carry, relative to the largest scaled diagonal of the Hessian (rounding) and
+/// to the load (curvatures below it do not matter).
+constexpr double rounding_shift = 1e-14;
+constexpr double load_shift = 1e-7;
+
+/// Curvature below -this times the load counts as a saddle.
+constexpr double saddle_curvature = 1e-5;
+
+/// Step of the shifted Newton system.
+struct Step {
+  Vector dy;
+  double lambda = 0.0;
+  double predicted = 0.0;  ///< decrease of the unshifted quadratic model, >= 0
+  bool shifted = false;    ///< lambda had to exceed the floor
+};
+
+class Newton {
+ public:
+  Newton(const Model& m, State& state, const Vector& load, const Stage& stage, const KeepGoing& keep_going)
+      : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going)
+  {
+    load_norm_ = std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
+  }
+
+  StageResult run()
+  {
+    pairs_ = stage_pairs(m_, state_, stage_);
+    TotalEnergy now = total_energy(m_, state_, load_, stage_, pairs_, 2);
+    result_.evaluations += now.contact.evaluations;
+    if (!now.admissible) return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
+    double radius = first_radius;
+    int rejected = 0;
+    bool escaping = false;
+    for (;;) {
+      if (!keep_going_()) return finish(now, StageStatus::interrupted, "interrupted");
+      if (result_.iterations >= stage_.most_iterations) {
+        return finish(now, StageStatus::iteration_limit,
+                      fmt::format("no minimum after {} Newton steps", result_.iterations));
+      }
+      Step step = newton_step(now, radius);
+      bool escape = false;
+      if (step.predicted < stage_.tolerance * stage_.mu || (escaping && rejected > 0)) {
+        if (!step.shifted) return finish(now, StageStatus::minimum, "");
+        // Negative curvature that lowers the energy by nothing at any length was rounding.
+        if (escaping && radius < smallest_escape) return finish(now, StageStatus::minimum, "");
+        if (!saddle_step(now, radius, step)) return finish(now, StageStatus::minimum, "");
+        escape = true;
+      }
+      escaping = escape;
+      ++result_.iterations;
+
+      State trial;
+      TotalEnergy next;
+      const double alpha = try_step(step.dy, trial, next);
+      const double gs = now.gradient.dot(step.dy);
+      const double predicted = alpha > 0.0 ? -(alpha * gs + 0.5 * alpha * alpha * step.dy.dot(now.hessian * step.dy)) : 0.0;
+      const double actual = now.energy - next.energy;
+      const double length = step_norm(m_, step.dy);
+      const double rounding = noise * (std::abs(now.energy) + 1.0);
+      // Below the rounding of the energy the gradient decides.
+      const bool tiny = std::abs(predicted) < 50.0 * rounding;
+      const bool better = alpha > 0.0 && next.admissible &&
+                          (tiny ? dual_norm(next.gradient) < dual_norm(now.gradient)
+                                : actual > 1e-3 * std::max(predicted, 0.0));
+      if (!better) {
+        if (tiny && next.admissible && !step.shifted) return finish(now, StageStatus::minimum, "");
+        ++rejected;
+        radius = 0.25 * std::min(radius, std::max(alpha, 1e-3) * length);
+        if (radius < smallest_radius) {
+          return finish(now, StageStatus::stalled,
+                        fmt::format("no step lowers the energy: predicted {:.1e}, found {:.1e}, smallest gap {:.1e} L",
+                                    predicted, actual, now.contact.min_gap));
+        }
+        continue;
+      }
+      rejected = 0;
+      if (escape) ++result_.escapes;
+      const double ratio = tiny ? 1.0 : actual / std::max(predicted, 1e-300);
+      if (ratio < 0.25) {
+        radius = 0.5 * std::min(radius, alpha * length);
+      } else if (ratio > 0.6) {
+        radius = std::min(largest_radius, std::max(radius, 2.5 * alpha * length));
+      }
+      state_ = std::move(trial);
+      now = std::move(next);
+      if (runaway()) return finish(now, StageStatus::unbounded, "the strain leaves every bound");
+    }
+  }
+
+ private:
+  StageResult finish(const TotalEnergy& e, StageStatus status, std::string message)
+  {
+    result_.status = status;
+    result_.message = std::move(message);
+    result_.energy = e.energy;
+    result_.residual = e.admissible ? dual_norm(e.gradient) / load_norm_ : 0.0;
+    result_.regularity = e.contact.regularity;
+    return result_;
+  }
+
+  double dual_norm(const Vector& g) const
+  {
+    return std::sqrt((g.cwiseAbs2().array() / m_.metric.array()).sum());
+  }
+
+  Step newton_step(const TotalEnergy& e, double radius)
+  {
+    Step s;
+    const double scale = (e.hessian.diagonal().cwiseAbs().array() / m_.metric.array()).maxCoeff();
+    const double floor = std::max(load_shift * load_norm_, rounding_shift * scale);
+    double lambda = floor, too_low = 0.0;
+    for (int it = 0; it < 60; ++it) {
+      Matrix A = e.hessian;
+      A.diagonal() += lambda * m_.metric;
+      Eigen::LLT<Eigen::Ref<Matrix>> llt(A);
+      if (llt.info() != Eigen::Success) {
+        too_low = lambda;
+        lambda = std::max(8.0 * lambda, 1e-4 * load_norm_);
+        s.shifted = true;
+        continue;
+      }
+      s.dy = -llt.solve(e.gradient);
+      s.lambda = lambda;
+      const double norm = step_norm(m_, s.dy);
+      if (norm <= 1.1 * radius) break;
+      // Newton on the secular equation 1/norm(lambda) = 1/radius.
+      const Vector w = m_.metric.cwiseProduct(s.dy);
+      const double q = w.dot(llt.solve(w));
+      double next = lambda + (norm * norm / q) * (norm - radius) / radius;
+      if (!(next > lambda)) next = 2.0 * lambda;
+      lambda = std::max(next, too_low * 1.5);
+      if (lambda > 2.0 * floor) s.shifted = true;
+    }
+    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(e.hessian * s.dy));
+    if (s.predicted < 0.0) s.predicted = -0.5 * e.gradient.dot(s.dy);
+    return s;
+  }
+
+  /// At a stationary point that may be a saddle: a step along the most negative curvature, or false.
+  bool saddle_step(const TotalEnergy& e, double radius, Step& s)
+  {
+    const Vector root = m_.metric.cwiseSqrt().cwiseInverse();
+    const Matrix scaled = root.asDiagonal() * e.hessian * root.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix> eig(scaled);
+    const double lowest = eig.eigenvalues()[0];
+    result_.lowest_curvature = lowest;
+    const double scale = scaled.diagonal().cwiseAbs().maxCoeff();
+    if (lowest > -std::max(saddle_curvature * load_norm_, 10.0 * rounding_shift * scale)) return false;
+    Vector d = root.cwiseProduct(eig.eigenvectors().col(0));
+    const double slope = e.gradient.dot(d);
+    if (slope > 0.0) d = -d;
+    const double length = std::min(radius, 0.05);
+    s.dy = length * d;
+    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(e.hessian * s.dy));
+    s.shifted = true;
+    return true;
+  }
+
+  /// Shortens the step until it is certified and admissible, evaluates its end. Returns the fraction taken.
+  double try_step(const Vector& dy, State& trial, TotalEnergy& next)
+  {
+    double alpha = 1.0;
+    trial = advanced(m_, state_, dy, 1.0);
+    for (int k = 0; k < 40 && !m_.load->admissible({trial.macro.data(), static_cast<std::size_t>(m_.macro_count)}); ++k) {
+      alpha *= 0.5;
+      trial = advanced(m_, state_, dy, alpha);
+    }
+    const SafeStep safe = largest_safe_step(m_, state_, alpha * dy, keep_gap);
+    result_.evaluations += safe.evaluations;
+    if (safe.alpha <= 0.0) return 0.0;
+    if (safe.alpha < 1.0) {
+      alpha *= safe.alpha;
+      trial = advanced(m_, state_, dy, alpha);
+    }
+    pairs_ = stage_pairs(m_, trial, stage_);
+    next = total_energy(m_, trial, load_, stage_, pairs_, 2);
+    result_.evaluations += next.contact.evaluations;
+    return alpha;
+  }
+
+  bool runaway() const
+  {
+    const auto [lo, hi] = m_.load->stretch_range({state_.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    return lo < 1e-3 || hi > 1e3;
+  }
+
+  const Model& m_;
+  State& state_;
+  const Vector& load_;
+  const Stage& stage_;
+  const KeepGoing& keep_going_;
+  double load_norm_ = 1.0;
+  std::vector<ElementPair> pairs_;
+  StageResult result_;
+};
+
+}  // namespace
+
+std::vector<ElementPair> stage_pairs(const Model& m, const State& s, const Stage& stage)
+{
+  return near_pairs(m, s, stage.contact.g_hat + stage.contact.clearance);
+}
+
+TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, const Stage& stage,
+                         const std::vector<ElementPair>& pairs, int order)
+{
+  TotalEnergy t;
+  Request request;
+  request.order = order;
+  t.contact = contact_energy(m, s, pairs, stage.contact, request);
+  t.admissible = t.contact.min_gap > 0.0;
+  t.energy = stage.mu * t.contact.energy - load.dot(s.macro);
+  if (order >= 1) {
+    t.gradient = stage.mu * t.contact.gradient;
+    t.gradient.head(m.macro_count) -= load;
+  }
+  if (order >= 2) t.hessian = stage.mu * t.contact.hessian;
+  return t;
+}
+
+StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
+                        const KeepGoing& keep_going)
+{
+  return Newton(model, state, load, stage, keep_going).run();
+}
+
+}  // namespace hauberk

@@ -1,0 +1,161 @@
+#include <hauberk/mechanics/locking.hpp>
+#include <hauberk/motion/advancement.hpp>
+
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+constexpr double warm_range = 0.02;     ///< L: stages with g_hat at least this are kept for warm starts
+constexpr double steady_order = 0.3;    ///< relative change of the convergence ratio that still counts as steady
+
+double load_size(const Model& m, const Vector& load)
+{
+  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
+}
+
+/// Distance to the value at g_hat = 0 from the last three stages of one formulation, when the differences
+/// shrink in proportion to g_hat.
+std::optional<double> estimate_error(const std::vector<StageRecord>& s, double ratio)
+{
+  const std::size_t n = s.size();
+  if (n < 3) return std::nullopt;
+  if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation) return std::nullopt;
+  const double d1 = s[n - 2].value - s[n - 3].value, d2 = s[n - 1].value - s[n - 2].value;
+  if (d2 == 0.0) return 0.0;
+  const double order = d2 / d1;  // about `ratio` for first order
+  if (!(order > 0.0 && std::abs(order / ratio - 1.0) < steady_order)) return std::nullopt;
+  return std::abs(d2) * order / (1.0 - order);
+}
+
+class Path {
+ public:
+  Path(const Model& m, const State& start, const Vector& load, ContactChoice choice, const Schedule& schedule,
+       const KeepGoing& keep_going)
+      : m_(m), load_(load), choice_(choice), schedule_(schedule), keep_going_(keep_going), size_(load_size(m, load))
+  {
+    out_.state = start;
+    arc_to_the_end_ = choice == ContactChoice::arc;
+  }
+
+  Locked run()
+  {
+    double g_hat = schedule_.first;
+    for (;;) {
+      const bool last = g_hat * schedule_.ratio < schedule_.last * 0.999;
+      if (!stage(g_hat, last)) return std::move(out_);
+      if (last) break;
+      g_hat *= schedule_.ratio;
+    }
+    out_.status = LockStatus::locked;
+    out_.error_estimate = estimate_error(out_.stages, schedule_.ratio);
+    return std::move(out_);
+  }
+
+ private:
+  Stage make_stage(double g_hat, bool last, Formulation f) const
+  {
+    Stage s;
+    s.contact = {f, g_hat, m_.clearance};
+    s.mu = schedule_.stiffness * g_hat * size_;
+    s.tolerance = last ? schedule_.last_tolerance : schedule_.tolerance;
+    s.most_iterations = schedule_.most_iterations;
+    return s;
+  }
+
+  Formulation formulation(double g_hat) const
+  {
+    if (choice_ == ContactChoice::nearest) return Formulation::nearest;
+    if (arc_to_the_end_) return Formulation::arc;
+    return g_hat > schedule_.change * 1.001 ? Formulation::arc : Formulation::nearest;
+  }
+
+  bool stage(double g_hat, bool last)
+  {
+    const State before = out_.state;
+    Formulation f = formulation(g_hat);
+    StageResult r = attempt(before, g_hat, last, f);
+    if (choice_ == ContactChoice::automatic && f == Formulation::nearest &&
+        (r.status == StageStatus::stalled || r.status == StageStatus::iteration_limit)) {
+      arc_to_the_end_ = true;
+      f = Formulation::arc;
+      r = attempt(before, g_hat, last, f);
+    }
+    switch (r.status) {
+      case StageStatus::minimum: break;
+      case StageStatus::interrupted: out_.status = LockStatus::interrupted; break;
+      case StageStatus::unbounded: out_.status = LockStatus::unbounded; break;
+      default: out_.status = LockStatus::stalled;
+    }
+    if (r.status != StageStatus::minimum) {
+      out_.message = r.message;
+      return false;
+    }
+    out_.stage = make_stage(g_hat, last, f);
+    StageRecord record;
+    record.g_hat = g_hat;
+    record.value = load_.dot(out_.state.macro);
+    record.estimate = -r.energy;
+    record.formulation = f;
+    record.iterations = r.iterations;
+    record.residual = r.residual;
+    record.escapes = r.escapes;
+    out_.stages.push_back(record);
+    if (g_hat >= warm_range || out_.stages.size() == 1) out_.warm = out_.state;
+    previous_ = before_valid_ ? std::optional<State>(before) : std::nullopt;
+    before_valid_ = true;
+    return true;
+  }
+
+  StageResult attempt(const State& before, double g_hat, bool last, Formulation f)
+  {
+    State s = before;
+    extrapolate(s, g_hat, f);
+    const StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_);
+    out_.iterations += r.iterations;
+    out_.evaluations += r.evaluations;
+    out_.state = std::move(s);
+    return r;
+  }
+
+  /// y(g_hat) is asymptotically linear: continue the line through the last two stages' ends.
+  void extrapolate(State& s, double g_hat, Formulation f)
+  {
+    const std::size_t n = out_.stages.size();
+    if (n < 2 || !previous_ || out_.stages[n - 1].formulation != f || out_.stages[n - 2].formulation != f) return;
+    const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
+    const Vector dy = ((g_hat - b) / (b - a)) * difference(m_, *previous_, s);
+    const SafeStep safe = largest_safe_step(m_, s, dy, 0.05);
+    out_.evaluations += safe.evaluations;
+    const State next = advanced(m_, s, dy, safe.alpha);
+    if (m_.load->admissible({next.macro.data(), static_cast<std::size_t>(m_.macro_count)})) s = next;
+  }
+
+  const Model& m_;
+  const Vector& load_;
+  ContactChoice choice_;
+  const Schedule& schedule_;
+  const KeepGoing& keep_going_;
+  double size_;
+  bool arc_to_the_end_ = false;
+  bool before_valid_ = false;
+  std::optional<State> previous_;  ///< end of the stage before the last finished one
+  Locked out_;
+};
+
+}  // namespace
+
+Vector load_vector(const Model& m, double theta, Sense sense)
+{
+  Vector t(m.macro_count);
+  m.load->load(theta, {t.data(), static_cast<std::size_t>(m.macro_count)});
+  return sense == Sense::positive ? t : Vector(-t);
+}
+
+Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+            const Schedule& schedule, const KeepGoing& keep_going)
+{
+  return Path(model, start, load, choice, schedule, keep_going).run();
+}
+
+}  // namespace hauberk

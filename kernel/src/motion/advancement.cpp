@@ -1,0 +1,227 @@
+#include <hauberk/geometry/separation.hpp>
+#include <hauberk/motion/advancement.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advances are not worth their cost
+constexpr int most_advances = 4000;
+constexpr double smallest_panel = 1e-9;    ///< radians
+
+/// Rigid motion of one element (image) over the step.
+struct Track {
+  const Model* m;
+  const State* from;
+  const Vector* dy;
+  int element;
+  Image image;
+  Vec3 w;              ///< rotation vector of the whole step
+  double acceleration; ///< bound of |x''|
+
+  Track(const Model& model, const State& state, const Vector& step, int k, const Image& im)
+      : m(&model), from(&state), dy(&step), element(k), image(im)
+  {
+    const int nc = m->coordinate_count, o = m->offset(k);
+    w = step.segment<3>(o + nc);
+    const auto n = static_cast<std::size_t>(nc), nm = static_cast<std::size_t>(m->macro_count);
+    acceleration = m->load->acceleration_bound({state.macro.data(), nm}, {step.data(), nm},
+                                               {state.e.data() + k * nc, n}, {step.data() + o, n},
+                                               m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
+  }
+
+  /// Pose and velocity at s.
+  void at(double s, Pose& pose, Vec3& velocity) const
+  {
+    const int nc = m->coordinate_count, nm = m->macro_count, o = m->offset(element);
+    std::array<double, max_macro> macro{};
+    std::array<double, max_coordinates> e{};
+    for (int k = 0; k < nm; ++k) macro[static_cast<std::size_t>(k)] = from->macro[k] + s * (*dy)[k];
+    for (int k = 0; k < nc; ++k) e[static_cast<std::size_t>(k)] = from->e[element * nc + k] + s * (*dy)[o + k];
+    PositionMap map;
+    const auto i = static_cast<std::size_t>(element);
+    m->load->position({macro.data(), static_cast<std::size_t>(nm)}, {e.data(), static_cast<std::size_t>(nc)},
+                      m->rest[i].position, m->translation(image), map);
+    pose = {map.x, rotation_exp(s * w) * from->rotation[i]};
+    velocity = map.J.leftCols(nm) * dy->head(nm) + map.J.middleCols(nm, nc) * dy->segment(o, nc);
+  }
+};
+
+/// Certifies one pair of bodies, P probing F, over the remaining step.
+template <int dim>
+class PairAdvance {
+ public:
+  PairAdvance(const Body& P, const Track& tp, const Body& F, const Track& tf, double clearance, SafeStep& count)
+      : P_(P), F_(F), tp_(tp), tf_(tf), clearance_(clearance), count_(count)
+  {
+  }
+
+  /// Largest s <= limit such that the gap stays above `target`.
+  double run(double limit, double target)
+  {
+    double s = 0.0, tau = limit;
+    for (int k = 0; k < most_advances && s < limit; ++k) {
+      begin(s);
+      tau = std::min(tau, limit - s);
+      while (!holds(tau, target)) {
+        tau *= 0.5;
+        if (tau < smallest_advance) return s;
+      }
+      s += tau;
+      tau *= 2.0;
+    }
+    return s;
+  }
+
+ private:
+  void begin(double s)
+  {
+    Pose pp, pf;
+    Vec3 vp, vf;
+    tp_.at(s, pp, vp);
+    tf_.at(s, pf, vf);
+    frame_ = PairFrame(P_, pp, F_, pf);
+    const Mat3 Mt = frame_.M.transpose();
+    const Vec3 xf = Mt * (pf.position - (pf.position + pf.rotation * F_.center));  // F's element origin
+    wp_ = Mt * tp_.w;
+    wf_ = Mt * tf_.w;
+    v_ = Mt * (vp - vf);
+    of_ = xf;
+    // Bounds of relative speed and acceleration of P's material points in F's (turning) frame.
+    // Over the remaining step the relative position r of a point from F's element origin changes by at most
+    // the relative speed itself, so bound the speed with |r| grown by it: V = v + |wp| reach + |wf| r_max.
+    const double a0 = tp_.acceleration + tf_.acceleration;
+    const double wp = tp_.w.norm(), wf = tf_.w.norm();
+    const double reach = P_.reach;
+    const double v = v_.norm() + a0;
+    const double r = (frame_.o - of_).norm() + v + reach;  // farthest any P point gets from F's origin
+    speed_ = v + wp * reach + wf * r;
+    angular_ = wp + wf;
+    acceleration_ = a0 + wp * wp * reach + wf * wf * r + 2.0 * wf * (v + wp * reach);
+  }
+
+  bool holds(double tau, double target)
+  {
+    const Probe<dim> probe(frame_);
+    constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
+    for (int i = 0; i < nu; ++i) {
+      for (int j = 0; j < nv; ++j) {
+        const Panel s{(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0};
+        if (!panel_holds(probe, s, tau, target)) return false;
+      }
+    }
+    return true;
+  }
+
+  bool panel_holds(const Probe<dim>& probe, const Panel& s, double tau, double target)
+  {
+    const ProbePoint q = probe.at(s.u, s.v);
+    const FieldValue f = field_at(F_, q.p);
+    ++count_.evaluations;
+    const double g = f.m.phi - probe.offset - clearance_;
+    if (g < target) return false;
+    const double d = probe.Lu * s.hu + probe.Lv * s.hv;
+    const double travel = speed_ * tau;
+    if (g - d - travel >= target) return true;
+
+    const double rho = f.rho - d - travel;
+    double space = std::abs(f.n.dot(q.pu)) * s.hu;
+    double second = probe.Lu * s.hu * s.hu;
+    if constexpr (dim == 2) {
+      space += std::abs(f.n.dot(q.pv)) * s.hv;
+      second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
+    }
+    // Relative velocity of the material point: v + w_P x (p - o_P) - w_F x (p - o_F).
+    const double rate = f.n.dot(v_ + wp_.cross(q.p - frame_.o) - wf_.cross(q.p - of_));
+    const double time = std::max(0.0, -rate) * tau + 0.5 * acceleration_ * tau * tau;
+    if (rho > 0.0 && f.m.phi > d + travel) {
+      const double mixed = angular_ * d * tau;
+      const double bend = 0.5 * (d + travel) * (d + travel) / rho;
+      if (g - space - 0.5 * second - time - mixed - bend >= target) return true;
+    }
+    // Time alone already fails: a shorter advance is needed.
+    const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
+    if (g - std::min(alone, travel) < target) return false;
+    if (s.hu < smallest_panel) return false;
+    Panel first, second_panel;
+    split(probe, s, first, second_panel);
+    return panel_holds(probe, first, tau, target) && panel_holds(probe, second_panel, tau, target);
+  }
+
+  const Body& P_;
+  const Body& F_;
+  const Track& tp_;
+  const Track& tf_;
+  double clearance_;
+  SafeStep& count_;
+  PairFrame frame_{P_, Pose{}, F_, Pose{}};
+  Vec3 v_, wp_, wf_, of_;
+  double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;
+};
+
+}  // namespace
+
+SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep)
+{
+  SafeStep out;
+  // Walls are linear: exact.
+  for (const LinearInequality& w : m.walls) {
+    double g = w.offset, rate = 0.0;
+    for (const auto& t : w.terms) {
+      g += t.coefficient * from.e[t.element * m.coordinate_count + t.coordinate];
+      rate += t.coefficient * dy[m.offset(t.element) + t.coordinate];
+    }
+    if (rate < 0.0) out.alpha = std::min(out.alpha, std::max(0.0, (1.0 - keep) * g / -rate));
+  }
+
+  // Candidate pairs: anything that the whole step can bring together. The relative motion of a pair is at
+  // most the elements' own motion plus dF times their distance; both ends of the step are searched.
+  const State to = advanced(m, from, dy, 1.0);
+  const double own = 2.0 * largest_motion(m, dy);
+  const double strain = dy.head(m.macro_count).cwiseAbs().sum();
+  double widest = 0.0;
+  for (const double r : m.reach) widest = std::max(widest, r);
+  const double smin = std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
+                               m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
+  const double margin = m.clearance + own + strain * 2.0 * (2.0 * widest + own) / std::max(smin, 1e-3);
+
+  for (const ElementPair& pair : near_pairs(m, from, margin)) {
+    const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
+    Pose pi, pj;
+    Vec3 vi, vj;
+    ti.at(0.0, pi, vi);
+    tj.at(0.0, pj, vj);
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const double approach = (vi - vj).norm() + 0.5 * (ti.acceleration + tj.acceleration);
+    if ((pi.position - pj.position).norm() - m.reach[i] - m.reach[j] - approach > m.clearance) continue;
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body& A = m.bodies[static_cast<std::size_t>(a)];
+        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const double motion = approach + ti.w.norm() * A.reach + tj.w.norm() * B.reach;
+        const Separation now = separation(A, pi, B, pj, m.clearance + 2.0 * motion);
+        out.evaluations += now.evaluations;
+        const double gap = now.lower - m.clearance;
+        if (gap - out.alpha * motion >= keep * gap && gap > 0.0) continue;
+        if (gap <= 0.0) {
+          out.alpha = 0.0;
+          return out;
+        }
+        ++out.tight_pairs;
+        const double target = keep * gap;
+        const bool swap = probe_dimension(B) < probe_dimension(A);
+        const Body &P = swap ? B : A, &F = swap ? A : B;
+        const Track &tp = swap ? tj : ti, &tf = swap ? ti : tj;
+        out.alpha = probe_dimension(P) == 1 ? PairAdvance<1>(P, tp, F, tf, m.clearance, out).run(out.alpha, target)
+                                            : PairAdvance<2>(P, tp, F, tf, m.clearance, out).run(out.alpha, target);
+        if (out.alpha <= 0.0) return out;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,65 @@
+#pragma once
+/// Small scenes for tests, built without any plugin or file.
+
+#include <hauberk/mechanics/model.hpp>
+
+#include <memory>
+#include <random>
+
+namespace hauberk::test {
+
+/// One torus (R, r0, r1) at the origin about z, or a list of tori sharing nothing.
+class Rings final : public Shape {
+ public:
+  struct Ring {
+    Vec3 position = Vec3::Zero();
+    Mat3 rotation = Mat3::Identity();
+  };
+  Rings() : Rings(std::vector<Ring>(1)) {}
+  explicit Rings(std::vector<Ring> rings);
+
+ protected:
+  const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
+  void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override;
+  void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const override;
+
+ private:
+  std::vector<Ring> rings_;
+  std::vector<ParameterInfo> parameters_;
+};
+
+/// Periodic sheet: exx, eyy, exy; x = F (X + T) + u; `coordinates` 2 (z fixed) or 3.
+class Sheet final : public LoadCase {
+ public:
+  explicit Sheet(int coordinates = 2) : coordinates_(coordinates) {}
+
+ protected:
+  const std::vector<MacroInfo>& do_macros() const override;
+  int do_coordinate_count() const override { return coordinates_; }
+  bool do_periodic() const override { return true; }
+  void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
+                   PositionMap& out) const override;
+  bool do_admissible(std::span<const double> macro) const override;
+  std::pair<double, double> do_stretch_range(std::span<const double> macro) const override;
+  void do_load(double theta, std::span<double> t) const override;
+  double do_value(double theta, std::span<const double> macro) const override;
+  std::string do_measure() const override { return "tensor"; }
+  int do_value_length_power() const override { return 0; }
+  std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
+  void do_metric(std::span<double> m) const override;
+  Boundedness do_boundedness(double, Sense, std::span<const Vec3>) const override { return Boundedness::attained; }
+
+ private:
+  int coordinates_;
+};
+
+/// Two rings (R, r0, r1) linked into a chain along x with the given period; the second turned by 90 degrees.
+SceneSpec chain(std::array<double, 3> first, std::array<double, 3> second, double period);
+
+/// Published 4-in-1 chainmail (R 4.9, r 1.15, tilt 36.5 degrees), m x n of its two-ring cell.
+SceneSpec chainmail(int m, int n, double tilt_degrees = 36.5, double r1 = 1.15);
+
+/// Rotation with uniform axis and angle up to `largest`.
+Mat3 random_rotation(std::mt19937_64& rng, double largest = std::numbers::pi);
+
+}  // namespace hauberk::test

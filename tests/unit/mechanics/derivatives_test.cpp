@@ -1,0 +1,170 @@
+/// Derivatives of the contact energy in all unknowns and parameters, for both formulations and all pairs of
+/// primitive kinds: central differences at several step sizes must converge with second order.
+
+#include <hauberk/mechanics/contact_energy.hpp>
+
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hauberk::test {
+namespace {
+
+struct Case {
+  const char* name;
+  Formulation formulation;
+  double r1_first, r1_second;  ///< r0 = 0.7
+};
+
+class Derivatives : public ::testing::TestWithParam<Case> {};
+
+/// Errors of central differences over steps h, h/2, h/4: the last must be `small`, or fall by four each.
+void expect_second_order(const std::array<double, 3>& error, double scale, double small)
+{
+  const double last = error[2] / scale;
+  if (last < small) return;
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.8) << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
+  EXPECT_NEAR(error[1] / error[2], 4.0, 0.8) << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
+}
+
+TEST_P(Derivatives, GradientAndHessian)
+{
+  const Case& c = GetParam();
+  const Sheet load(3);
+  SceneSpec spec = chain({5, 0.7, c.r1_first}, {4.6, 0.7, c.r1_second}, 15.5);
+  const Model m = make_model(spec, load, 0.01);
+  std::mt19937_64 rng(7);
+  std::normal_distribution<double> normal;
+  ContactSettings settings{c.formulation, 0.25, m.clearance};
+  double largest = 0.0;
+  for (int trial = 0; trial < 4; ++trial) {
+    Vector dy(m.dofs());
+    for (int k = 0; k < m.dofs(); ++k) dy[k] = 0.01 * normal(rng);
+    const State s = advanced(m, rest_state(m), dy, 1.0);
+    const auto pairs = near_pairs(m, s, 1.0);
+    const ContactEnergy e = contact_energy(m, s, pairs, settings, {2, false, false});
+    ASSERT_GT(e.min_gap, 0.0);
+    ASSERT_GT(e.energy, 0.0);
+    for (int k = 0; k < m.dofs(); ++k) dy[k] = normal(rng);
+    std::array<double, 3> eg{}, eh{};
+    for (int j = 0; j < 3; ++j) {
+      const double h = 4e-4 / (1 << j);
+      const ContactEnergy p = contact_energy(m, advanced(m, s, dy, h), pairs, settings, {1, false, false});
+      const ContactEnergy q = contact_energy(m, advanced(m, s, dy, -h), pairs, settings, {1, false, false});
+      eg[static_cast<std::size_t>(j)] = std::abs((p.energy - q.energy) / (2 * h) - e.gradient.dot(dy));
+      // Second derivative along the path exp(h w): its Hessian form is w^T H w.
+      eh[static_cast<std::size_t>(j)] =
+          std::abs((p.energy - 2 * e.energy + q.energy) / (h * h) - dy.dot(e.hessian * dy));
+    }
+    const double slope = std::abs(e.gradient.dot(dy)), bend = std::abs(dy.dot(e.hessian * dy));
+    largest = std::max(largest, slope);
+    // Surface integrals carry the noise of 5-point panels that change from step to step.
+    const bool surface = c.formulation == Formulation::arc && c.r1_first != 0.7 && c.r1_second != 0.7;
+    expect_second_order(eg, std::max(slope, 1.0), surface ? 2e-5 : 2e-6);
+    expect_second_order(eh, std::max(bend, 1.0), surface ? 5e-3 : 2e-4);
+    EXPECT_LT((e.hessian - e.hessian.transpose()).norm(), 1e-12 * e.hessian.norm());
+  }
+  EXPECT_GT(largest, 0.1);
+}
+
+/// Mixed second derivatives: gradient differences against Hessian columns (translations and strains, where
+/// the unknowns are a vector space).
+TEST_P(Derivatives, HessianColumns)
+{
+  const Case& c = GetParam();
+  const Sheet load(3);
+  const Model m = make_model(chain({5, 0.7, c.r1_first}, {4.6, 0.7, c.r1_second}, 15.5), load, 0.01);
+  const ContactSettings settings{c.formulation, 0.25, m.clearance};
+  std::mt19937_64 rng(11);
+  std::normal_distribution<double> normal;
+  Vector dy(m.dofs());
+  for (int k = 0; k < m.dofs(); ++k) dy[k] = 0.01 * normal(rng);
+  const State s = advanced(m, rest_state(m), dy, 1.0);
+  const auto pairs = near_pairs(m, s, 1.0);
+  const ContactEnergy e = contact_energy(m, s, pairs, settings, {2, false, false});
+  for (int k = 0; k < m.dofs(); ++k) {
+    const bool rotation = k >= 3 && (k - 3) % 6 >= 3;
+    if (rotation) continue;
+    std::array<double, 3> error{};
+    for (int j = 0; j < 3; ++j) {
+      const double h = 4e-4 / (1 << j);
+      Vector d = Vector::Unit(m.dofs(), k);
+      const Vector p = contact_energy(m, advanced(m, s, d, h), pairs, settings, {1, false, false}).gradient;
+      const Vector q = contact_energy(m, advanced(m, s, d, -h), pairs, settings, {1, false, false}).gradient;
+      error[static_cast<std::size_t>(j)] = ((p - q) / (2 * h) - e.hessian.col(k)).norm();
+    }
+    expect_second_order(error, std::max(e.hessian.col(k).norm(), 1.0), 2e-5);
+  }
+}
+
+TEST_P(Derivatives, ParametersAndClearance)
+{
+  const Case& c = GetParam();
+  const Sheet load(3);
+  SceneSpec spec = chain({5, 0.7, c.r1_first}, {4.6, 0.7, c.r1_second}, 15.5);
+  spec.length = 4.8;
+  std::mt19937_64 rng(5);
+  std::normal_distribution<double> normal;
+  Model m = make_model(spec, load, 0.01);
+  Vector dy(m.dofs());
+  for (int k = 0; k < m.dofs(); ++k) dy[k] = 0.01 * normal(rng);
+  const State s = advanced(m, rest_state(m), dy, 1.0);
+  const auto pairs = near_pairs(m, s, 1.0);
+  const ContactSettings settings{c.formulation, 0.25, m.clearance};
+  const ContactEnergy e = contact_energy(m, s, pairs, settings, {1, true, false});
+  const double scale = e.parameters.norm();
+  ASSERT_GT(scale, 1e-3);
+  for (int element = 0; element < 2; ++element) {
+    // Tubes stay tubes: R, and r0 = r1 together; elliptical sections: each.
+    const bool tube = (element == 0 ? c.r1_first : c.r1_second) == 0.7;
+    std::vector<std::array<double, 3>> directions{{1, 0, 0}};
+    if (tube) {
+      directions.push_back({0, 1, 1});
+    } else {
+      directions.push_back({0, 1, 0});
+      directions.push_back({0, 0, 1});
+    }
+    for (const auto& d : directions) {
+      double expected = 0.0;
+      for (int k = 0; k < 3; ++k) expected += e.parameters(k, element) * d[static_cast<std::size_t>(k)];
+      std::array<double, 3> error{};
+      for (int j = 0; j < 3; ++j) {
+        const double h = 2e-3 / (1 << j);
+        std::array<double, 2> v{};
+        for (int sign = 0; sign < 2; ++sign) {
+          SceneSpec moved = spec;
+          for (std::size_t k = 0; k < 3; ++k) {
+            moved.elements[static_cast<std::size_t>(element)].parameters[k] += (sign == 0 ? h : -h) * d[k];
+          }
+          const Model mm = make_model(moved, load, 0.01);
+          v[static_cast<std::size_t>(sign)] = contact_energy(mm, s, pairs, settings, {0, false, false}).energy;
+        }
+        error[static_cast<std::size_t>(j)] = std::abs((v[0] - v[1]) / (2 * h) - expected);
+      }
+      expect_second_order(error, scale, 5e-6);
+    }
+  }
+  std::array<double, 3> error{};
+  for (int j = 0; j < 3; ++j) {
+    const double h = 4e-4 / (1 << j);
+    ContactSettings p = settings, q = settings;
+    p.clearance += h;
+    q.clearance -= h;
+    const double d = (contact_energy(m, s, pairs, p, {0, false, false}).energy -
+                      contact_energy(m, s, pairs, q, {0, false, false}).energy) / (2 * h);
+    error[static_cast<std::size_t>(j)] = std::abs(d - e.d_clearance);
+  }
+  expect_second_order(error, std::abs(e.d_clearance), 5e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, Derivatives,
+                         ::testing::Values(Case{"arc_circle_circle", Formulation::arc, 0.7, 0.7},
+                                           Case{"arc_circle_ellipse", Formulation::arc, 0.7, 0.95},
+                                           Case{"arc_ellipse_ellipse", Formulation::arc, 0.5, 0.95},
+                                           Case{"nearest_circle_circle", Formulation::nearest, 0.7, 0.7},
+                                           Case{"nearest_circle_ellipse", Formulation::nearest, 0.7, 0.95},
+                                           Case{"nearest_ellipse_ellipse", Formulation::nearest, 0.5, 0.95}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace hauberk::test

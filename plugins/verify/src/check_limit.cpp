@@ -1,0 +1,102 @@
+#include "balance.hpp"
+#include "checks.hpp"
+#include "links.hpp"
+#include "neighbours.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk::verification {
+namespace {
+
+/// Pairs whose bounding spheres are farther apart than this many L are not searched.
+constexpr double search_margin = 1.0;
+
+std::vector<Place> rest_places(const Scene& scene)
+{
+  std::vector<Place> out;
+  for (const Element& element : scene.elements) out.push_back(element.rest);
+  return out;
+}
+
+/// Smallest separation less the clearance, compared with min_gap; returns what to say about it.
+std::string check_gap(const Scene& scene, const Setting& setting, const Limit& limit,
+                      const VerifyTolerances& tolerances, Sentences& problems)
+{
+  const double margin = search_margin * scene.length, tolerance = tolerances.gap * scene.length;
+  const auto closest = closest_pair(scene, limit.poses, limit.macro->deformation(), margin);
+  const double gap = (closest ? closest->distance : margin) - setting.clearance;
+  const std::string whose =
+      closest ? fmt::format("elements {} and {}, image ({}, {})", closest->pair.first, closest->pair.second,
+                            closest->pair.image[0], closest->pair.image[1])
+              : "no near pair";
+  if (gap < -tolerance)
+    problems.push_back(fmt::format("surfaces are {:.3g} closer than the clearance ({})", -gap, whose));
+  if (!limit.min_gap)
+    problems.push_back("min_gap is missing");
+  else if (closest ? !(std::abs(*limit.min_gap - gap) <= tolerance) : *limit.min_gap < gap)
+    problems.push_back(fmt::format("min_gap {:.6g} reported, {:.6g} found ({})", *limit.min_gap, gap, whose));
+  return fmt::format("smallest gap {:.3g}", gap);
+}
+
+std::string check_links(const Scene& scene, const Limit& limit, Sentences& problems)
+{
+  const auto at_rest = links(scene, rest_places(scene), Mat3::Identity());
+  const std::string changed = difference(at_rest, links(scene, limit.poses, limit.macro->deformation()));
+  if (!changed.empty() && (limit.links_kept || limit.status == "locked")) problems.push_back(changed);
+  if (changed.empty() && !limit.links_kept) problems.push_back("links_kept is false, but all links are kept");
+  return changed.empty() ? fmt::format("{} links kept", at_rest.size()) : "links changed";
+}
+
+std::string check_balance(const Scene& scene, const Setting& setting, const Limit& limit,
+                          const VerifyTolerances& tolerances, Sentences& problems)
+{
+  const double found = imbalance(scene, setting, limit);
+  double allowed = tolerances.balance;
+  if (limit.contact == "arc") {
+    double gap = 0.0;
+    for (const Contact& contact : limit.contacts) gap = std::max(gap, contact.gap);
+    allowed += tolerances.arc_gaps * std::sqrt(gap / scene.length);
+  }
+  if (limit.status == "locked" && !(found <= allowed))
+    problems.push_back(fmt::format("forces miss the load by {:.3g}, {:.3g} allowed", found, allowed));
+  if (!limit.force_balance)
+    problems.push_back("force_balance is missing");
+  else if (!(std::abs(*limit.force_balance - found) <= tolerances.balance_agreement))
+    problems.push_back(fmt::format("force_balance {:.3g} reported, {:.3g} found", *limit.force_balance, found));
+  return fmt::format("imbalance {:.3g}", found);
+}
+
+}  // namespace
+
+VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& limit,
+                       const VerifyTolerances& tolerances)
+{
+  const bool has_state = !limit.poses.empty();
+  if (!has_state || !limit.macro) {
+    const bool may_lack = !has_state && limit.status != "locked" && !limit.value;
+    return {may_lack, limit.label + ": " + limit.status + (may_lack ? ", no state to check" : ", but no state is given")};
+  }
+  if (limit.poses.size() != scene.elements.size())
+    return {false, fmt::format("{}: {} poses for {} elements", limit.label, limit.poses.size(), scene.elements.size())};
+  if (limit.status == "unbounded" || limit.status == "not_attained")
+    return {false, limit.label + ": " + limit.status + " limits have no locked state"};
+
+  Sentences problems, found;
+  check_values(scene, setting, limit, tolerances, problems);
+  found.push_back(check_gap(scene, setting, limit, tolerances, problems));
+  found.push_back(check_links(scene, limit, problems));
+  const std::size_t before = problems.size();
+  check_contacts(scene, setting, limit, tolerances, problems);
+  const bool readable = std::none_of(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end(),
+                                     [](const std::string& p) { return p.find("no such") != std::string::npos; });
+  if (readable) found.push_back(check_balance(scene, setting, limit, tolerances, problems));
+  const Sentences& said = problems.empty() ? found : problems;
+  return {problems.empty(), fmt::format("{}: {} {}: {}", limit.label, limit.status, show(limit.value),
+                                        fmt::join(said, problems.empty() ? ", " : "; "))};
+}
+
+}  // namespace hauberk::verification

@@ -1,0 +1,49 @@
+#pragma once
+/// The single checks. Each appends to `problems` one sentence for everything that is wrong: what, and by how much.
+
+#include <hauberk/verify/verify.hpp>
+
+#include "model.hpp"
+
+#include <boost/json/value.hpp>
+
+#include <string>
+#include <vector>
+
+namespace hauberk::verification {
+
+using Sentences = std::vector<std::string>;
+
+/// Contacts belong to the state: indices, points on surfaces, normals, gaps, forces, walls.
+void check_contacts(const Scene& scene, const Setting& setting, const Limit& limit,
+                    const VerifyTolerances& tolerances, Sentences& problems);
+
+/// Value, companions and starts follow from macro; sense, F, mean translation and heights are admissible.
+void check_values(const Scene& scene, const Setting& setting, const Limit& limit, const VerifyTolerances& tolerances,
+                  Sentences& problems);
+
+/// Everything about one limit; the line says what was found. Throws Malformed.
+VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& limit,
+                       const VerifyTolerances& tolerances);
+
+/// Profiles follow from limits. Throws Malformed.
+VerifyLine check_profiles(const boost::json::value& results, const std::vector<Limit>& limits,
+                          const VerifyTolerances& tolerances);
+
+/// Targets, objectives and variables of a design follow from limits and scenes. Throws Malformed.
+VerifyLine check_design(const boost::json::value& results, const std::vector<Limit>& initial,
+                        const std::vector<Limit>& final, const VerifyTolerances& tolerances);
+
+/// Equal to rounding: |a - b| <= tolerance (1 + |b|).
+bool equal(double a, double b, double tolerance);
+/// Both absent, or both there and equal.
+bool equal(const std::optional<double>& a, const std::optional<double>& b, double tolerance);
+/// "0.43" or "null".
+std::string show(const std::optional<double>& x);
+
+/// The limit of a direction (modulo 180 degrees) and sense; null when there is none.
+const Limit* find_limit(const std::vector<Limit>& limits, double direction_deg, const std::string& sense);
+/// (e_s - e_c) / (1 + e_c); nothing where one is absent or 1 + e_c <= 0.
+std::optional<double> eta(const std::optional<double>& e_s, const std::optional<double>& e_c);
+
+}  // namespace hauberk::verification

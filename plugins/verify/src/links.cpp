@@ -1,0 +1,81 @@
+#include "links.hpp"
+
+#include "neighbours.hpp"
+#include "surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk::verification {
+namespace {
+
+std::string describe(const Link& link, int rest, int limit)
+{
+  return fmt::format("linking number of elements {} and {}, primitives {} and {}, image ({}, {}) is {} at rest and {} "
+                     "at the limit",
+                     link.elements[0], link.elements[1], link.primitives[0], link.primitives[1], link.image[0],
+                     link.image[1], rest, limit);
+}
+
+/// The same two circles, whatever their number.
+bool same_pair(const Link& a, const Link& b)
+{
+  return a.elements == b.elements && a.primitives == b.primitives && a.image == b.image;
+}
+
+int number_in(const std::vector<Link>& list, const Link& pair)
+{
+  const auto it = std::find_if(list.begin(), list.end(), [&](const Link& link) { return same_pair(link, pair); });
+  return it == list.end() ? 0 : it->number;
+}
+
+}  // namespace
+
+int linking_number(const Torus& a, const Torus& b)
+{
+  // Height of b's circle above a's plane: alpha cos u + beta sin u + gamma.
+  const Vec3 n = a.place.rotation.col(2);
+  const double alpha = b.R * n.dot(b.place.rotation.col(0)), beta = b.R * n.dot(b.place.rotation.col(1));
+  const double gamma = n.dot(b.place.position - a.place.position);
+  const double amplitude = std::hypot(alpha, beta);
+  if (amplitude <= std::abs(gamma)) return 0;
+  const double middle = std::atan2(beta, alpha), half = std::acos(-gamma / amplitude);
+  int sum = 0;
+  // The height rises through zero at middle - half and falls through it at middle + half.
+  for (const int direction : {1, -1}) {
+    const Vec3 crossing = core_point(b, middle - direction * half);
+    if ((crossing - a.place.position).norm() < a.R) sum += direction;
+  }
+  return sum;
+}
+
+std::vector<Link> links(const Scene& scene, const std::vector<Place>& places, const Mat3& F)
+{
+  std::vector<Link> out;
+  for (const Neighbour& pair : neighbours(scene, places, F, 0.0)) {
+    const auto k = static_cast<std::size_t>(pair.first), l = static_cast<std::size_t>(pair.second);
+    Place image = places[l];
+    image.position += translation(scene, F, pair.image);
+    const auto &first = scene.elements[k].tori, &second = scene.elements[l].tori;
+    for (std::size_t p = 0; p < first.size(); ++p)
+      for (std::size_t q = 0; q < second.size(); ++q) {
+        const int number = linking_number(placed(first[p], places[k]), placed(second[q], image));
+        if (number != 0)
+          out.push_back({{pair.first, pair.second}, {static_cast<int>(p), static_cast<int>(q)}, pair.image, number});
+      }
+  }
+  return out;
+}
+
+std::string difference(const std::vector<Link>& rest, const std::vector<Link>& limit)
+{
+  for (const Link& link : rest)
+    if (const int now = number_in(limit, link); now != link.number) return describe(link, link.number, now);
+  for (const Link& link : limit)
+    if (number_in(rest, link) == 0) return describe(link, 0, link.number);
+  return {};
+}
+
+}  // namespace hauberk::verification

@@ -1,0 +1,25 @@
+#pragma once
+#include "model.hpp"
+
+#include <string>
+
+namespace hauberk::verification {
+
+/// Linking number of two disjoint core circles, each oriented about its z axis: the crossings of b through a's
+/// disc, each counted by its direction. -1, 0 or 1.
+int linking_number(const Torus& a, const Torus& b);
+
+/// A pair of core circles that are linked.
+struct Link {
+  std::array<int, 2> elements{}, primitives{}, image{};
+  int number = 0;
+  bool operator==(const Link&) const = default;
+};
+
+/// All links between different elements and images, in a fixed order.
+std::vector<Link> links(const Scene& scene, const std::vector<Place>& places, const Mat3& F);
+
+/// What differs between the links at rest and those at the limit; empty when nothing does.
+std::string difference(const std::vector<Link>& rest, const std::vector<Link>& limit);
+
+}  // namespace hauberk::verification

@@ -1,0 +1,96 @@
+#pragma once
+/// What the checker knows: plain copies of what the file says. Lengths in file units.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk::verification {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+/// The file lacks something or holds something of the wrong kind; the message names the place.
+class Malformed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Place {
+  Vec3 position = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();
+};
+
+/// An ellipse with half-axes r0 (radial) and r1 (axial), revolved at distance R about its own z axis.
+struct Torus {
+  std::string name;
+  Place place;  ///< in its element's frame, or in space
+  double R = 0.0, r0 = 0.0, r1 = 0.0;
+};
+
+struct Element {
+  Place rest;
+  std::vector<Torus> tori;
+  /// Of a sphere about the element's origin that holds the element.
+  double reach = 0.0;
+};
+
+struct Scene {
+  std::vector<Element> elements;
+  std::vector<Vec3> cell;  ///< two vectors, or none
+  double length = 0.0;     ///< L
+};
+
+struct Contact {
+  std::array<int, 2> elements{}, primitives{}, image{};
+  std::array<Vec3, 2> points;
+  Vec3 normal = Vec3::Zero();
+  double gap = 0.0, force = 0.0;
+  std::string wall;
+};
+
+struct Strain {
+  double exx = 0.0, eyy = 0.0, exy = 0.0;
+
+  /// F = I + [[exx, exy], [exy, eyy]] in the plane.
+  Mat3 deformation() const
+  {
+    Mat3 f = Mat3::Identity();
+    f(0, 0) += exx;
+    f(1, 1) += eyy;
+    f(0, 1) = f(1, 0) = exy;
+    return f;
+  }
+};
+
+struct Start {
+  double value = 0.0;
+  Strain macro;
+};
+
+struct Limit {
+  std::string label;  ///< "limits/3 (30 deg, stretch)"
+  double direction_deg = 0.0;
+  std::string sense, measure, status, contact;
+  std::optional<double> value, line_stretch, min_gap, force_balance;
+  std::optional<Strain> macro;
+  bool links_kept = false;
+  std::vector<Start> starts;
+  std::vector<Place> poses;
+  std::vector<Contact> contacts;
+};
+
+/// Settings of the experiment that the checks depend on.
+struct Setting {
+  double clearance = 0.0;
+  /// Half-height that elements keep to; infinite when free.
+  double half_height = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace hauberk::verification

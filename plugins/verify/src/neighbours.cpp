@@ -1,0 +1,91 @@
+#include "neighbours.hpp"
+
+#include "separation.hpp"
+#include "surface.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk::verification {
+namespace {
+
+/// Every image of `second` that may be near `first`: with d = x_first - x_second and columns of A the deformed cell
+/// vectors, |A (i, j) - d| <= reach needs (i, j) within |row of A^-1| reach of A^-1 d.
+void add_images(std::vector<Neighbour>& out, const Eigen::Matrix2d& inverse, const Vec3& d, double reach, int first,
+                int second, const Eigen::Matrix2d& A)
+{
+  const Eigen::Vector2d centre = inverse * d.head<2>();
+  std::array<int, 2> low, high;
+  for (int r = 0; r < 2; ++r) {
+    const double radius = inverse.row(r).norm() * reach;
+    low[static_cast<std::size_t>(r)] = static_cast<int>(std::floor(centre[r] - radius));
+    high[static_cast<std::size_t>(r)] = static_cast<int>(std::ceil(centre[r] + radius));
+  }
+  for (int i = low[0]; i <= high[0]; ++i)
+    for (int j = low[1]; j <= high[1]; ++j) {
+      // An element and its own image (i, j) are the same pair as with image (-i, -j).
+      if (first == second && (i < 0 || (i == 0 && j <= 0))) continue;
+      const Eigen::Vector2d in_plane = A * Eigen::Vector2d(i, j) - d.head<2>();
+      if (std::hypot(in_plane.norm(), d.z()) <= reach) out.push_back({first, second, {i, j}});
+    }
+}
+
+}  // namespace
+
+Vec3 translation(const Scene& scene, const Mat3& F, const std::array<int, 2>& image)
+{
+  return F * (image[0] * scene.cell[0] + image[1] * scene.cell[1]);
+}
+
+std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F, double margin)
+{
+  Eigen::Matrix2d A;
+  A.col(0) = (F * scene.cell[0]).head<2>();
+  A.col(1) = (F * scene.cell[1]).head<2>();
+  const Eigen::Matrix2d inverse = A.inverse();
+  std::vector<Neighbour> out;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t l = k; l < places.size(); ++l)
+      add_images(out, inverse, places[k].position - places[l].position,
+                 scene.elements[k].reach + scene.elements[l].reach + margin, static_cast<int>(k), static_cast<int>(l),
+                 A);
+  return out;
+}
+
+std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
+                                    double margin)
+{
+  struct Candidate {
+    Closest closest;  ///< distance is a lower bound
+    Torus first, second;
+  };
+  std::vector<Candidate> candidates;
+  for (const Neighbour& pair : neighbours(scene, places, F, margin)) {
+    const auto k = static_cast<std::size_t>(pair.first), l = static_cast<std::size_t>(pair.second);
+    Place image = places[l];
+    image.position += translation(scene, F, pair.image);
+    const auto &first = scene.elements[k].tori, &second = scene.elements[l].tori;
+    for (std::size_t p = 0; p < first.size(); ++p)
+      for (std::size_t q = 0; q < second.size(); ++q) {
+        Candidate c{{0.0, pair, static_cast<int>(p), static_cast<int>(q)}, placed(first[p], places[k]),
+                    placed(second[q], image)};
+        c.closest.distance = separation_bound(c.first, c.second);
+        candidates.push_back(std::move(c));
+      }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.closest.distance < b.closest.distance; });
+  std::optional<Closest> best;
+  for (Candidate& c : candidates) {
+    if (best && c.closest.distance > best->distance) break;  // bounds only grow from here
+    const double distance = separation(c.first, c.second);
+    if (best && best->distance <= distance) continue;
+    best = c.closest;
+    best->distance = distance;
+  }
+  return best;
+}
+
+}  // namespace hauberk::verification

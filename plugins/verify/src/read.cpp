@@ -1,0 +1,191 @@
+#include "read.hpp"
+
+#include <Eigen/Geometry>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk::verification {
+namespace {
+
+namespace json = boost::json;
+
+/// Quaternions of the file are unit to rounding.
+constexpr double unit_tolerance = 1e-12;
+
+Vec3 read_vector(const json::value& v, const std::string& where)
+{
+  const json::array& a = array(v, where);
+  if (a.size() != 3) throw Malformed(where + ": three numbers expected");
+  return {number(a[0], where + "/0"), number(a[1], where + "/1"), number(a[2], where + "/2")};
+}
+
+std::array<int, 2> read_pair(const json::value& v, const std::string& where)
+{
+  const json::array& a = array(v, where);
+  if (a.size() != 2 || !a[0].is_int64() || !a[1].is_int64()) throw Malformed(where + ": two integers expected");
+  return {static_cast<int>(a[0].get_int64()), static_cast<int>(a[1].get_int64())};
+}
+
+Place read_place(const json::value& v, const std::string& where)
+{
+  Place out;
+  out.position = read_vector(member(v, "position", where), where + "/position");
+  const std::string at = where + "/quaternion";
+  const json::array& q = array(member(v, "quaternion", where), at);
+  if (q.size() != 4) throw Malformed(at + ": four numbers expected");
+  const Eigen::Quaterniond rotation(number(q[0], at + "/0"), number(q[1], at + "/1"), number(q[2], at + "/2"),
+                                    number(q[3], at + "/3"));
+  if (std::abs(rotation.norm() - 1.0) > unit_tolerance || rotation.w() < 0.0)
+    throw Malformed(at + ": not a unit quaternion with w >= 0");
+  out.rotation = rotation.normalized().toRotationMatrix();
+  return out;
+}
+
+Torus read_torus(const json::value& v, const std::string& where)
+{
+  Torus out;
+  out.name = text(member(v, "name", where), where + "/name");
+  out.place = read_place(v, where);
+  const std::string kind = text(member(v, "kind", where), where + "/kind");
+  if (kind != "circle_tube" && kind != "revolved_ellipse")
+    throw Malformed(where + "/kind: circle_tube or revolved_ellipse expected, found " + kind);
+  const std::string at = where + "/parameters";
+  const json::value& parameters = member(v, "parameters", where);
+  out.R = number(member(parameters, "R", at), at + "/R");
+  out.r0 = number(member(parameters, "r0", at), at + "/r0");
+  out.r1 = number(member(parameters, "r1", at), at + "/r1");
+  if (!(out.R > out.r0 && out.r0 > 0.0 && out.r1 > 0.0)) throw Malformed(at + ": not a torus (R > r0 > 0, r1 > 0)");
+  if (kind == "circle_tube" && out.r0 != out.r1) throw Malformed(at + ": a circle_tube has r0 = r1");
+  return out;
+}
+
+Strain read_strain(const json::value& v, const std::string& where)
+{
+  return {number(member(v, "exx", where), where + "/exx"), number(member(v, "eyy", where), where + "/eyy"),
+          number(member(v, "exy", where), where + "/exy")};
+}
+
+Contact read_contact(const json::value& v, const std::string& where)
+{
+  Contact out;
+  out.elements = read_pair(member(v, "elements", where), where + "/elements");
+  out.primitives = read_pair(member(v, "primitives", where), where + "/primitives");
+  out.image = read_pair(member(v, "image", where), where + "/image");
+  const std::string at = where + "/points";
+  const json::array& points = array(member(v, "points", where), at);
+  if (points.size() != 2) throw Malformed(at + ": two points expected");
+  out.points = {read_vector(points[0], at + "/0"), read_vector(points[1], at + "/1")};
+  out.normal = read_vector(member(v, "normal", where), where + "/normal");
+  out.gap = number(member(v, "gap", where), where + "/gap");
+  out.force = number(member(v, "force", where), where + "/force");
+  if (const json::value* wall = v.get_object().if_contains("wall")) out.wall = text(*wall, where + "/wall");
+  return out;
+}
+
+}  // namespace
+
+const json::value& member(const json::value& object, const char* key, const std::string& where)
+{
+  const json::value* found = object.is_object() ? object.get_object().if_contains(key) : nullptr;
+  if (!found) throw Malformed(where + "/" + key + ": missing");
+  return *found;
+}
+
+double number(const json::value& v, const std::string& where)
+{
+  if (!v.is_number()) throw Malformed(where + ": a number expected");
+  return v.to_number<double>();
+}
+
+std::optional<double> optional_number(const json::value& object, const char* key, const std::string& where)
+{
+  const json::value* v = object.is_object() ? object.get_object().if_contains(key) : nullptr;
+  if (!v || v->is_null()) return std::nullopt;
+  return number(*v, where + "/" + key);
+}
+
+std::string text(const json::value& v, const std::string& where)
+{
+  if (!v.is_string()) throw Malformed(where + ": a string expected");
+  return std::string(v.get_string());
+}
+
+const json::array& array(const json::value& v, const std::string& where)
+{
+  if (!v.is_array()) throw Malformed(where + ": an array expected");
+  return v.get_array();
+}
+
+Scene read_scene(const json::value& v, const std::string& where)
+{
+  Scene out;
+  for (const json::value& vector : array(member(v, "cell_vectors", where), where + "/cell_vectors")) {
+    const json::array& a = array(vector, where + "/cell_vectors");
+    if (a.size() < 2) throw Malformed(where + "/cell_vectors: two numbers expected");
+    out.cell.emplace_back(number(a[0], where + "/cell_vectors"), number(a[1], where + "/cell_vectors"), 0.0);
+  }
+  if (out.cell.size() != 2 || std::abs(out.cell[0].cross(out.cell[1]).z()) == 0.0)
+    throw Malformed(where + "/cell_vectors: two independent vectors expected");
+  std::size_t k = 0;
+  for (const json::value& e : array(member(v, "elements", where), where + "/elements")) {
+    const std::string at = where + "/elements/" + std::to_string(k++);
+    Element element;
+    element.rest = read_place(member(e, "rest", at), at + "/rest");
+    for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
+      element.tori.push_back(read_torus(p, at + "/primitives/" + std::to_string(element.tori.size())));
+      const Torus& torus = element.tori.back();
+      element.reach = std::max(element.reach, torus.place.position.norm() + torus.R + std::max(torus.r0, torus.r1));
+    }
+    out.elements.push_back(std::move(element));
+  }
+  out.length = number(member(v, "length", where), where + "/length");
+  return out;
+}
+
+Limit read_limit(const json::value& v, const std::string& where)
+{
+  Limit out;
+  out.direction_deg = number(member(v, "direction_deg", where), where + "/direction_deg");
+  out.sense = text(member(v, "sense", where), where + "/sense");
+  out.measure = text(member(v, "measure", where), where + "/measure");
+  out.status = text(member(v, "status", where), where + "/status");
+  out.contact = text(member(v, "contact", where), where + "/contact");
+  out.value = optional_number(v, "value", where);
+  out.line_stretch = optional_number(v, "line_stretch", where);
+  out.min_gap = optional_number(v, "min_gap", where);
+  out.force_balance = optional_number(v, "force_balance", where);
+  const json::value& kept = member(v, "links_kept", where);
+  if (!kept.is_bool()) throw Malformed(where + "/links_kept: true or false expected");
+  out.links_kept = kept.get_bool();
+  if (const json::value& macro = member(v, "macro", where); !macro.is_null())
+    out.macro = read_strain(macro, where + "/macro");
+  for (const json::value& s : array(member(v, "starts", where), where + "/starts")) {
+    const std::string at = where + "/starts/" + std::to_string(out.starts.size());
+    out.starts.push_back({number(member(s, "value", at), at + "/value"),
+                          read_strain(member(s, "macro", at), at + "/macro")});
+  }
+  for (const json::value& p : array(member(v, "poses", where), where + "/poses"))
+    out.poses.push_back(read_place(p, where + "/poses/" + std::to_string(out.poses.size())));
+  for (const json::value& c : array(member(v, "contacts", where), where + "/contacts"))
+    out.contacts.push_back(read_contact(c, where + "/contacts/" + std::to_string(out.contacts.size())));
+  return out;
+}
+
+Setting read_setting(const json::value& experiment)
+{
+  Setting out;
+  const json::value& solver = member(experiment, "solver", "/experiment");
+  out.clearance = number(member(solver, "clearance", "/experiment/solver"), "/experiment/solver/clearance");
+  const json::value& load = member(experiment, "load_case", "/experiment");
+  const json::value& height = member(load, "out_of_plane", "/experiment/load_case");
+  if (height.is_number())
+    out.half_height = height.to_number<double>();
+  else if (text(height, "/experiment/load_case/out_of_plane") != "free")
+    throw Malformed("/experiment/load_case/out_of_plane: a number or \"free\" expected");
+  return out;
+}
+
+}  // namespace hauberk::verification

@@ -1,0 +1,22 @@
+#pragma once
+#include "model.hpp"
+
+#include <boost/json/value.hpp>
+
+namespace hauberk::verification {
+
+/// Readers of parts of a results document. `where` is the JSON pointer of the part, for messages; all throw
+/// Malformed.
+Scene read_scene(const boost::json::value& scene, const std::string& where);
+Limit read_limit(const boost::json::value& limit, const std::string& where);
+Setting read_setting(const boost::json::value& experiment);
+
+/// Member `key` of an object; throws Malformed when there is none.
+const boost::json::value& member(const boost::json::value& object, const char* key, const std::string& where);
+double number(const boost::json::value& v, const std::string& where);
+/// Null (or a missing member) is no value.
+std::optional<double> optional_number(const boost::json::value& object, const char* key, const std::string& where);
+std::string text(const boost::json::value& v, const std::string& where);
+const boost::json::array& array(const boost::json::value& v, const std::string& where);
+
+}  // namespace hauberk::verification

@@ -1,0 +1,86 @@
+#include "surface.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace hauberk::verification {
+namespace {
+
+/// Angle v in [0, pi/2] of the point (a cos v, b sin v) closest to (p, q), p, q >= 0.
+///
+/// h(v) = 1/2 d/dv |.|^2 = -a sin v (a cos v - p) + b cos v (b sin v - q) is <= 0 at 0, >= 0 at pi/2 and changes
+/// sign once between. Newton, kept inside the shrinking bracket by bisection.
+double closest_angle(double a, double b, double p, double q)
+{
+  double low = 0.0, high = std::numbers::pi / 2.0;
+  double v = std::atan2(a * q, b * p);
+  if (!(v > low && v < high)) v = 0.5 * (low + high);
+  for (int i = 0; i < 100; ++i) {
+    const double c = std::cos(v), s = std::sin(v);
+    const double h = -a * s * (a * c - p) + b * c * (b * s - q);
+    if (h == 0.0) return v;
+    (h < 0.0 ? low : high) = v;
+    const double slope = -a * c * (a * c - p) + a * a * s * s - b * s * (b * s - q) + b * b * c * c;
+    double next = v - h / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - v) < 1e-16 || high - low < 1e-16) return next;
+    v = next;
+  }
+  return v;
+}
+
+}  // namespace
+
+Place compose(const Place& a, const Place& b)
+{
+  return {a.position + a.rotation * b.position, a.rotation * b.rotation};
+}
+
+Torus placed(const Torus& torus, const Place& element)
+{
+  Torus out = torus;
+  out.place = compose(element, torus.place);
+  return out;
+}
+
+double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward)
+{
+  const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
+  const double rho = std::hypot(local.x(), local.y());
+  const double p = rho - torus.R, q = local.z(), a = torus.r0, b = torus.r1;
+  double n_rho, n_z, distance;
+  if (a == b && (p != 0.0 || q != 0.0)) {
+    const double core = std::hypot(p, q);
+    distance = core - a;
+    n_rho = p / core;
+    n_z = q / core;
+  } else {
+    const double v = closest_angle(a, b, std::abs(p), std::abs(q));
+    const double c = std::cos(v), s = std::sin(v);
+    const double inside = (p / a) * (p / a) + (q / b) * (q / b) < 1.0 ? -1.0 : 1.0;
+    distance = inside * std::hypot(a * c - std::abs(p), b * s - std::abs(q));
+    const double scale = std::hypot(c / a, s / b);
+    n_rho = std::copysign(c / a / scale, p);
+    n_z = std::copysign(s / b / scale, q);
+  }
+  if (outward) {
+    // On the axis every direction is as good; the first axis is taken.
+    const double ex = rho > 0.0 ? local.x() / rho : 1.0, ey = rho > 0.0 ? local.y() / rho : 0.0;
+    *outward = torus.place.rotation * Vec3(n_rho * ex, n_rho * ey, n_z);
+  }
+  return distance;
+}
+
+Vec3 core_point(const Torus& torus, double u)
+{
+  return torus.place.position + torus.place.rotation * Vec3(torus.R * std::cos(u), torus.R * std::sin(u), 0.0);
+}
+
+Vec3 surface_point(const Torus& torus, double u, double v)
+{
+  const double rho = torus.R + torus.r0 * std::cos(v);
+  return torus.place.position +
+         torus.place.rotation * Vec3(rho * std::cos(u), rho * std::sin(u), torus.r1 * std::sin(v));
+}
+
+}  // namespace hauberk::verification

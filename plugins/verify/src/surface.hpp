@@ -1,0 +1,23 @@
+#pragma once
+#include "model.hpp"
+
+namespace hauberk::verification {
+
+/// Place of b in the frame in which a's place is given: first b, then a.
+Place compose(const Place& a, const Place& b);
+
+/// The torus in space when its element has the given place.
+Torus placed(const Torus& torus, const Place& element);
+
+/// Signed distance of x to the surface: negative inside. Exact to rounding: the closest point lies in the
+/// meridian plane of x, and there on the quarter of the ellipse that x is nearest to, where the derivative of the
+/// squared distance by the angle changes sign once. `outward`, when wanted, is the unit normal at the closest
+/// point.
+double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward = nullptr);
+
+/// Point of the core circle.
+Vec3 core_point(const Torus& torus, double u);
+/// Point of the surface, V(u, v).
+Vec3 surface_point(const Torus& torus, double u, double v);
+
+}  // namespace hauberk::verification

@@ -1,0 +1,80 @@
+#include <hauberk/verify/verify.hpp>
+
+#include "checks.hpp"
+#include "read.hpp"
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+using namespace verification;
+
+constexpr const char* known_format = "hauberk-results/1";
+
+/// Checks the limits of one scene, a line each; those that could be read are returned.
+std::vector<Limit> check_limits(const json::value& scene_json, const json::value& limits_json,
+                                const std::string& prefix, const Setting& setting, const VerifyTolerances& tolerances,
+                                std::vector<VerifyLine>& lines)
+{
+  std::vector<Limit> out;
+  const Scene scene = read_scene(scene_json, prefix + "/scene");
+  std::size_t i = 0;
+  for (const json::value& item : array(limits_json, prefix + "/limits")) {
+    const std::string where = fmt::format("{}/limits/{}", prefix, i++);
+    try {
+      Limit limit = read_limit(item, where);
+      limit.label = fmt::format("{} ({:g} deg, {})", where, limit.direction_deg, limit.sense);
+      lines.push_back(check_limit(scene, setting, limit, tolerances));
+      out.push_back(std::move(limit));
+    } catch (const Malformed& error) {
+      lines.push_back({false, error.what()});
+    }
+  }
+  return out;
+}
+
+void check_document(const json::value& results, const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
+{
+  if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
+    throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
+  const Setting setting = read_setting(member(results, "experiment", ""));
+  const auto limits = check_limits(member(results, "scene", ""), member(results, "limits", ""), "", setting, tolerances,
+                                   lines);
+  lines.push_back(check_profiles(results, limits, tolerances));
+  const json::value& design = member(results, "design", "");
+  if (design.is_null()) return;
+  const json::value& initial = member(design, "initial", "/design");
+  const auto initial_limits =
+      check_limits(member(initial, "scene", "/design/initial"), member(initial, "limits", "/design/initial"),
+                   "/design/initial", setting, tolerances, lines);
+  lines.push_back(check_design(results, initial_limits, limits, tolerances));
+}
+
+}  // namespace
+
+std::string VerifyReport::text() const
+{
+  std::string out;
+  for (const VerifyLine& line : lines) out += (line.ok ? "PASS " : "FAIL ") + line.text + '\n';
+  return out;
+}
+
+VerifyReport verify(const json::value& results, const VerifyTolerances& tolerances)
+{
+  VerifyReport report;
+  try {
+    check_document(results, tolerances, report.lines);
+  } catch (const std::exception& error) {
+    report.lines.push_back({false, error.what()});
+  }
+  for (const VerifyLine& line : report.lines) report.ok = report.ok && line.ok;
+  return report;
+}
+
+}  // namespace hauberk

@@ -96,6 +96,8 @@ class SceneReader {
         range.maximum = info.upper;
         problems_.add(value, "expected " + describe_expected(range) + ", found " + describe_found(value));
         good = false;
+        values[static_cast<std::size_t>(index)] = std::numeric_limits<double>::quiet_NaN();
+        continue;
       }
       values[static_cast<std::size_t>(index)] = value.number;
     }
@@ -230,10 +232,22 @@ class SceneReader {
                       const std::vector<double>& values)
   {
     for (std::size_t k = 0; k < values.size(); ++k) {
-      if (!std::isnan(values[k]) || !reported_.insert({&type, k}).second) continue;
-      problems_.add(entry, "parameter '" + shape.parameters()[k].name +
-                               "' has no value and no default: give it in " + type.pointer + "/parameters");
+      const std::string& name = shape.parameters()[k].name;
+      if (!std::isnan(values[k]) || is_reported(type, name) || is_reported(entry, name)) continue;
+      if (!reported_.insert({&type, k}).second) continue;
+      problems_.add(entry, "parameter '" + name + "' has no value and no default: give it in " +
+                               type.pointer + "/parameters");
     }
+  }
+
+  /// True when something is wrong with the value that `section` gives to a parameter.
+  bool is_reported(const Node& section, const std::string& parameter) const
+  {
+    const std::string map = section.pointer + "/parameters";
+    const std::string value = map + "/" + pointer_token(parameter);
+    return std::any_of(problems_.list().begin(), problems_.list().end(), [&](const Problem& problem) {
+      return problem.pointer == map || pointer_within(problem.pointer, value);
+    });
   }
 };
 

@@ -1,0 +1,162 @@
+/// Messages about structure: types, ranges, keys. One edit of a correct file each.
+
+#include "fake_plugins.hpp"
+
+#include <hauberk/experiment/nearest.hpp>
+
+#include <gtest/gtest.h>
+
+namespace hauberk::test {
+namespace {
+
+std::string after(const std::string& from, const std::string& to)
+{
+  return problems_of(with(valid_text(), from, to));
+}
+
+TEST(Structure, TheUneditedFileIsCorrect) { EXPECT_EQ(problems_of(valid_text()), ""); }
+
+TEST(Structure, WrongTypes)
+{
+  EXPECT_EQ(problems_of("[]"), "t.json:1: expected an object, found an empty array");
+  EXPECT_EQ(after("\"pair\"", "5"), "t.json:2: /name: expected a string, found 5");
+  EXPECT_EQ(after("\"fast\"", "{}"),
+            "t.json:14: /solver/preset: expected one of fast, accurate, paper, found an object");
+  EXPECT_EQ(after("\"lower\": 4.0", "\"lower\": \"4\""),
+            "t.json:17: /design/variables/0/lower: expected a number, found \"4\"");
+  EXPECT_EQ(after("\"parameters\": \"ring.R\"", "\"parameters\": null"),
+            "t.json:17: /design/variables/0/parameters: expected a string or an array of at least 1 strings, "
+            "found null");
+  EXPECT_EQ(after("[6, 0, 0]", "[6, 0]"),
+            "t.json:11: /cell/place/1/position: expected an array of 3 numbers, found an array of 2 values");
+  EXPECT_EQ(after("[0, 100]]", "[0, \"x\"]]"),
+            "t.json:8: /cell/vectors/1/1: expected a number, found \"x\"");
+}
+
+TEST(Structure, RangesAndChoices)
+{
+  EXPECT_EQ(after("\"fast\"", "\"fats\""),
+            "t.json:14: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; the nearest "
+            "known value "
+            "is 'fast'");
+  EXPECT_EQ(after("\"preset\": \"fast\"", "\"clearance\": -0.1"),
+            "t.json:14: /solver/clearance: expected a number >= 0, found -0.1");
+  EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 0"),
+            "t.json:14: /solver/starts: expected an integer >= 1, found 0");
+  EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 1.5"),
+            "t.json:14: /solver/starts: expected an integer >= 1, found 1.5");
+  EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 1e300"),
+            "t.json:14: /solver/starts: expected an integer >= 1, found 1e+300");
+  EXPECT_EQ(after("\"value\": 0.05", "\"value\": 0.05, \"weight\": 0"),
+            "t.json:18: /design/targets/0/weight: expected a number > 0, found 0");
+  EXPECT_EQ(after("\"place\": [", "\"repeat\": [2, 0], \"place\": ["),
+            "t.json:9: /cell/repeat/1: expected an integer >= 1, found 0");
+  EXPECT_EQ(after("\"place\": [", "\"repeat\": [2], \"place\": ["),
+            "t.json:9: /cell/repeat: expected an array of 2 integers >= 1, found an array of 1 value");
+}
+
+TEST(Structure, UnknownKeysNameTheNearest)
+{
+  EXPECT_EQ(after("\"preset\"", "\"prest\""),
+            "t.json:14: /solver/prest: unknown key 'prest'; the nearest known key is 'preset'");
+  EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"Seed\": 1"),
+            "t.json:2: /Seed: unknown key 'Seed'; the nearest known key is 'seed'");
+  // A key of a plugin counts as known.
+  EXPECT_EQ(after("\"directions_deg\"", "\"mesure\": \"paper\", \"directions_deg\""),
+            "t.json:13: /load_case/mesure: unknown key 'mesure'; the nearest known key is 'measure'");
+  EXPECT_EQ(after("\"search\"", "\"search\", \"step\": 5"),
+            "t.json:16: /design/optimizer/step: unknown key 'step'; the nearest known key is 'steps'");
+}
+
+TEST(Structure, MissingKeys)
+{
+  EXPECT_EQ(after("\"name\": \"pair\",", ""), "t.json:1: missing key 'name': expected a string");
+  EXPECT_EQ(after("\"element\": \"link\", \"position\": [0, 0, 0]", "\"element\": \"link\""),
+            "t.json:10: /cell/place/0: missing key 'position': expected an array of 3 numbers");
+  EXPECT_EQ(after("\"shape\": \"rings\", ", ""),
+            "t.json:4: /elements/link: missing key 'shape': expected a string");
+  EXPECT_EQ(after("\"rings\": [ { \"name\": \"ring\" } ],", ""),
+            "t.json:4: /elements/link: missing key 'rings': expected an array of at least 1 objects");
+  EXPECT_EQ(after("\"quantity\": \"eta\",", ""),
+            "t.json:15: /design: missing key 'quantity': expected one of eta, stretch, compress, curvature");
+  EXPECT_EQ(after("\"targets\": [ { \"direction_deg\": 0, \"value\": 0.05 } ],", ""),
+            "t.json:15: /design: missing key 'targets': expected an array of at least 1 objects");
+}
+
+TEST(Structure, EmptyLists)
+{
+  EXPECT_EQ(after("[ { \"direction_deg\": 0, \"value\": 0.05 } ]", "[]"),
+            "t.json:18: /design/targets: expected an array of at least 1 objects, found an empty array");
+  EXPECT_EQ(
+      after("[0, 30]", "[]"),
+      "t.json:13: /load_case/directions_deg: expected an array of at least 1 numbers, found an empty array");
+  const std::string text =
+      with(valid_text(), "      { \"element\": \"link\", \"position\": [0, 0, 0] },\n", "");
+  EXPECT_EQ(
+      problems_of(with(text,
+                       "      { \"element\": \"link\", \"position\": [6, 0, 0], \"rotation\": { \"axis\": "
+                       "[1, 0, 0], \"degrees\": 90 } },\n",
+                       "")),
+      "t.json:9: /cell/place: expected an array of at least 1 objects, found an empty array");
+}
+
+TEST(Structure, AFileWithOnlySyntaxErrorsOrNothing)
+{
+  EXPECT_EQ(problems_of("{"),
+            "t.json:1: syntax error at column 2: expected a key in double quotes or '}', found end of file");
+  EXPECT_EQ(problems_of("{}"),
+            "t.json:1: missing key 'name': expected a string\n"
+            "t.json:1: missing key 'elements': expected an object\n"
+            "t.json:1: missing key 'cell': expected an object\n"
+            "t.json:1: missing key 'load_case': expected an object");
+}
+
+TEST(Structure, NumbersThatAreNotFiniteAreReportedOnce)
+{
+  EXPECT_EQ(after("\"ring.R\": 5.0", "\"ring.R\": NaN"),
+            "t.json:5: /elements/link/parameters/ring.R: expected a finite number, found NaN");
+  EXPECT_EQ(after("[6, 0, 0]", "[6, 1e999, 0]"),
+            "t.json:11: /cell/place/1/position/1: expected a finite number, found 1e999, which is beyond the "
+            "largest "
+            "double (about 1.8e308)");
+}
+
+TEST(Structure, ProblemsStayOnOneLineEach)
+{
+  EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"a\\nb\\u001b\": 1"),
+            "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; the nearest known key is 'name'");
+}
+
+TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)
+{
+  std::string text = valid_text();
+  text = with(text, "\"ring.R\": 5.0", "\"ring.R\": -5.0");
+  text = with(text, "\"link\", \"position\": [6", "\"lnk\", \"position\": [6");
+  text = with(text, "[0, 30]", "[0, 30, 210]");
+  text =
+      with(text, "\"preset\": \"fast\"", "\"preset\": \"fast\", \"preset\": \"paper\", \"contakt\": \"arc\"");
+  text = with(text, "\"lower\": 4.0", "\"lower\": 7.0");
+  text = with(text, "\"value\": 0.05", "\"value\": -0.05");
+  EXPECT_EQ(problems_of(text),
+            "t.json:5: /elements/link/parameters/ring.R: expected a number in [0, 1000000], found -5\n"
+            "t.json:11: /cell/place/1/element: unknown element 'lnk'; the nearest known element is 'link'\n"
+            "t.json:13: /load_case/directions_deg/2: direction 210 is the same as 30: directions count "
+            "modulo 180 degrees\n"
+            "t.json:14: /solver/preset: duplicate key 'preset': first given on line 14\n"
+            "t.json:14: /solver/contakt: unknown key 'contakt'; the nearest known key is 'contact'\n"
+            "t.json:17: /design/variables/0: expected lower < upper, found lower 7 and upper 6.5\n"
+            "t.json:18: /design/targets/0/value: expected a number >= 0 for eta, found -0.05");
+}
+
+TEST(Nearest, CountsHalfSteps)
+{
+  EXPECT_EQ(edit_distance("", "abc"), 6u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 6u);
+  EXPECT_EQ(edit_distance("ab", "ba"), 2u);
+  EXPECT_EQ(edit_distance("Ab", "ab"), 1u);
+  EXPECT_EQ(nearest_name("Ring.r", {"Ring.R", "Xing.r"}), "Ring.R");
+  EXPECT_EQ(nearest_name("x", {}), "");
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -174,6 +174,18 @@ Limit read_limit(const json::value& v, const std::string& where)
   return out;
 }
 
+void check_length(const Scene& scene, double length, const std::string& where)
+{
+  std::vector<double> radii;
+  for (const Element& element : scene.elements)
+    for (const Torus& torus : element.tori) radii.push_back(torus.R);
+  if (radii.empty()) throw Malformed(where + "/elements: no primitives");
+  std::sort(radii.begin(), radii.end());
+  const double lower = radii[(radii.size() - 1) / 2], upper = radii[radii.size() / 2];
+  if (!(length >= lower * (1.0 - unit_tolerance) && length <= upper * (1.0 + unit_tolerance)))
+    throw Malformed(where + "/length: not the median ring radius of the initial scene");
+}
+
 Setting read_setting(const json::value& experiment)
 {
   Setting out;

@@ -18,12 +18,11 @@ using namespace verification;
 constexpr const char* known_format = "hauberk-results/1";
 
 /// Checks the limits of one scene, a line each; those that could be read are returned.
-std::vector<Limit> check_limits(const json::value& scene_json, const json::value& limits_json,
+std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_json,
                                 const std::string& prefix, const Setting& setting, const VerifyTolerances& tolerances,
                                 std::vector<VerifyLine>& lines)
 {
   std::vector<Limit> out;
-  const Scene scene = read_scene(scene_json, prefix + "/scene");
   std::size_t i = 0;
   for (const json::value& item : array(limits_json, prefix + "/limits")) {
     const std::string where = fmt::format("{}/limits/{}", prefix, i++);
@@ -44,15 +43,19 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
   if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
   const Setting setting = read_setting(member(results, "experiment", ""));
-  const auto limits = check_limits(member(results, "scene", ""), member(results, "limits", ""), "", setting, tolerances,
-                                   lines);
-  lines.push_back(check_profiles(results, limits, tolerances));
+  const Scene scene = read_scene(member(results, "scene", ""), "/scene");
   const json::value& design = member(results, "design", "");
+  if (design.is_null()) check_length(scene, scene.length, "/scene");
+  const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, tolerances, lines);
+  lines.push_back(check_profiles(results, limits, tolerances));
   if (design.is_null()) return;
+
   const json::value& initial = member(design, "initial", "/design");
-  const auto initial_limits =
-      check_limits(member(initial, "scene", "/design/initial"), member(initial, "limits", "/design/initial"),
-                   "/design/initial", setting, tolerances, lines);
+  const Scene initial_scene = read_scene(member(initial, "scene", "/design/initial"), "/design/initial/scene");
+  check_length(initial_scene, initial_scene.length, "/design/initial/scene");
+  check_length(initial_scene, scene.length, "/scene");  // frozen during the design
+  const auto initial_limits = check_limits(initial_scene, member(initial, "limits", "/design/initial"),
+                                           "/design/initial", setting, tolerances, lines);
   lines.push_back(check_design(results, initial_limits, limits, tolerances));
 }
 

@@ -1,0 +1,82 @@
+#include <hauberk/verify/verify.hpp>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+#include <gtest/gtest.h>
+
+#include "chain_document.hpp"
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+using test::Chain;
+using test::chain_document;
+
+/// A "design" of the stretch limit from r_B = 0.7 to 0.6: 0.43333 before, 0.45 after, target 0.46.
+json::value design_document()
+{
+  const json::value before = chain_document();
+  json::value document = chain_document(Chain{.r_b = 0.6});
+  const double first = before.at_pointer("/limits/0/value").as_double();
+  const double last = document.at_pointer("/limits/0/value").as_double();
+  const auto objective = [](double value) { return 0.5 * 2.0 * (value - 0.46) * (value - 0.46); };
+  document.at("design") = {
+      {"quantity", "stretch"},
+      {"objective_initial", objective(first)},
+      {"objective", objective(last)},
+      {"variables",
+       json::array{json::value{{"name", "1/ring.R"}, {"initial", 5.0}, {"final", 5.0}, {"lower", 4.0}, {"upper", 6.0}}}},
+      {"targets", json::array{json::value{{"direction_deg", 180.0}, {"target", 0.46}, {"weight", 2.0}, {"initial", first},
+                                          {"provisional", last}, {"recomputed", last}, {"better_state", false},
+                                          {"met", true}}}},
+      {"initial", {{"scene", before.at("scene")}, {"limits", before.at("limits")}}}};
+  return document;
+}
+
+std::string report(const json::value& document) { return verify(document).text(); }
+
+TEST(Design, TrueDesignPasses)
+{
+  const VerifyReport checked = verify(design_document());
+  EXPECT_TRUE(checked.ok) << checked.text();
+  EXPECT_EQ(checked.lines.size(), 4u) << "final limit, profiles, initial limit, design";
+}
+
+TEST(Design, WhatDoesNotFollowIsCaught)
+{
+  const auto tampered = [](const char* pointer, const json::value& v) {
+    json::value document = design_document();
+    document.at_pointer(pointer) = v;
+    return report(document);
+  };
+  const auto has = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  EXPECT_TRUE(has(tampered("/design/targets/0/recomputed", 0.46), "recomputed 0.46 reported, 0.45"));
+  EXPECT_TRUE(has(tampered("/design/targets/0/initial", nullptr), "initial null reported, 0.4333333333 from"));
+  EXPECT_TRUE(has(tampered("/design/targets/0/met", false), "met should be true"));
+  EXPECT_TRUE(has(tampered("/design/targets/0/better_state", true), "met should be false"));
+  EXPECT_TRUE(has(tampered("/design/objective", 0.0), "/design/objective: 0 reported"));
+  EXPECT_TRUE(has(tampered("/design/variables/0/final", 5.5), "ring.R is 5, the variable 1/ring.R is 5.5"));
+  EXPECT_TRUE(has(tampered("/design/variables/0/upper", 4.5), "5 is outside [4, 4.5]"));
+  EXPECT_TRUE(has(tampered("/design/quantity", "colour"), "/design/quantity: \"colour\" is not known here"));
+  EXPECT_TRUE(has(tampered("/design/initial/limits/0/value", 0.4), "FAIL /design/initial/limits/0"));
+}
+
+TEST(Profiles, EtaFollowsFromBothSenses)
+{
+  json::value document = chain_document();
+  json::value compressed = document.at_pointer("/limits/0");
+  auto& limit = compressed.as_object();
+  limit["sense"] = "compress";
+  limit["status"] = "unbounded";
+  limit["value"] = nullptr;
+  limit["poses"].emplace_array();
+  document.at("limits").as_array().push_back(compressed);
+  EXPECT_TRUE(verify(document).ok) << report(document);
+  document.at_pointer("/profiles/0/eta") = 0.5;
+  EXPECT_NE(report(document).find("FAIL profiles: /profiles/0/eta: 0.5 reported, null from the limits"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hauberk

@@ -1,0 +1,164 @@
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "links.hpp"
+#include "neighbours.hpp"
+#include "separation.hpp"
+#include "surface.hpp"
+
+namespace hauberk::verification {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Torus torus(double R, double r0, double r1, const Vec3& centre = Vec3::Zero(), const Vec3& turn = Vec3::Zero())
+{
+  const Mat3 rotation =
+      turn.norm() > 0.0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() : Mat3::Identity();
+  return {"ring", {centre, rotation}, R, r0, r1};
+}
+
+Torus random_torus(std::mt19937_64& random, bool circular)
+{
+  std::uniform_real_distribution<> unit(-1.0, 1.0);
+  const double r0 = 0.6 + 0.4 * unit(random);
+  return torus(4.0 + unit(random), r0, circular ? r0 : 0.8 + 0.6 * unit(random),
+               8.0 * Vec3(unit(random), unit(random), unit(random)), 3.0 * Vec3(unit(random), unit(random), unit(random)));
+}
+
+TEST(SignedDistance, KnownPoints)
+{
+  const Torus ring = torus(5.0, 0.7, 1.2);
+  EXPECT_NEAR(signed_distance(ring, {7.0, 0.0, 0.0}), 1.3, 1e-15);
+  EXPECT_NEAR(signed_distance(ring, {0.0, 0.0, 0.0}), 4.3, 1e-15);
+  EXPECT_NEAR(signed_distance(ring, {0.0, -5.0, 2.0}), 0.8, 1e-15);
+  EXPECT_NEAR(signed_distance(ring, {5.0, 0.0, 0.0}), -0.7, 1e-12) << "the shorter half-axis, from the centre";
+  EXPECT_NEAR(signed_distance(ring, {5.5, 0.0, 0.0}), -0.2, 1e-12);
+}
+
+TEST(SignedDistance, PointsAlongTheNormalOfRandomTori)
+{
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<> unit(-1.0, 1.0);
+  for (int i = 0; i < 2000; ++i) {
+    const Torus ring = random_torus(random, i % 4 == 0);
+    const double u = pi * unit(random), v = pi * unit(random), step = 1e-6;
+    const Vec3 du = surface_point(ring, u + step, v) - surface_point(ring, u - step, v);
+    const Vec3 dv = surface_point(ring, u, v + step) - surface_point(ring, u, v - step);
+    const Vec3 normal = du.cross(dv).normalized(), on = surface_point(ring, u, v);
+    Vec3 outward;
+    EXPECT_NEAR(signed_distance(ring, on, &outward), 0.0, 1e-13);
+    EXPECT_NEAR((outward - normal).norm(), 0.0, 1e-8);
+    EXPECT_NEAR(signed_distance(ring, on + 0.3 * normal), 0.3, 1e-8);
+    EXPECT_NEAR(signed_distance(ring, on - 0.01 * normal), -0.01, 1e-8);
+  }
+}
+
+/// Dense double sampling; never below the truth, and at most half a diagonal of its cells above.
+double sampled_separation(const Torus& a, const Torus& b)
+{
+  constexpr int n = 160, m = 32;
+  double best = 1e300;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j)
+      best = std::min(best, signed_distance(b, surface_point(a, 2.0 * pi * i / n, 2.0 * pi * j / m)));
+  return best;
+}
+
+TEST(Separation, RandomPairsAgainstDenseSampling)
+{
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 150; ++i) {
+    const Torus a = random_torus(random, i % 3 == 0), b = random_torus(random, i % 4 == 0);
+    const double found = separation(a, b), sampled = sampled_separation(a, b);
+    EXPECT_LE(found, sampled + 1e-12) << i;
+    if (found < 0.0) {  // intersecting surfaces have no distance: only the sign matters
+      EXPECT_LT(sampled, 0.05) << i;
+      continue;
+    }
+    EXPECT_GE(found, sampled - 0.01) << i;
+    EXPECT_NEAR(found, separation(b, a), 1e-11) << i;
+    EXPECT_LE(separation_bound(a, b), found + 1e-12) << i;
+  }
+}
+
+TEST(Separation, ExactPairs)
+{
+  const Torus ring = torus(5.0, 0.7, 0.7);
+  EXPECT_NEAR(separation(ring, torus(4.0, 0.5, 0.5, {13.0, 0.0, 0.0})), 13.0 - 5.7 - 4.5, 1e-14) << "side by side";
+  EXPECT_NEAR(separation(ring, torus(5.0, 0.7, 0.7, {0.0, 0.0, 3.0})), 1.6, 1e-14) << "stacked: a valley of minima";
+  EXPECT_NEAR(separation(ring, torus(5.0, 0.7, 0.7, {8.6 - 1e-10, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 1e-10, 1e-14);
+  EXPECT_NEAR(separation(torus(5.0, 0.7, 0.4), torus(5.0, 0.7, 0.4, {8.6, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 0.0, 1e-14)
+      << "elliptical tubes lock by r0 while they are slender";
+  EXPECT_NEAR(separation(torus(5.0, 0.7, 1.1), torus(5.0, 0.9, 1.3, {0.0, 0.0, 4.0})), 4.0 - 2.4, 1e-13);
+}
+
+TEST(Links, HopfPairAndItsMirror)
+{
+  const Torus a = torus(5.0, 0.7, 0.7), b = torus(5.0, 0.7, 0.7, {6.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0});
+  const int number = linking_number(a, b);
+  EXPECT_EQ(std::abs(number), 1);
+  EXPECT_EQ(linking_number(b, a), number) << "symmetric";
+  EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {6.0, 0.0, 0.0}, {-pi / 2.0, 0.0, 0.0})), -number) << "b reversed";
+  EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {-6.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), -number);
+  EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {10.5, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 0) << "apart";
+  EXPECT_EQ(linking_number(a, torus(1.0, 0.1, 0.1, {2.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 0)
+      << "through the disc and back";
+  EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {0.0, 0.0, 1.0})), 0) << "parallel planes";
+}
+
+TEST(Links, MatchGaussIntegralOnRandomPairs)
+{
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<> unit(-1.0, 1.0);
+  int linked = 0;
+  for (int i = 0; i < 200; ++i) {
+    Torus a = random_torus(random, true), b = random_torus(random, true);
+    a.place.position *= 0.4;
+    b.place.position *= 0.4;
+    if (std::abs(separation_bound(a, b) + a.r0 + b.r0) < 0.3) continue;  // the integral needs room
+    constexpr int n = 120;
+    double sum = 0.0;
+    for (int p = 0; p < n; ++p)
+      for (int q = 0; q < n; ++q) {
+        const double u = 2.0 * pi * p / n, v = 2.0 * pi * q / n;
+        const Vec3 x = core_point(a, u), y = core_point(b, v), d = x - y;
+        const Vec3 dx = core_point(a, u + pi / 2.0) - a.place.position, dy = core_point(b, v + pi / 2.0) - b.place.position;
+        sum += d.dot(dx.cross(dy)) / std::pow(d.norm(), 3);
+      }
+    const double gauss = sum * (2.0 * pi / n) * (2.0 * pi / n) / (4.0 * pi);
+    ASSERT_NEAR(std::abs(gauss), std::abs(std::round(gauss)), 0.05);
+    EXPECT_EQ(std::abs(linking_number(a, b)), std::abs(std::lround(gauss))) << i;
+    linked += linking_number(a, b) != 0;
+  }
+  EXPECT_GT(linked, 10);
+}
+
+TEST(Neighbours, ReachBeyondTheFirstImagesOnce)
+{
+  Scene scene;
+  scene.cell = {{2.0, 0.0, 0.0}, {1.5, 0.4, 0.0}};  // slanted: near images have large indices
+  scene.elements.resize(2);
+  for (Element& element : scene.elements) {
+    element.tori = {torus(3.0, 0.1, 0.1)};
+    element.reach = 3.1;
+  }
+  const std::vector<Place> places{{Vec3::Zero(), Mat3::Identity()}, {Vec3(0.3, 0.1, 0.0), Mat3::Identity()}};
+  const Mat3 F = Strain{0.2, -0.1, 0.05}.deformation();
+  std::size_t expected = 0;
+  for (int i = -60; i <= 60; ++i)
+    for (int j = -60; j <= 60; ++j) {
+      const Vec3 t = translation(scene, F, {i, j});
+      expected += (t + places[1].position).norm() <= 6.2;
+      if (i > 0 || (i == 0 && j > 0)) expected += 2 * (t.norm() <= 6.2);
+    }
+  EXPECT_EQ(neighbours(scene, places, F, 0.0).size(), expected);
+  EXPECT_GT(expected, 100u);
+}
+
+}  // namespace
+}  // namespace hauberk::verification

@@ -1,0 +1,61 @@
+#pragma once
+/// Deformation limits: locked states from rest, for directions and senses, with several starts.
+
+#include <hauberk/mechanics/locking.hpp>
+#include <hauberk/results.hpp>
+
+#include <cstdint>
+
+namespace hauberk {
+
+/// How limits are computed.
+struct LimitSettings {
+  ContactChoice contact = ContactChoice::automatic;
+  Schedule schedule;
+  int starts = 1;
+  double perturbation = 1e-3;         ///< of the first start, L; breaks symmetries without leaving rest
+  double further_perturbation = 0.1;  ///< of further starts, L, as far as nothing collides
+  std::uint64_t seed = 1;
+};
+
+/// One limit to be found.
+struct LimitTask {
+  double direction_deg = 0.0;
+  Sense sense = Sense::positive;
+};
+
+/// Rest state moved at random: for every element a displacement and a turn, normally distributed with
+/// standard deviation `size` (L, and radians), drawn in the element's own frame so that turning the scene
+/// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
+State perturbed_rest(const Model& model, double size, std::uint64_t seed);
+
+/// Locked state of one task from one start; start 0 is the smallest perturbation.
+Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,
+                        const KeepGoing& keep_going);
+
+/// Result of one task out of its starts' locked states (in start order). Forces, balance, sensitivities and
+/// the smallest gap are evaluated at the best state.
+LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task, const LimitSettings& settings,
+                      const std::vector<Locked>& starts);
+
+/// Result for a task that the links leave unbounded or not attained, or null if it is to be solved.
+std::optional<LimitResult> decided_by_links(const Model& model, const LimitTask& task);
+
+/// Called after each start of each task; must be thread safe. Returns false to interrupt.
+using LimitProgress = std::function<bool(std::size_t done, std::size_t total)>;
+
+/// All tasks, starts in parallel. Results do not depend on `threads`. On interruption, tasks that were not
+/// finished have status `interrupted`.
+std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
+                                        const LimitSettings& settings, unsigned threads, const LimitProgress& progress);
+
+/// Stretch and compression of equal directions joined: e_s, e_c, eta = (e_s - e_c)/(1 + e_c).
+std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,
+                                   const std::string& negative);
+
+/// Largest component of (load - sum of forces times gap derivatives) over the load's norm, from listed
+/// contacts alone.
+double force_balance(const Model& model, const State& state, const Vector& load,
+                     const std::vector<ContactEnergy::Point>& points, double mu);
+
+}  // namespace hauberk

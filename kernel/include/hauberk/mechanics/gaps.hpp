@@ -1,0 +1,43 @@
+#pragma once
+/// Gaps of close pairs with their derivatives, and what is built on them: checks of the rest state and its
+/// relaxation.
+
+#include <hauberk/mechanics/contact_energy.hpp>
+
+#include <string>
+
+namespace hauberk {
+
+/// A local minimum of the distance between two bodies.
+struct Gap {
+  int a = 0, b = 0;    ///< bodies; b in image
+  Image image{};
+  double gap = 0.0;    ///< surface distance minus clearance, scaled; negative when they overlap
+  Vector dy;           ///< derivative in all unknowns
+  Vector da, db;       ///< derivative in the parameters of a's and b's element (file units, scaled gap per unit)
+};
+
+/// All local minima closer than `range` (scaled, after clearance), in a fixed order; derivatives on request.
+std::vector<Gap> find_gaps(const Model& model, const State& state, double range, bool derivatives);
+
+/// Smallest gap over all pairs within `range`, infinity if none.
+double smallest_gap(const Model& model, const State& state, double range);
+
+/// Outcome of `relax`.
+struct Relaxed {
+  State state;
+  bool moved = false;
+  double smallest = 0.0;        ///< smallest gap afterwards
+  double largest_motion = 0.0;  ///< L
+  std::string problem;          ///< empty when every gap reached the target and links are kept
+};
+
+/// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2 with
+/// the macroscopic unknowns fixed, by Levenberg-Marquardt. Elements may overlap at the start (not deeper
+/// than their tubes).
+Relaxed relax(const Model& model, const State& start, double target);
+
+/// Rest poses of a state with macro = 0, in scaled lengths, as elements' new rest.
+std::vector<Pose> rest_poses(const Model& model, const State& state);
+
+}  // namespace hauberk

@@ -1,0 +1,201 @@
+#include "limit_report.hpp"
+
+#include <hauberk/mechanics/gaps.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Range in which the smallest gap is searched, L.
+constexpr double gap_range = 0.2;
+/// States closer than this in value, invariants of the strain and height are one.
+constexpr double same_state = 1e-5;
+
+std::span<const double> macro_span(const Model& m, const State& s)
+{
+  return {s.macro.data(), static_cast<std::size_t>(m.macro_count)};
+}
+
+double power(double x, int n) { return std::pow(x, static_cast<double>(n)); }
+
+double z_range(const Model& m, const State& s)
+{
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+  const std::vector<Pose> p = poses(m, s);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double z = p[i].position.z() - m.rest[i].position.z();
+    lo = std::min(lo, z);
+    hi = std::max(hi, z);
+  }
+  return hi - lo;
+}
+
+/// Poses in file units; their mean position is that of the rest state.
+std::vector<Pose> reported_poses(const Model& m, const State& s, Vec3& shift)
+{
+  std::vector<Pose> p = poses(m, s);
+  shift = Vec3::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) shift += m.rest[i].position - p[i].position;
+  shift /= static_cast<double>(p.size());
+  for (Pose& q : p) q.position = (q.position + shift) * m.length;
+  return p;
+}
+
+ContactForce reported_contact(const Model& m, const ContactEnergy::Point& p, double mu, const Vec3& shift)
+{
+  ContactForce c;
+  if (p.wall >= 0) {
+    c.elements = {p.a, -1};
+    c.primitives = {-1, -1};
+    c.wall = m.walls[static_cast<std::size_t>(p.wall)].name;
+  } else {
+    const Body& A = m.bodies[static_cast<std::size_t>(p.a)];
+    const Body& B = m.bodies[static_cast<std::size_t>(p.b)];
+    c.elements = {A.element, B.element};
+    c.primitives = {A.index, B.index};
+    c.image = p.image;
+  }
+  c.points = {(p.contact.on_p + shift) * m.length, (p.contact.on_f + shift) * m.length};
+  c.normal = p.contact.normal;
+  c.gap = p.contact.gap * m.length;
+  c.force = mu * p.contact.force / m.length;
+  return c;
+}
+
+}  // namespace
+
+LimitResult limit_header(const Model& m, const LimitTask& task)
+{
+  LimitResult r;
+  const auto names = m.load->sense_names();
+  r.direction_deg = task.direction_deg;
+  r.sense = task.sense == Sense::positive ? names.first : names.second;
+  r.measure = m.load->measure();
+  return r;
+}
+
+double force_balance(const Model& m, const State& s, const Vector& load, const std::vector<ContactEnergy::Point>& points,
+                     double mu)
+{
+  // load + sum f dg/dy = 0: a gap opens when B's point moves along the normal and A's against it.
+  Vector rest = Vector::Zero(m.dofs());
+  rest.head(m.macro_count) = load;
+  const int nm = m.macro_count, nc = m.coordinate_count;
+  const auto push = [&](int element, const Image& image, const Vec3& point, const Vec3& force) {
+    PositionMap map;
+    const auto k = static_cast<std::size_t>(element);
+    m.load->position(macro_span(m, s), {s.e.data() + element * nc, static_cast<std::size_t>(nc)}, m.rest[k].position,
+                     m.translation(image), map);
+    rest.head(nm) += map.J.leftCols(nm).transpose() * force;
+    rest.segment(m.offset(element), nc) += map.J.middleCols(nm, nc).transpose() * force;
+    rest.segment<3>(m.offset(element) + nc) += (point - map.x).cross(force);
+  };
+  for (const ContactEnergy::Point& p : points) {
+    const double f = mu * p.contact.force;
+    if (p.wall >= 0) {
+      for (const auto& t : m.walls[static_cast<std::size_t>(p.wall)].terms) {
+        rest[m.offset(t.element) + t.coordinate] += f * t.coefficient;
+      }
+      continue;
+    }
+    push(m.bodies[static_cast<std::size_t>(p.a)].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
+    push(m.bodies[static_cast<std::size_t>(p.b)].element, p.image, p.contact.on_f, f * p.contact.normal);
+  }
+  return rest.cwiseAbs().maxCoeff() / load.norm();
+}
+
+LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task, const LimitSettings&,
+                       const Locked& l)
+{
+  LimitResult r = limit_header(m, task);
+  r.status = l.status == LockStatus::locked        ? LimitStatus::locked
+             : l.status == LockStatus::interrupted ? LimitStatus::interrupted
+             : l.status == LockStatus::unbounded   ? LimitStatus::failed
+                                                   : LimitStatus::stalled;
+  r.message = l.message;
+  if (l.status == LockStatus::unbounded) {
+    r.message = "the strain left every bound although links bound this direction";
+  }
+  r.iterations = l.iterations;
+  r.evaluations = l.evaluations;
+  if (l.stages.empty()) return r;
+
+  const double theta = task.direction_deg * degree;
+  const double scale = power(m.length, m.load->value_length_power());
+  const State& s = l.state;
+  r.value = m.load->value(theta, macro_span(m, s)) * scale;
+  r.companions = m.load->companions(theta, macro_span(m, s));
+  for (int k = 0; k < m.macro_count; ++k) {
+    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
+    r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
+  }
+  if (l.error_estimate) r.error_estimate = *l.error_estimate * scale;
+  r.min_gap = smallest_gap(m, s, gap_range) * m.length;
+  r.links_kept = links_kept(m, s);
+  r.z_range = z_range(m, s) * m.length;
+  Vec3 shift;
+  r.poses = reported_poses(m, s, shift);
+
+  Request request;
+  request.order = 1;
+  request.parameters = request.points = true;
+  const ContactEnergy e = contact_energy(m, s, stage_pairs(m, s, l.stage), l.stage.contact, request);
+  for (const ContactEnergy::Point& p : e.points) r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
+  const Vector load = load_vector(m, theta, task.sense);
+  r.force_balance = force_balance(m, s, load, e.points, l.stage.mu);
+  r.contact = l.stage.contact.formulation == Formulation::arc ? "arc" : "nearest";
+  // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
+  const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
+  r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;
+  for (int k = 0; k < m.element_count(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const auto& infos = spec.types[static_cast<std::size_t>(spec.elements[i].type)].shape->parameters();
+    for (std::size_t c = 0; c < infos.size(); ++c) {
+      r.sensitivity_parameters.emplace_back(fmt::format("{}/{}", k, infos[c].name),
+                                            sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
+    }
+  }
+  r.certificate = fmt::format("path from rest certified free of intersections; {} links kept; smallest gap {:.3g}",
+                              m.links.size(), *r.min_gap);
+  if (!r.links_kept) {
+    r.status = LimitStatus::failed;
+    r.message = "a link was lost: the collision check failed";
+  } else if (r.status == LimitStatus::locked && !(*r.min_gap > 0.0)) {
+    r.status = LimitStatus::failed;
+    r.message = "surfaces overlap at the end: the collision check failed";
+  }
+  return r;
+}
+
+void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const Locked& l, std::uint64_t seed)
+{
+  LockedState s;
+  const double scale = power(m.length, m.load->value_length_power());
+  s.value = m.load->value(task.direction_deg * degree, macro_span(m, l.state)) * scale;
+  for (int k = 0; k < m.macro_count; ++k) {
+    s.macro.push_back(l.state.macro[k] * power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));
+  }
+  s.z_range = z_range(m, l.state) * m.length;
+  s.seed = seed;
+  s.count = 1;
+  // Mirror images have the same value, height and metric norm of the macroscopic state.
+  const auto norm = [&m](const std::vector<double>& x) {
+    double n = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k) n += m.metric[static_cast<int>(k)] * x[k] * x[k];
+    return std::sqrt(n);
+  };
+  for (LockedState& o : list) {
+    if (std::abs(o.value - s.value) < same_state * scale && std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale &&
+        std::abs(o.z_range - s.z_range) < 100 * same_state * m.length) {
+      ++o.count;
+      return;
+    }
+  }
+  list.push_back(s);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,128 @@
+#include "limit_report.hpp"
+
+#include <hauberk/limits/limits.hpp>
+#include <hauberk/parallel.hpp>
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+std::span<const double> macro_span(const Model& m, const State& s)
+{
+  return {s.macro.data(), static_cast<std::size_t>(m.macro_count)};
+}
+
+}  // namespace
+
+std::optional<LimitResult> decided_by_links(const Model& m, const LimitTask& task)
+{
+  const std::vector<Vec3> cycles = cycle_translations(m);
+  const Boundedness b = m.load->boundedness(task.direction_deg * degree, task.sense, cycles);
+  if (b == Boundedness::attained) return std::nullopt;
+  LimitResult r = limit_header(m, task);
+  r.links_kept = true;
+  if (b == Boundedness::unbounded) {
+    r.status = LimitStatus::unbounded;
+    r.message = "no chain of links holds this direction";
+  } else {
+    r.status = LimitStatus::not_attained;
+    r.message = "approached only as another strain grows without bound";
+  }
+  return r;
+}
+
+LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task, const LimitSettings& settings,
+                      const std::vector<Locked>& starts)
+{
+  const double theta = task.direction_deg * degree;
+  constexpr double same_value = 1e-9;  // a further start must be further by more than rounding
+  // The best locked state; if none locked, the first start tells what happened.
+  const auto value_of = [&](const Locked& l) {
+    const double v = m.load->value(theta, macro_span(m, l.state));
+    return task.sense == Sense::positive ? v : -v;
+  };
+  std::size_t best = 0;
+  bool any = false;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (starts[k].status != LockStatus::locked) continue;
+    if (!any || value_of(starts[k]) > value_of(starts[best]) + same_value) best = k;
+    any = true;
+  }
+  LimitResult r = fill_limit(m, spec, task, settings, starts[best]);
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    r.iterations += k == best ? 0 : starts[k].iterations;
+    r.evaluations += k == best ? 0 : starts[k].evaluations;
+    if (starts[k].status == LockStatus::locked) {
+      add_start(r.starts, m, task, starts[k], settings.seed + static_cast<std::uint64_t>(k));
+    }
+  }
+  r.better_state = any && best != 0;
+  return r;
+}
+
+std::vector<LimitResult> compute_limits(const Model& m, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
+                                        const LimitSettings& settings, unsigned threads, const LimitProgress& progress)
+{
+  std::vector<std::optional<LimitResult>> decided(tasks.size());
+  for (std::size_t k = 0; k < tasks.size(); ++k) decided[k] = decided_by_links(m, tasks[k]);
+  const auto n = static_cast<std::size_t>(std::max(1, settings.starts));
+  std::vector<Locked> found(tasks.size() * n);
+  std::vector<double> seconds(found.size(), 0.0);
+  std::atomic<bool> going{true};
+  std::atomic<std::size_t> done{0};
+  parallel_for(found.size(), threads, [&](std::size_t i) {
+    const std::size_t task = i / n;
+    found[i].status = LockStatus::interrupted;
+    found[i].state = rest_state(m);
+    if (!decided[task] && going) {
+      const auto t0 = std::chrono::steady_clock::now();
+      found[i] = limit_from_start(m, tasks[task], settings, static_cast<int>(i % n), [&] { return going.load(); });
+      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    }
+    if (!progress(++done, found.size())) going = false;
+  });
+  std::vector<LimitResult> out(tasks.size());
+  parallel_for(tasks.size(), threads, [&](std::size_t k) {
+    if (decided[k]) {
+      out[k] = *decided[k];
+      return;
+    }
+    const std::vector<Locked> mine(found.begin() + static_cast<std::ptrdiff_t>(k * n),
+                                   found.begin() + static_cast<std::ptrdiff_t>((k + 1) * n));
+    out[k] = summarize(m, spec, tasks[k], settings, mine);
+    for (std::size_t i = 0; i < n; ++i) out[k].seconds += seconds[k * n + i];
+  });
+  return out;
+}
+
+std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,
+                                   const std::string& negative)
+{
+  std::vector<ProfilePoint> out;
+  const auto at = [&out](double direction) -> ProfilePoint& {
+    for (ProfilePoint& p : out) {
+      if (p.direction_deg == direction) return p;
+    }
+    out.push_back({direction, {}, {}, {}});
+    return out.back();
+  };
+  for (const LimitResult& l : limits) {
+    if (l.status != LimitStatus::locked) {
+      at(l.direction_deg);
+      continue;
+    }
+    if (l.sense == positive) at(l.direction_deg).e_s = l.value;
+    if (l.sense == negative) at(l.direction_deg).e_c = l.value;
+  }
+  for (ProfilePoint& p : out) {
+    if (p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);
+  }
+  return out;
+}
+
+}  // namespace hauberk

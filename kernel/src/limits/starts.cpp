@@ -1,0 +1,63 @@
+#include <hauberk/limits/limits.hpp>
+#include <hauberk/motion/advancement.hpp>
+
+#include <random>
+
+namespace hauberk {
+namespace {
+
+/// Further starts take this many random moves, each as long as nothing collides.
+constexpr int moves = 4;
+
+/// Normal variates by Box-Muller: std::normal_distribution differs between standard libraries.
+class Normal {
+ public:
+  explicit Normal(std::uint64_t seed) : rng_(seed) {}
+  double operator()()
+  {
+    const double u = (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53;
+    const double v = (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53;
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  }
+  Vec3 vector()
+  {
+    const double x = (*this)(), y = (*this)(), z = (*this)();
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 rng_;
+};
+
+}  // namespace
+
+State perturbed_rest(const Model& m, double size, std::uint64_t seed)
+{
+  State s = rest_state(m);
+  if (size <= 0.0) return s;
+  Normal normal(seed);
+  const int count = size > 0.01 ? moves : 1;
+  for (int k = 0; k < count; ++k) {
+    Vector dy = Vector::Zero(m.dofs());
+    for (int i = 0; i < m.element_count(); ++i) {
+      const Mat3& Q = m.rest[static_cast<std::size_t>(i)].rotation;
+      const Vec3 u = Q * normal.vector(), w = Q * normal.vector();
+      dy.segment(m.offset(i), m.coordinate_count) = size * u.head(m.coordinate_count);
+      dy.segment<3>(m.offset(i) + m.coordinate_count) = size * w;
+    }
+    const SafeStep safe = largest_safe_step(m, s, dy, 0.3);
+    s = advanced(m, s, dy, safe.alpha);
+  }
+  return s;
+}
+
+Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettings& settings, int start,
+                        const KeepGoing& keep_going)
+{
+  const double size = start == 0 ? settings.perturbation : settings.further_perturbation;
+  const State from = perturbed_rest(m, size, settings.seed + static_cast<std::uint64_t>(start));
+  return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact, settings.schedule,
+              keep_going);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,195 @@
+#include <hauberk/mechanics/gaps.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Weight of staying where the rest state was, against violated gaps; the violation left behind is about
+/// this fraction of the motion.
+constexpr double anchor_weight = 1e-6;
+constexpr int most_relaxations = 200;
+constexpr double room = 1e-3;  ///< relative to the target: aim a little beyond it
+
+template <int dim>
+void gaps_of(const Model& m, const ElementPair& pair, int p, int f, const Pose& pp, const Pose& pf, bool swapped,
+             double range, bool derivatives, const PositionMap& mi, const PositionMap& mj, std::vector<Gap>& out)
+{
+  const Body& P = m.bodies[static_cast<std::size_t>(p)];
+  const Body& F = m.bodies[static_cast<std::size_t>(f)];
+  const PairFrame frame(P, pp, F, pf);
+  const Probe<dim> probe(frame);
+  int evaluations = 0;
+  for (const Minimum& mm : local_minima<dim>(frame, range + m.clearance, evaluations)) {
+    Gap g;
+    g.a = swapped ? f : p;
+    g.b = swapped ? p : f;
+    g.image = pair.image;
+    g.gap = mm.distance - m.clearance;
+    if (derivatives) {
+      const ProbePoint q = probe.at(mm.u, mm.v);
+      const FieldValue v = field_at(F, q.p);
+      SideTerms t;
+      t.add(v, q.p - frame.o, 1.0, 0.0, 1);
+      t.template add_parameters<dim>(frame, v, q, 1.0);
+      const PairTerms w = to_world(t, frame.M, pp.position - pf.position, 1);
+      const int nm = m.macro_count, nc = m.coordinate_count;
+      const Vec3 eta = swapped ? Vec3(-w.gradient.head<3>()) : Vec3(w.gradient.head<3>());
+      const Vec3 wi = swapped ? w.gradient.segment<3>(6) : w.gradient.segment<3>(3);
+      const Vec3 wj = swapped ? w.gradient.segment<3>(3) : w.gradient.segment<3>(6);
+      g.dy = Vector::Zero(m.dofs());
+      g.dy.head(nm) = (mi.J.leftCols(nm) - mj.J.leftCols(nm)).transpose() * eta;
+      g.dy.segment(m.offset(pair.i), nc) += mi.J.middleCols(nm, nc).transpose() * eta;
+      g.dy.segment(m.offset(pair.j), nc) -= mj.J.middleCols(nm, nc).transpose() * eta;
+      g.dy.segment<3>(m.offset(pair.i) + nc) += wi;
+      g.dy.segment<3>(m.offset(pair.j) + nc) += wj;
+      const auto chain = [&](int body, const Pose& pose, const std::array<double, primitive_dofs>& d) {
+        const auto k = static_cast<std::size_t>(body);
+        const Vec3 local = pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
+        const std::array<double, primitive_dofs> full{local[0], local[1], local[2], d[3], d[4], d[5]};
+        const int n = m.parameter_count[static_cast<std::size_t>(m.bodies[k].element)];
+        Vector out_d = Vector::Zero(n);
+        for (int r = 0; r < primitive_dofs; ++r) {
+          for (int c = 0; c < n; ++c) {
+            out_d[c] += full[static_cast<std::size_t>(r)] * m.jacobians[k][static_cast<std::size_t>(r * n + c)] / m.length;
+          }
+        }
+        return out_d;
+      };
+      const Vector dp = chain(p, pp, t.dP), df = chain(f, pf, t.dF);
+      g.da = swapped ? df : dp;
+      g.db = swapped ? dp : df;
+    }
+    out.push_back(std::move(g));
+  }
+}
+
+/// Sum of squared violations and the anchor, with Gauss-Newton terms.
+struct Penalty {
+  double value = 0.0, worst = 0.0, smallest = 0.0;
+  Vector gradient;
+  Matrix hessian;
+};
+
+Penalty penalty(const Model& m, const State& start, const State& s, double target)
+{
+  Penalty p;
+  const Vector away = difference(m, start, s).cwiseProduct(m.metric);
+  p.value = 0.5 * anchor_weight * away.dot(difference(m, start, s));
+  p.gradient = anchor_weight * away;
+  p.hessian = Matrix::Zero(m.dofs(), m.dofs());
+  p.hessian.diagonal() = anchor_weight * m.metric;
+  p.smallest = std::numeric_limits<double>::infinity();
+  for (const Gap& g : find_gaps(m, s, target, true)) {
+    const double r = target - g.gap;
+    p.smallest = std::min(p.smallest, g.gap);
+    if (r <= 0.0) continue;
+    p.worst = std::max(p.worst, r);
+    p.value += 0.5 * r * r;
+    p.gradient -= r * g.dy;
+    p.hessian.noalias() += g.dy * g.dy.transpose();
+  }
+  for (const LinearInequality& w : m.walls) {
+    double g = w.offset;
+    for (const auto& t : w.terms) g += t.coefficient * s.e[t.element * m.coordinate_count + t.coordinate];
+    if (g < 0.0) {
+      p.value += 0.5 * g * g;
+      for (const auto& t : w.terms) {
+        p.gradient[m.offset(t.element) + t.coordinate] += g * t.coefficient;
+        for (const auto& r : w.terms) {
+          p.hessian(m.offset(t.element) + t.coordinate, m.offset(r.element) + r.coordinate) += t.coefficient * r.coefficient;
+        }
+      }
+    }
+  }
+  // The cell is fixed.
+  p.gradient.head(m.macro_count).setZero();
+  p.hessian.leftCols(m.macro_count).setZero();
+  p.hessian.topRows(m.macro_count).setZero();
+  p.hessian.diagonal().head(m.macro_count).setOnes();
+  return p;
+}
+
+}  // namespace
+
+std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool derivatives)
+{
+  std::vector<Gap> out;
+  const double reach = range + m.clearance;
+  PositionMap mi, mj;
+  const auto nm = static_cast<std::size_t>(m.macro_count), nc = static_cast<std::size_t>(m.coordinate_count);
+  for (const ElementPair& pair : near_pairs(m, s, reach)) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    m.load->position({s.macro.data(), nm}, {s.e.data() + i * nc, nc}, m.rest[i].position, Vec3::Zero(), mi);
+    m.load->position({s.macro.data(), nm}, {s.e.data() + j * nc, nc}, m.rest[j].position, m.translation(pair.image), mj);
+    const Pose pi{mi.x, s.rotation[i]}, pj{mj.x, s.rotation[j]};
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body& A = m.bodies[static_cast<std::size_t>(a)];
+        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const double d = (pi.position + pi.rotation * A.center - pj.position - pj.rotation * B.center).norm();
+        if (d >= A.bound + B.bound + reach) continue;
+        if (A.is_tube()) {
+          gaps_of<1>(m, pair, a, b, pi, pj, false, range, derivatives, mi, mj, out);
+        } else if (B.is_tube()) {
+          gaps_of<1>(m, pair, b, a, pj, pi, true, range, derivatives, mi, mj, out);
+        } else {
+          gaps_of<2>(m, pair, a, b, pi, pj, false, range, derivatives, mi, mj, out);
+        }
+      }
+    }
+  }
+  return out;
+}
+
+double smallest_gap(const Model& m, const State& s, double range)
+{
+  double g = std::numeric_limits<double>::infinity();
+  for (const Gap& x : find_gaps(m, s, range, false)) g = std::min(g, x.gap);
+  return g;
+}
+
+Relaxed relax(const Model& m, const State& start, double target)
+{
+  Relaxed out;
+  out.state = start;
+  const double aim = target * (1.0 + room);
+  Penalty now = penalty(m, start, start, aim);
+  double damping = 1e-4;
+  for (int it = 0; it < most_relaxations && now.smallest < target; ++it) {
+    Matrix A = now.hessian;
+    A.diagonal() += damping * m.metric;
+    Vector dy = -A.llt().solve(now.gradient);
+    const double size = step_norm(m, dy);
+    if (size > 0.1) dy *= 0.1 / size;
+    const State trial = advanced(m, out.state, dy, 1.0);
+    const Penalty next = penalty(m, start, trial, aim);
+    if (next.value < now.value) {
+      out.state = trial;
+      const double gain = (now.value - next.value) / std::max(now.value, 1e-300);
+      now = next;
+      out.moved = true;
+      damping = std::max(0.1 * damping, 1e-12);
+      if (gain < 1e-10) break;
+    } else {
+      damping *= 10.0;
+      if (damping > 1e6) break;
+    }
+  }
+  out.smallest = now.smallest;
+  out.largest_motion = largest_motion(m, difference(m, start, out.state));
+  if (!links_kept(m, out.state)) {
+    out.problem = "relaxation would undo a link";
+  } else if (now.smallest < target - 1e-12) {
+    out.problem = fmt::format("the nearest state with room leaves a gap of {:.3g} where {:.3g} is needed",
+                              now.smallest * m.length, target * m.length);
+  }
+  return out;
+}
+
+std::vector<Pose> rest_poses(const Model& m, const State& s) { return poses(m, s); }
+
+}  // namespace hauberk

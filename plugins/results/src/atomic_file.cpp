@@ -86,8 +86,7 @@ void prepare_output_directory(const fs::path& directory, bool force)
   if (fs::exists(directory / "results.json", error) && !force)
     throw InputError(directory.string() + ": holds results already; give another folder with -o, or --force");
   fs::create_directories(directory, error);
-  if (error)
-    throw InputError(directory.string() + ": this output folder cannot be made: " + error.message());
+  if (error) throw InputError(directory.string() + ": this output folder cannot be made: " + error.message());
   const fs::path probe = directory / fmt::format(".hauberk-write-test.{}", ::getpid());
   if (const int failed = replace_file(probe, ""); failed != 0)
     throw InputError(directory.string() + ": this output folder cannot be written: " + reason(failed));

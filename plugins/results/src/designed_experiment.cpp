@@ -69,7 +69,8 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
   cell["place"] = std::move(place);
 
   const json::value* name = out.if_contains("name");
-  out["name"] = (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
+  out["name"] =
+      (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
   out["task"] = "limits";
   out.erase("design");
   out.erase("expect");

@@ -37,6 +37,7 @@ boost::json::object scene_json(const SceneSpec& scene);
 
 /// One limit; `macro_names` names the unknowns of `starts` when the limit's own macro is empty.
 boost::json::object limit_json(const LimitResult& limit, const std::vector<std::string>& macro_names);
-boost::json::array limits_json(std::span<const LimitResult> limits, const std::vector<std::string>& macro_names);
+boost::json::array limits_json(std::span<const LimitResult> limits,
+                               const std::vector<std::string>& macro_names);
 
 }  // namespace hauberk::detail

@@ -9,7 +9,7 @@
 namespace hauberk::detail {
 namespace {
 
-constexpr double radius = 155.0;      ///< of the outermost ring
+constexpr double radius = 155.0;  ///< of the outermost ring
 constexpr double title_height = 30.0;
 constexpr double label_margin = 28.0;  ///< room for the degrees around the rings
 constexpr double legend_line = 20.0;
@@ -39,7 +39,8 @@ class Diagram {
   void grid() const
   {
     for (int i = 1; i <= rings_; ++i)
-      svg_.circle(centre_, radius * i / rings_, "none", {i == rings_ ? "#888" : "#ccc", i == rings_ ? 1.0 : 0.7, ""});
+      svg_.circle(centre_, radius * i / rings_, "none",
+                  {i == rings_ ? "#888" : "#ccc", i == rings_ ? 1.0 : 0.7, ""});
     for (int degrees = 0; degrees < 360; degrees += 30) {
       svg_.line(centre_, at(degrees, rings_ * step_), {"#ccc", 0.7, ""});
       const Point2 p = at(degrees, rings_ * step_ * (1.0 + 15.0 / radius));
@@ -66,10 +67,17 @@ class Diagram {
   static void draw_marker(Svg& svg, Point2 p, const Curve& curve)
   {
     switch (curve.marker) {
-      case Curve::Marker::none: break;
-      case Curve::Marker::dot: svg.circle(p, 2.4, curve.stroke.colour, {"#fff", 0.6, ""}); break;
-      case Curve::Marker::square: svg.square(p, 2.4, "#fff", {curve.stroke.colour, 1.2, ""}); break;
-      case Curve::Marker::target: svg.circle(p, 5.0, curve.stroke.colour, {"#fff", 1.2, ""}); break;
+      case Curve::Marker::none:
+        break;
+      case Curve::Marker::dot:
+        svg.circle(p, 2.4, curve.stroke.colour, {"#fff", 0.6, ""});
+        break;
+      case Curve::Marker::square:
+        svg.square(p, 2.4, "#fff", {curve.stroke.colour, 1.2, ""});
+        break;
+      case Curve::Marker::target:
+        svg.circle(p, 5.0, curve.stroke.colour, {"#fff", 1.2, ""});
+        break;
     }
   }
 

@@ -69,8 +69,12 @@ void add(Panel& panel, const RunResult& run, Quantity quantity, const std::strin
 
 void add_targets(Panel& panel, const DesignResult& design)
 {
-  Curve targets{.label = "targets", .stroke = {"#c00000", 1.0, ""}, .marker = Curve::Marker::target,
-                .joined = false, .points = {}, .holes = {}};
+  Curve targets{.label = "targets",
+                .stroke = {"#c00000", 1.0, ""},
+                .marker = Curve::Marker::target,
+                .joined = false,
+                .points = {},
+                .holes = {}};
   for (const DesignTargetResult& t : design.targets)
     targets.points.emplace_back(reduced(t.direction_deg), std::abs(t.target));
   if (!targets.points.empty()) panel.curves.push_back(std::move(targets));
@@ -78,7 +82,12 @@ void add_targets(Panel& panel, const DesignResult& design)
 
 Curve style(const char* colour, double width, const char* dash, Curve::Marker marker)
 {
-  return {.label = {}, .stroke = {colour, width, dash}, .marker = marker, .joined = true, .points = {}, .holes = {}};
+  return {.label = {},
+          .stroke = {colour, width, dash},
+          .marker = marker,
+          .joined = true,
+          .points = {},
+          .holes = {}};
 }
 
 }  // namespace
@@ -105,7 +114,8 @@ std::string polar_svg(const RunResult& run, const PlotLabels& labels)
   detail::Svg svg(width, height + margin);
   svg.text({width / 2.0, 28.0}, labels.title, 18, "middle", true);
   if (!labels.subtitle.empty()) svg.text({width / 2.0, 48.0}, labels.subtitle, 12, "middle");
-  if (panels.empty()) svg.text({width / 2.0, header + 20.0}, "No direction has a limit to show.", 13, "middle");
+  if (panels.empty())
+    svg.text({width / 2.0, header + 20.0}, "No direction has a limit to show.", 13, "middle");
   double x = 0.0;
   for (const Panel* panel : panels) {
     detail::draw_panel(svg, {x, header}, *panel);

@@ -10,8 +10,10 @@ namespace json = boost::json;
 std::string_view kind_name(PrimitiveKind kind)
 {
   switch (kind) {
-    case PrimitiveKind::circle_tube: return "circle_tube";
-    case PrimitiveKind::revolved_ellipse: return "revolved_ellipse";
+    case PrimitiveKind::circle_tube:
+      return "circle_tube";
+    case PrimitiveKind::revolved_ellipse:
+      return "revolved_ellipse";
   }
   throw std::logic_error("primitive kind without a name in results");
 }
@@ -21,7 +23,8 @@ json::object primitive_json(const Primitive& primitive)
   json::object out;
   out["name"] = primitive.name;
   out["kind"] = kind_name(primitive.kind);
-  out["parameters"] = {{"R", number(primitive.R())}, {"r0", number(primitive.r0())}, {"r1", number(primitive.r1())}};
+  out["parameters"] = {
+      {"R", number(primitive.R())}, {"r0", number(primitive.r0())}, {"r1", number(primitive.r1())}};
   out["position"] = vector_json(primitive.position);
   out["quaternion"] = quaternion_json(primitive.rotation);
   return out;

@@ -19,11 +19,20 @@ std::string xml_escape(std::string_view text)
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -48,8 +57,8 @@ void Svg::line(Point2 a, Point2 b, const Stroke& stroke)
 
 void Svg::circle(Point2 centre, double radius, const std::string& fill, const Stroke& stroke)
 {
-  body_ += fmt::format(R"(<circle cx="{:.2f}" cy="{:.2f}" r="{:.2f}" fill="{}"{}/>)", centre.x, centre.y, radius,
-                       fill, attributes(stroke)) +
+  body_ += fmt::format(R"(<circle cx="{:.2f}" cy="{:.2f}" r="{:.2f}" fill="{}"{}/>)", centre.x, centre.y,
+                       radius, fill, attributes(stroke)) +
            '\n';
 }
 
@@ -65,13 +74,16 @@ void Svg::path(std::span<const Point2> points, bool closed, const Stroke& stroke
   std::string d;
   for (const Point2& p : points) d += fmt::format("{}{:.2f},{:.2f}", d.empty() ? "M" : " L", p.x, p.y);
   if (closed) d += " Z";
-  body_ += fmt::format(R"(<path d="{}" fill="none" stroke-linejoin="round"{}/>)", d, attributes(stroke)) + '\n';
+  body_ +=
+      fmt::format(R"(<path d="{}" fill="none" stroke-linejoin="round"{}/>)", d, attributes(stroke)) + '\n';
 }
 
-void Svg::text(Point2 at, std::string_view content, double size, const std::string& anchor, bool bold, bool halo)
+void Svg::text(Point2 at, std::string_view content, double size, const std::string& anchor, bool bold,
+               bool halo)
 {
-  const std::string common = fmt::format(R"(<text x="{:.2f}" y="{:.2f}" font-size="{:.0f}" text-anchor="{}"{})",
-                                         at.x, at.y, size, anchor, bold ? R"( font-weight="bold")" : "");
+  const std::string common =
+      fmt::format(R"(<text x="{:.2f}" y="{:.2f}" font-size="{:.0f}" text-anchor="{}"{})", at.x, at.y, size,
+                  anchor, bold ? R"( font-weight="bold")" : "");
   const std::string escaped = xml_escape(content);
   if (halo)
     body_ += fmt::format("{} fill=\"#fff\" stroke=\"#fff\" stroke-width=\"4\">{}</text>\n", common, escaped);

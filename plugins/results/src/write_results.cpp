@@ -7,7 +7,10 @@
 namespace hauberk {
 namespace {
 
-bool has_designed_scene(const RunResult& run) { return run.design.has_value() && run.scene.lattice.size() == 2; }
+bool has_designed_scene(const RunResult& run)
+{
+  return run.design.has_value() && run.scene.lattice.size() == 2;
+}
 
 }  // namespace
 
@@ -18,13 +21,14 @@ std::vector<std::pair<std::string, std::string>> result_files(const RunResult& r
   return out;
 }
 
-void write_results(const std::filesystem::path& directory, const boost::json::object& document, const RunResult& run,
-                   const std::string& experiment_json, const PlotLabels& labels)
+void write_results(const std::filesystem::path& directory, const boost::json::object& document,
+                   const RunResult& run, const std::string& experiment_json, const PlotLabels& labels)
 {
   write_file_atomically(directory / limits_file, limits_csv(run.limits));
   write_file_atomically(directory / profile_file, polar_svg(run, labels));
   if (has_designed_scene(run))
-    write_file_atomically(directory / designed_file, write_json(designed_experiment(experiment_json, run.scene)));
+    write_file_atomically(directory / designed_file,
+                          write_json(designed_experiment(experiment_json, run.scene)));
   write_file_atomically(directory / results_file, write_json(document));
 }
 

@@ -48,7 +48,8 @@ void add_wall(Residual& residual, const Contact& contact, double L)
 
 void add_contact(Residual& residual, const Scene& scene, const Limit& limit, const Contact& contact)
 {
-  const auto a = static_cast<std::size_t>(contact.elements[0]), b = static_cast<std::size_t>(contact.elements[1]);
+  const auto a = static_cast<std::size_t>(contact.elements[0]),
+             b = static_cast<std::size_t>(contact.elements[1]);
   const Vec3 force = contact.force * contact.normal;
   const Vec3 T = translation(scene, Mat3::Identity(), contact.image);
   const Vec3 FT = translation(scene, limit.macro->deformation(), contact.image);

@@ -12,13 +12,13 @@ double line_stretch(double direction_deg, const Strain& macro);
 
 /// Largest component of the imbalance s t + sum_k f_k dg_k/dy over the norm of t.
 ///
-/// Unknowns y: exx, eyy, exy; of each element u with x = F (X + T) + u for it and all its images T, scaled by L, and
-/// a rotation exp(w) about its origin. With the gap's normal n from the first element (point P, origin x) to the
-/// second (P', x'):
-///   dg/du = -n of the first, +n of the second;  dg/dw = -(P - x) x n of the first, (P' - x') x n of the second;
-///   dg/d strain = n . dF/d strain (X' + T - X).
-/// A wall with normal n = (0, 0, +-1) stands at a fixed distance from the mean height of all elements, hence takes
-/// part as the second body with 1/N of every element. z carries no equation where it is fixed.
+/// Unknowns y: exx, eyy, exy; of each element u with x = F (X + T) + u for it and all its images T, scaled by
+/// L, and a rotation exp(w) about its origin. With the gap's normal n from the first element (point P, origin
+/// x) to the second (P', x'):
+///   dg/du = -n of the first, +n of the second;  dg/dw = -(P - x) x n of the first, (P' - x') x n of the
+///   second; dg/d strain = n . dF/d strain (X' + T - X).
+/// A wall with normal n = (0, 0, +-1) stands at a fixed distance from the mean height of all elements, hence
+/// takes part as the second body with 1/N of every element. z carries no equation where it is fixed.
 double imbalance(const Scene& scene, const Setting& setting, const Limit& limit);
 
 }  // namespace hauberk::verification

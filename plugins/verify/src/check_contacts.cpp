@@ -15,7 +15,8 @@ struct Slack {
   double length, angle;
 };
 
-Slack slack(const Scene& scene, const Limit& limit, const Contact& contact, const VerifyTolerances& tolerances)
+Slack slack(const Scene& scene, const Limit& limit, const Contact& contact,
+            const VerifyTolerances& tolerances)
 {
   Slack out{tolerances.gap * scene.length, tolerances.normal};
   if (limit.contact == "arc") {
@@ -43,7 +44,8 @@ void check_surfaces(const Scene& scene, const Limit& limit, const Contact& conta
     const auto k = static_cast<std::size_t>(contact.elements[side]);
     Place place = limit.poses[k];
     if (side == 1) place.position += translation(scene, limit.macro->deformation(), contact.image);
-    const Torus torus = placed(scene.elements[k].tori[static_cast<std::size_t>(contact.primitives[side])], place);
+    const Torus torus =
+        placed(scene.elements[k].tori[static_cast<std::size_t>(contact.primitives[side])], place);
     Vec3 outward;
     const double off = signed_distance(torus, contact.points[side], &outward);
     if (std::abs(off) > slack.length)
@@ -97,7 +99,8 @@ void check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
     check_surfaces(scene, limit, contact, allowed, name, problems);
     const double gap = (contact.points[1] - contact.points[0]).dot(contact.normal) - setting.clearance;
     if (std::abs(gap - contact.gap) > allowed.length)
-      problems.push_back(fmt::format("{}: gap {:.6g} listed, {:.6g} between its points", name, contact.gap, gap));
+      problems.push_back(
+          fmt::format("{}: gap {:.6g} listed, {:.6g} between its points", name, contact.gap, gap));
   }
 }
 

@@ -1,10 +1,10 @@
 #include "checks.hpp"
 #include "read.hpp"
 
-#include <boost/json/array.hpp>
-#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 
 #include <cmath>
 
@@ -16,17 +16,21 @@ namespace json = boost::json;
 /// A target counts as met within this share of it.
 constexpr double met_share = 0.05;
 
-std::optional<double> value_of(const std::vector<Limit>& limits, double direction_deg, const std::string& sense)
+std::optional<double> value_of(const std::vector<Limit>& limits, double direction_deg,
+                               const std::string& sense)
 {
   const Limit* limit = find_limit(limits, direction_deg, sense);
   return limit ? limit->value : std::nullopt;
 }
 
 /// The designed quantity in a direction.
-std::optional<double> quantity(const std::string& name, const std::vector<Limit>& limits, double direction_deg)
+std::optional<double> quantity(const std::string& name, const std::vector<Limit>& limits,
+                               double direction_deg)
 {
-  if (name == "eta") return eta(value_of(limits, direction_deg, "stretch"), value_of(limits, direction_deg, "compress"));
-  if (name != "stretch" && name != "compress") throw Malformed("/design/quantity: \"" + name + "\" is not known here");
+  if (name == "eta")
+    return eta(value_of(limits, direction_deg, "stretch"), value_of(limits, direction_deg, "compress"));
+  if (name != "stretch" && name != "compress")
+    throw Malformed("/design/quantity: \"" + name + "\" is not known here");
   return value_of(limits, direction_deg, name);
 }
 
@@ -49,32 +53,37 @@ bool flag(const json::value& object, const char* key, const std::string& where)
   return v.get_bool();
 }
 
-void check_targets(const json::value& design, const std::vector<Limit>& initial, const std::vector<Limit>& final,
-                   double tolerance, Sentences& problems)
+void check_targets(const json::value& design, const std::vector<Limit>& initial,
+                   const std::vector<Limit>& final, double tolerance, Sentences& problems)
 {
   const std::string name = text(member(design, "quantity", "/design"), "/design/quantity");
   Objective before, after;
   std::size_t i = 0;
   for (const json::value& t : array(member(design, "targets", "/design"), "/design/targets")) {
     const std::string at = fmt::format("/design/targets/{}", i++);
-    const double direction = number(member(t, "direction_deg", at), at), target = number(member(t, "target", at), at);
+    const double direction = number(member(t, "direction_deg", at), at),
+                 target = number(member(t, "target", at), at);
     const double weight = number(member(t, "weight", at), at);
     const auto first = optional_number(t, "initial", at), last = optional_number(t, "recomputed", at);
     for (const auto& [what, reported, limits] :
          {std::tuple("initial", first, &initial), std::tuple("recomputed", last, &final)}) {
       const auto found = quantity(name, *limits, direction);
       if (!equal(reported, found, tolerance))
-        problems.push_back(fmt::format("{}: {} {} reported, {} from the limits", at, what, show(reported), show(found)));
+        problems.push_back(
+            fmt::format("{}: {} {} reported, {} from the limits", at, what, show(reported), show(found)));
     }
-    const bool met = last && std::abs(*last - target) <= met_share * std::abs(target) && !flag(t, "better_state", at);
+    const bool met =
+        last && std::abs(*last - target) <= met_share * std::abs(target) && !flag(t, "better_state", at);
     if (flag(t, "met", at) != met) problems.push_back(fmt::format("{}: met should be {}", at, met));
     before.add(first, target, weight);
     after.add(last, target, weight);
   }
-  for (const auto& [key, objective] : {std::pair("objective_initial", before.sum), std::pair("objective", after.sum)}) {
+  for (const auto& [key, objective] :
+       {std::pair("objective_initial", before.sum), std::pair("objective", after.sum)}) {
     const auto reported = optional_number(design, key, "/design");
     if (objective && !equal(reported, objective, tolerance))
-      problems.push_back(fmt::format("/design/{}: {} reported, {} from the targets", key, show(reported), show(objective)));
+      problems.push_back(
+          fmt::format("/design/{}: {} reported, {} from the targets", key, show(reported), show(objective)));
   }
 }
 
@@ -84,8 +93,8 @@ bool names_element(const std::string& scope, std::size_t k, const std::string& t
   return scope == "*" || scope == type || scope == std::to_string(k);
 }
 
-void check_parameters(const json::value& scene, const std::string& where, const std::string& variable, double expected,
-                      double tolerance, Sentences& problems)
+void check_parameters(const json::value& scene, const std::string& where, const std::string& variable,
+                      double expected, double tolerance, Sentences& problems)
 {
   const auto slash = variable.find('/');
   if (slash == std::string::npos) return;
@@ -93,16 +102,18 @@ void check_parameters(const json::value& scene, const std::string& where, const 
   std::size_t k = 0;
   for (const json::value& element : array(member(scene, "elements", where), where)) {
     const std::string at = fmt::format("{}/elements/{}", where, k);
-    const auto found = optional_number(member(element, "parameters", at), parameter.c_str(), at + "/parameters");
+    const auto found =
+        optional_number(member(element, "parameters", at), parameter.c_str(), at + "/parameters");
     const bool named = names_element(scope, k, text(member(element, "type", at), at + "/type"));
     if (named && found && !equal(*found, expected, tolerance))
-      problems.push_back(fmt::format("{}: {} is {:.10g}, the variable {} is {:.10g}", at, parameter, *found, variable,
-                                     expected));
+      problems.push_back(fmt::format("{}: {} is {:.10g}, the variable {} is {:.10g}", at, parameter, *found,
+                                     variable, expected));
     ++k;
   }
 }
 
-void check_variables(const json::value& results, const json::value& design, double tolerance, Sentences& problems)
+void check_variables(const json::value& results, const json::value& design, double tolerance,
+                     Sentences& problems)
 {
   const json::value& initial_scene = member(member(design, "initial", "/design"), "scene", "/design/initial");
   std::size_t i = 0;
@@ -121,7 +132,8 @@ void check_variables(const json::value& results, const json::value& design, doub
 
 VerifyLine line(const std::string& what, const Sentences& problems, const std::string& found)
 {
-  return {problems.empty(), what + ": " + (problems.empty() ? found : fmt::format("{}", fmt::join(problems, "; ")))};
+  return {problems.empty(),
+          what + ": " + (problems.empty() ? found : fmt::format("{}", fmt::join(problems, "; ")))};
 }
 
 }  // namespace
@@ -149,17 +161,19 @@ VerifyLine check_profiles(const json::value& results, const std::vector<Limit>& 
     const std::string at = fmt::format("/profiles/{}", i++);
     const double direction = number(member(p, "direction_deg", at), at);
     const auto e_s = value_of(limits, direction, "stretch"), e_c = value_of(limits, direction, "compress");
-    for (const auto& [key, expected] : {std::pair("e_s", e_s), std::pair("e_c", e_c), std::pair("eta", eta(e_s, e_c))}) {
+    for (const auto& [key, expected] :
+         {std::pair("e_s", e_s), std::pair("e_c", e_c), std::pair("eta", eta(e_s, e_c))}) {
       const auto reported = optional_number(p, key, at);
       if (!equal(reported, expected, tolerances.value))
-        problems.push_back(fmt::format("{}/{}: {} reported, {} from the limits", at, key, show(reported), show(expected)));
+        problems.push_back(
+            fmt::format("{}/{}: {} reported, {} from the limits", at, key, show(reported), show(expected)));
     }
   }
   return line("profiles", problems, fmt::format("{} directions agree with the limits", i));
 }
 
-VerifyLine check_design(const json::value& results, const std::vector<Limit>& initial, const std::vector<Limit>& final,
-                        const VerifyTolerances& tolerances)
+VerifyLine check_design(const json::value& results, const std::vector<Limit>& initial,
+                        const std::vector<Limit>& final, const VerifyTolerances& tolerances)
 {
   const json::value& design = member(results, "design", "");
   Sentences problems;

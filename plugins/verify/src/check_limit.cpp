@@ -66,7 +66,8 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
   if (!limit.force_balance)
     problems.push_back("force_balance is missing");
   else if (!(std::abs(*limit.force_balance - found) <= tolerances.balance_agreement))
-    problems.push_back(fmt::format("force_balance {:.3g} reported, {:.3g} found", *limit.force_balance, found));
+    problems.push_back(
+        fmt::format("force_balance {:.3g} reported, {:.3g} found", *limit.force_balance, found));
   return fmt::format("imbalance {:.3g}", found);
 }
 
@@ -78,10 +79,12 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
   const bool has_state = !limit.poses.empty();
   if (!has_state || !limit.macro) {
     const bool may_lack = !has_state && limit.status != "locked" && !limit.value;
-    return {may_lack, limit.label + ": " + limit.status + (may_lack ? ", no state to check" : ", but no state is given")};
+    return {may_lack, limit.label + ": " + limit.status +
+                          (may_lack ? ", no state to check" : ", but no state is given")};
   }
   if (limit.poses.size() != scene.elements.size())
-    return {false, fmt::format("{}: {} poses for {} elements", limit.label, limit.poses.size(), scene.elements.size())};
+    return {false, fmt::format("{}: {} poses for {} elements", limit.label, limit.poses.size(),
+                               scene.elements.size())};
   if (limit.status == "unbounded" || limit.status == "not_attained")
     return {false, limit.label + ": " + limit.status + " limits have no locked state"};
 
@@ -91,8 +94,9 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
   found.push_back(check_links(scene, limit, problems));
   const std::size_t before = problems.size();
   check_contacts(scene, setting, limit, tolerances, problems);
-  const bool readable = std::none_of(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end(),
-                                     [](const std::string& p) { return p.find("no such") != std::string::npos; });
+  const bool readable =
+      std::none_of(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end(),
+                   [](const std::string& p) { return p.find("no such") != std::string::npos; });
   if (readable) found.push_back(check_balance(scene, setting, limit, tolerances, problems));
   const Sentences& said = problems.empty() ? found : problems;
   return {problems.empty(), fmt::format("{}: {} {}: {}", limit.label, limit.status, show(limit.value),

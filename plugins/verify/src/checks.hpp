@@ -1,5 +1,6 @@
 #pragma once
-/// The single checks. Each appends to `problems` one sentence for everything that is wrong: what, and by how much.
+/// The single checks. Each appends to `problems` one sentence for everything that is wrong: what, and by how
+/// much.
 
 #include <hauberk/verify/verify.hpp>
 
@@ -19,8 +20,8 @@ void check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
                     const VerifyTolerances& tolerances, Sentences& problems);
 
 /// Value, companions and starts follow from macro; sense, F, mean translation and heights are admissible.
-void check_values(const Scene& scene, const Setting& setting, const Limit& limit, const VerifyTolerances& tolerances,
-                  Sentences& problems);
+void check_values(const Scene& scene, const Setting& setting, const Limit& limit,
+                  const VerifyTolerances& tolerances, Sentences& problems);
 
 /// Everything about one limit; the line says what was found. Throws Malformed.
 VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& limit,

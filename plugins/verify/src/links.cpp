@@ -13,10 +13,11 @@ namespace {
 
 std::string describe(const Link& link, int rest, int limit)
 {
-  return fmt::format("linking number of elements {} and {}, primitives {} and {}, image ({}, {}) is {} at rest and {} "
-                     "at the limit",
-                     link.elements[0], link.elements[1], link.primitives[0], link.primitives[1], link.image[0],
-                     link.image[1], rest, limit);
+  return fmt::format(
+      "linking number of elements {} and {}, primitives {} and {}, image ({}, {}) is {} at rest and {} "
+      "at the limit",
+      link.elements[0], link.elements[1], link.primitives[0], link.primitives[1], link.image[0],
+      link.image[1], rest, limit);
 }
 
 /// The same two circles, whatever their number.
@@ -27,7 +28,8 @@ bool same_pair(const Link& a, const Link& b)
 
 int number_in(const std::vector<Link>& list, const Link& pair)
 {
-  const auto it = std::find_if(list.begin(), list.end(), [&](const Link& link) { return same_pair(link, pair); });
+  const auto it =
+      std::find_if(list.begin(), list.end(), [&](const Link& link) { return same_pair(link, pair); });
   return it == list.end() ? 0 : it->number;
 }
 
@@ -63,7 +65,8 @@ std::vector<Link> links(const Scene& scene, const std::vector<Place>& places, co
       for (std::size_t q = 0; q < second.size(); ++q) {
         const int number = linking_number(placed(first[p], places[k]), placed(second[q], image));
         if (number != 0)
-          out.push_back({{pair.first, pair.second}, {static_cast<int>(p), static_cast<int>(q)}, pair.image, number});
+          out.push_back(
+              {{pair.first, pair.second}, {static_cast<int>(p), static_cast<int>(q)}, pair.image, number});
       }
   }
   return out;

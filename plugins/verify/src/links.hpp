@@ -5,8 +5,8 @@
 
 namespace hauberk::verification {
 
-/// Linking number of two disjoint core circles, each oriented about its z axis: the crossings of b through a's
-/// disc, each counted by its direction. -1, 0 or 1.
+/// Linking number of two disjoint core circles, each oriented about its z axis: the crossings of b through
+/// a's disc, each counted by its direction. -1, 0 or 1.
 int linking_number(const Torus& a, const Torus& b);
 
 /// A pair of core circles that are linked.

@@ -11,10 +11,10 @@
 namespace hauberk::verification {
 namespace {
 
-/// Every image of `second` that may be near `first`: with d = x_first - x_second and columns of A the deformed cell
-/// vectors, |A (i, j) - d| <= reach needs (i, j) within |row of A^-1| reach of A^-1 d.
-void add_images(std::vector<Neighbour>& out, const Eigen::Matrix2d& inverse, const Vec3& d, double reach, int first,
-                int second, const Eigen::Matrix2d& A)
+/// Every image of `second` that may be near `first`: with d = x_first - x_second and columns of A the
+/// deformed cell vectors, |A (i, j) - d| <= reach needs (i, j) within |row of A^-1| reach of A^-1 d.
+void add_images(std::vector<Neighbour>& out, const Eigen::Matrix2d& inverse, const Vec3& d, double reach,
+                int first, int second, const Eigen::Matrix2d& A)
 {
   const Eigen::Vector2d centre = inverse * d.head<2>();
   std::array<int, 2> low, high;
@@ -39,7 +39,8 @@ Vec3 translation(const Scene& scene, const Mat3& F, const std::array<int, 2>& im
   return F * (image[0] * scene.cell[0] + image[1] * scene.cell[1]);
 }
 
-std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F, double margin)
+std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
+                                  double margin)
 {
   Eigen::Matrix2d A;
   A.col(0) = (F * scene.cell[0]).head<2>();
@@ -49,8 +50,8 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
   for (std::size_t k = 0; k < places.size(); ++k)
     for (std::size_t l = k; l < places.size(); ++l)
       add_images(out, inverse, places[k].position - places[l].position,
-                 scene.elements[k].reach + scene.elements[l].reach + margin, static_cast<int>(k), static_cast<int>(l),
-                 A);
+                 scene.elements[k].reach + scene.elements[l].reach + margin, static_cast<int>(k),
+                 static_cast<int>(l), A);
   return out;
 }
 
@@ -69,7 +70,8 @@ std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>
     const auto &first = scene.elements[k].tori, &second = scene.elements[l].tori;
     for (std::size_t p = 0; p < first.size(); ++p)
       for (std::size_t q = 0; q < second.size(); ++q) {
-        Candidate c{{0.0, pair, static_cast<int>(p), static_cast<int>(q)}, placed(first[p], places[k]),
+        Candidate c{{0.0, pair, static_cast<int>(p), static_cast<int>(q)},
+                    placed(first[p], places[k]),
                     placed(second[q], image)};
         c.closest.distance = separation_bound(c.first, c.second);
         candidates.push_back(std::move(c));

@@ -15,7 +15,8 @@ struct Neighbour {
 Vec3 translation(const Scene& scene, const Mat3& F, const std::array<int, 2>& image);
 
 /// All pairs whose bounding spheres are no farther apart than `margin`, in a fixed order.
-std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F, double margin);
+std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
+                                  double margin);
 
 /// Smallest separation of surfaces over all pairs, and whose it is.
 struct Closest {

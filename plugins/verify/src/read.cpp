@@ -25,7 +25,8 @@ Vec3 read_vector(const json::value& v, const std::string& where)
 std::array<int, 2> read_pair(const json::value& v, const std::string& where)
 {
   const json::array& a = array(v, where);
-  if (a.size() != 2 || !a[0].is_int64() || !a[1].is_int64()) throw Malformed(where + ": two integers expected");
+  if (a.size() != 2 || !a[0].is_int64() || !a[1].is_int64())
+    throw Malformed(where + ": two integers expected");
   return {static_cast<int>(a[0].get_int64()), static_cast<int>(a[1].get_int64())};
 }
 
@@ -57,7 +58,8 @@ Torus read_torus(const json::value& v, const std::string& where)
   out.R = number(member(parameters, "R", at), at + "/R");
   out.r0 = number(member(parameters, "r0", at), at + "/r0");
   out.r1 = number(member(parameters, "r1", at), at + "/r1");
-  if (!(out.R > out.r0 && out.r0 > 0.0 && out.r1 > 0.0)) throw Malformed(at + ": not a torus (R > r0 > 0, r1 > 0)");
+  if (!(out.R > out.r0 && out.r0 > 0.0 && out.r1 > 0.0))
+    throw Malformed(at + ": not a torus (R > r0 > 0, r1 > 0)");
   if (kind == "circle_tube" && out.r0 != out.r1) throw Malformed(at + ": a circle_tube has r0 = r1");
   return out;
 }
@@ -137,7 +139,8 @@ Scene read_scene(const json::value& v, const std::string& where)
     for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
       element.tori.push_back(read_torus(p, at + "/primitives/" + std::to_string(element.tori.size())));
       const Torus& torus = element.tori.back();
-      element.reach = std::max(element.reach, torus.place.position.norm() + torus.R + std::max(torus.r0, torus.r1));
+      element.reach =
+          std::max(element.reach, torus.place.position.norm() + torus.R + std::max(torus.r0, torus.r1));
     }
     out.elements.push_back(std::move(element));
   }
@@ -164,8 +167,8 @@ Limit read_limit(const json::value& v, const std::string& where)
     out.macro = read_strain(macro, where + "/macro");
   for (const json::value& s : array(member(v, "starts", where), where + "/starts")) {
     const std::string at = where + "/starts/" + std::to_string(out.starts.size());
-    out.starts.push_back({number(member(s, "value", at), at + "/value"),
-                          read_strain(member(s, "macro", at), at + "/macro")});
+    out.starts.push_back(
+        {number(member(s, "value", at), at + "/value"), read_strain(member(s, "macro", at), at + "/macro")});
   }
   for (const json::value& p : array(member(v, "poses", where), where + "/poses"))
     out.poses.push_back(read_place(p, where + "/poses/" + std::to_string(out.poses.size())));

@@ -11,15 +11,16 @@ Scene read_scene(const boost::json::value& scene, const std::string& where);
 Limit read_limit(const boost::json::value& limit, const std::string& where);
 Setting read_setting(const boost::json::value& experiment);
 
-/// Throws Malformed unless L is a median of the scene's ring radii (for an even number anything between the two
-/// middle ones); tolerances are multiples of L, so it must not be invented.
+/// Throws Malformed unless L is a median of the scene's ring radii (for an even number anything between the
+/// two middle ones); tolerances are multiples of L, so it must not be invented.
 void check_length(const Scene& scene, double length, const std::string& where);
 
 /// Member `key` of an object; throws Malformed when there is none.
 const boost::json::value& member(const boost::json::value& object, const char* key, const std::string& where);
 double number(const boost::json::value& v, const std::string& where);
 /// Null (or a missing member) is no value.
-std::optional<double> optional_number(const boost::json::value& object, const char* key, const std::string& where);
+std::optional<double> optional_number(const boost::json::value& object, const char* key,
+                                      const std::string& where);
 std::string text(const boost::json::value& v, const std::string& where);
 const boost::json::array& array(const boost::json::value& v, const std::string& where);
 

@@ -12,8 +12,8 @@ namespace {
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double golden = std::numbers::phi - 1.0;
 
-/// Smallest value of f in [low, high], where f falls, then rises. The angle is found to about 1e-8, so the value
-/// to rounding.
+/// Smallest value of f in [low, high], where f falls, then rises. The angle is found to about 1e-8, so the
+/// value to rounding.
 template <class F>
 double golden_minimum(const F& f, double low, double high)
 {
@@ -122,7 +122,8 @@ double torus_minimum(const F& f, double slope_u, double slope_v)
 /// A tube of constant radius is an offset of its core: its distance is that of the core less the radius.
 double tube_separation(const Torus& tube, const Torus& other)
 {
-  return circle_minimum([&](double u) { return signed_distance(other, core_point(tube, u)); }, tube.R) - tube.r0;
+  return circle_minimum([&](double u) { return signed_distance(other, core_point(tube, u)); }, tube.R) -
+         tube.r0;
 }
 
 }  // namespace
@@ -131,8 +132,8 @@ double separation(const Torus& a, const Torus& b)
 {
   if (a.r0 == a.r1) return tube_separation(a, b);
   if (b.r0 == b.r1) return tube_separation(b, a);
-  return torus_minimum([&](double u, double v) { return signed_distance(b, surface_point(a, u, v)); }, a.R + a.r0,
-                       std::max(a.r0, a.r1));
+  return torus_minimum([&](double u, double v) { return signed_distance(b, surface_point(a, u, v)); },
+                       a.R + a.r0, std::max(a.r0, a.r1));
 }
 
 double separation_bound(const Torus& a, const Torus& b)

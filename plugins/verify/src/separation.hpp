@@ -5,10 +5,11 @@ namespace hauberk::verification {
 
 /// Smallest signed distance between two surfaces in space, by exhaustive search.
 ///
-/// One surface (its core circle, when its cross-section is a circle) is divided into cells; the signed distance to
-/// the other is 1-Lipschitz, so a cell whose centre is farther than its half-diagonal above the best value found
-/// holds no smaller one and is dropped, the others are divided again. Cells that remain at the finest division and
-/// are no higher than their neighbours are refined by golden sections. Negative: the surfaces intersect.
+/// One surface (its core circle, when its cross-section is a circle) is divided into cells; the signed
+/// distance to the other is 1-Lipschitz, so a cell whose centre is farther than its half-diagonal above the
+/// best value found holds no smaller one and is dropped, the others are divided again. Cells that remain at
+/// the finest division and are no higher than their neighbours are refined by golden sections. Negative: the
+/// surfaces intersect.
 double separation(const Torus& a, const Torus& b);
 
 /// Lower bound of the separation: distance of the core circles less the largest half-axes. Exact for circles.

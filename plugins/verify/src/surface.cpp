@@ -8,8 +8,8 @@ namespace {
 
 /// Angle v in [0, pi/2] of the point (a cos v, b sin v) closest to (p, q), p, q >= 0.
 ///
-/// h(v) = 1/2 d/dv |.|^2 = -a sin v (a cos v - p) + b cos v (b sin v - q) is <= 0 at 0, >= 0 at pi/2 and changes
-/// sign once between. Newton, kept inside the shrinking bracket by bisection.
+/// h(v) = 1/2 d/dv |.|^2 = -a sin v (a cos v - p) + b cos v (b sin v - q) is <= 0 at 0, >= 0 at pi/2 and
+/// changes sign once between. Newton, kept inside the shrinking bracket by bisection.
 double closest_angle(double a, double b, double p, double q)
 {
   double low = 0.0, high = std::numbers::pi / 2.0;
@@ -73,7 +73,8 @@ double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward)
 
 Vec3 core_point(const Torus& torus, double u)
 {
-  return torus.place.position + torus.place.rotation * Vec3(torus.R * std::cos(u), torus.R * std::sin(u), 0.0);
+  return torus.place.position +
+         torus.place.rotation * Vec3(torus.R * std::cos(u), torus.R * std::sin(u), 0.0);
 }
 
 Vec3 surface_point(const Torus& torus, double u, double v)

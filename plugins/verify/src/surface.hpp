@@ -10,9 +10,9 @@ Place compose(const Place& a, const Place& b);
 Torus placed(const Torus& torus, const Place& element);
 
 /// Signed distance of x to the surface: negative inside. Exact to rounding: the closest point lies in the
-/// meridian plane of x, and there on the quarter of the ellipse that x is nearest to, where the derivative of the
-/// squared distance by the angle changes sign once. `outward`, when wanted, is the unit normal at the closest
-/// point.
+/// meridian plane of x, and there on the quarter of the ellipse that x is nearest to, where the derivative of
+/// the squared distance by the angle changes sign once. `outward`, when wanted, is the unit normal at the
+/// closest point.
 double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward = nullptr);
 
 /// Point of the core circle.

@@ -3,9 +3,9 @@
 #include "checks.hpp"
 #include "read.hpp"
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 #include <exception>
 
@@ -18,8 +18,8 @@ using namespace verification;
 constexpr const char* known_format = "hauberk-results/1";
 
 /// Checks the limits of one scene, a line each; those that could be read are returned.
-std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_json,
-                                const std::string& prefix, const Setting& setting, const VerifyTolerances& tolerances,
+std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_json, const std::string& prefix,
+                                const Setting& setting, const VerifyTolerances& tolerances,
                                 std::vector<VerifyLine>& lines)
 {
   std::vector<Limit> out;
@@ -38,7 +38,8 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
   return out;
 }
 
-void check_document(const json::value& results, const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
+void check_document(const json::value& results, const VerifyTolerances& tolerances,
+                    std::vector<VerifyLine>& lines)
 {
   if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
@@ -51,7 +52,8 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
   if (design.is_null()) return;
 
   const json::value& initial = member(design, "initial", "/design");
-  const Scene initial_scene = read_scene(member(initial, "scene", "/design/initial"), "/design/initial/scene");
+  const Scene initial_scene =
+      read_scene(member(initial, "scene", "/design/initial"), "/design/initial/scene");
   check_length(initial_scene, initial_scene.length, "/design/initial/scene");
   check_length(initial_scene, scene.length, "/scene");  // frozen during the design
   const auto initial_limits = check_limits(initial_scene, member(initial, "limits", "/design/initial"),

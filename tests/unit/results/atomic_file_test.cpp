@@ -103,7 +103,8 @@ TEST_F(AtomicFile, OutputFolderIsPreparedOrRefused)
     prepare_output_directory(out, false);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_EQ(error.what(), out.string() + ": holds results already; give another folder with -o, or --force");
+    EXPECT_EQ(error.what(),
+              out.string() + ": holds results already; give another folder with -o, or --force");
   }
   EXPECT_NO_THROW(prepare_output_directory(out, true));
   EXPECT_EQ(content(out / "results.json"), "{}");

@@ -4,8 +4,8 @@
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/json_text.hpp>
 
-#include <boost/json/value.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/value.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -30,11 +30,13 @@ TEST(Document, HasTheKeysOfTheContractInOrder)
   EXPECT_EQ(keys, "format experiment provenance plan scene limits profiles design files ");
   EXPECT_EQ(document.at("format").as_string(), "hauberk-results/1");
   keys.clear();
-  for (const auto& [key, value] : document.at_pointer("/limits/0").as_object()) keys += std::string(key) + ' ';
-  EXPECT_EQ(keys,
-            "load_case direction_deg sense measure value line_stretch macro status message infimum iterations "
-            "evaluations seconds min_gap error_estimate links_kept z_range contact certificate starts better_state "
-            "sensitivity poses contacts force_balance ");
+  for (const auto& [key, value] : document.at_pointer("/limits/0").as_object())
+    keys += std::string(key) + ' ';
+  EXPECT_EQ(
+      keys,
+      "load_case direction_deg sense measure value line_stretch macro status message infimum iterations "
+      "evaluations seconds min_gap error_estimate links_kept z_range contact certificate starts better_state "
+      "sensitivity poses contacts force_balance ");
 }
 
 TEST(Document, SceneHasPrimitivesAndUnitQuaternions)
@@ -111,11 +113,12 @@ TEST(Csv, OneRowPerLimitWithExactNumbers)
   run.limits[1].companions.clear();
   run.limits[1].macro[0].second = 1.0 / 3.0;
   run.limits[1].load_case = "a,\"b\"";
-  EXPECT_EQ(limits_csv(run.limits),
-            "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
-            "seconds,min_gap,error_estimate,links_kept,z_range,better_state,force_balance,starts,contacts\n"
-            "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n"
-            "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n");
+  EXPECT_EQ(
+      limits_csv(run.limits),
+      "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
+      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,force_balance,starts,contacts\n"
+      "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n"
+      "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n");
 }
 
 TEST(DesignedExperiment, DescribesTheFinalSceneAlone)

@@ -1,9 +1,9 @@
 #include <hauberk/error.hpp>
 #include <hauberk/results/json_text.hpp>
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>

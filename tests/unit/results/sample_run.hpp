@@ -6,7 +6,8 @@
 
 namespace hauberk::test {
 
-/// Two rings of radius 5 and 4 (parameters ring.R, ring.r), the second turned by 90 degrees about x, in a cell
+/// Two rings of radius 5 and 4 (parameters ring.R, ring.r), the second turned by 90 degrees about x, in a
+/// cell
 /// [[12, 0], [0, 100]]; limits of four directions, both senses.
 RunResult sample_run();
 /// The same with a design of eta.

@@ -1,7 +1,7 @@
 #include <hauberk/verify/verify.hpp>
 
-#include <boost/json/object.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/object.hpp>
 
 #include "chain_document.hpp"
 
@@ -53,7 +53,8 @@ TEST(States, WithoutPosesNeedAStatusThatSaysSo)
   EXPECT_EQ(limit_line(document), "PASS /limits/0 (0 deg, stretch): unbounded, no state to check");
   document = chain_document();
   document.at_pointer("/limits/0/status") = "not_attained";
-  EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): not_attained limits have no locked state");
+  EXPECT_EQ(limit_line(document),
+            "FAIL /limits/0 (0 deg, stretch): not_attained limits have no locked state");
 }
 
 TEST(Walls, TakePartInTheBalance)
@@ -62,8 +63,13 @@ TEST(Walls, TakePartInTheBalance)
   document.at_pointer("/experiment/load_case/out_of_plane") = 0.5;
   auto& contacts = document.at_pointer("/limits/0/contacts").as_array();
   const auto wall = [](double normal, double force) {
-    return boost::json::value{{"elements", {1, -1}}, {"primitives", {0, -1}}, {"image", {0, 0}}, {"wall", "ceiling"},
-                              {"points", {{8.6, 0, 0}, {8.6, 0, 0.5}}}, {"normal", {0, 0, normal}}, {"gap", 0.5},
+    return boost::json::value{{"elements", {1, -1}},
+                              {"primitives", {0, -1}},
+                              {"image", {0, 0}},
+                              {"wall", "ceiling"},
+                              {"points", {{8.6, 0, 0}, {8.6, 0, 0.5}}},
+                              {"normal", {0, 0, normal}},
+                              {"gap", 0.5},
                               {"force", force}};
   };
   contacts.push_back(wall(1.0, 0.01));
@@ -71,7 +77,8 @@ TEST(Walls, TakePartInTheBalance)
   EXPECT_EQ(limit_line(document).substr(0, 4), "PASS") << limit_line(document);
   contacts.back() = wall(-1.0, 0.011);
   // 0.001 L, less the half that falls back on the element through the mean height.
-  EXPECT_NE(limit_line(document).find("forces miss the load by 0.0025"), std::string::npos) << limit_line(document);
+  EXPECT_NE(limit_line(document).find("forces miss the load by 0.0025"), std::string::npos)
+      << limit_line(document);
   contacts.back() = wall(-1.0, 0.01);
   contacts.back().at("gap") = 0.4;
   EXPECT_NE(limit_line(document).find("contact 3: gap 0.4 listed, 0.5 found"), std::string::npos);

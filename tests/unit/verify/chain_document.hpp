@@ -5,11 +5,12 @@
 
 namespace hauberk::test {
 
-/// A chain of two perpendicular linked rings A and B, stretched until the tubes are `gap` + `clearance` apart.
+/// A chain of two perpendicular linked rings A and B, stretched until the tubes are `gap` + `clearance`
+/// apart.
 ///
-/// A lies in the plane at the origin, B is turned by 90 degrees about the chain. The right inner side of A touches
-/// the left inner side of B's image (0, 0), and the left one the right side of B's image (-1, 0), so the period is
-/// 2 (R_A + R_B - r_A - r_B - clearance - gap) and each contact carries 1 / (rest period).
+/// A lies in the plane at the origin, B is turned by 90 degrees about the chain. The right inner side of A
+/// touches the left inner side of B's image (0, 0), and the left one the right side of B's image (-1, 0), so
+/// the period is 2 (R_A + R_B - r_A - r_B - clearance - gap) and each contact carries 1 / (rest period).
 struct Chain {
   double R_a = 5.0, r_a = 0.7, R_b = 5.0, r_b = 0.7;
   double axial = 0.0;  ///< r1 of both tubes; 0: circular

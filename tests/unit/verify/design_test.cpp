@@ -1,8 +1,8 @@
 #include <hauberk/verify/verify.hpp>
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include "chain_document.hpp"
 
@@ -26,9 +26,15 @@ json::value design_document()
       {"objective_initial", objective(first)},
       {"objective", objective(last)},
       {"variables",
-       json::array{json::value{{"name", "1/ring.R"}, {"initial", 5.0}, {"final", 5.0}, {"lower", 4.0}, {"upper", 6.0}}}},
-      {"targets", json::array{json::value{{"direction_deg", 180.0}, {"target", 0.46}, {"weight", 2.0}, {"initial", first},
-                                          {"provisional", last}, {"recomputed", last}, {"better_state", false},
+       json::array{json::value{
+           {"name", "1/ring.R"}, {"initial", 5.0}, {"final", 5.0}, {"lower", 4.0}, {"upper", 6.0}}}},
+      {"targets", json::array{json::value{{"direction_deg", 180.0},
+                                          {"target", 0.46},
+                                          {"weight", 2.0},
+                                          {"initial", first},
+                                          {"provisional", last},
+                                          {"recomputed", last},
+                                          {"better_state", false},
                                           {"met", true}}}},
       {"initial", {{"scene", before.at("scene")}, {"limits", before.at("limits")}}}};
   return document;
@@ -50,9 +56,12 @@ TEST(Design, WhatDoesNotFollowIsCaught)
     document.at_pointer(pointer) = v;
     return report(document);
   };
-  const auto has = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  const auto has = [](const std::string& text, const char* what) {
+    return text.find(what) != std::string::npos;
+  };
   EXPECT_TRUE(has(tampered("/design/targets/0/recomputed", 0.46), "recomputed 0.46 reported, 0.45"));
-  EXPECT_TRUE(has(tampered("/design/targets/0/initial", nullptr), "initial null reported, 0.4333333333 from"));
+  EXPECT_TRUE(
+      has(tampered("/design/targets/0/initial", nullptr), "initial null reported, 0.4333333333 from"));
   EXPECT_TRUE(has(tampered("/design/targets/0/met", false), "met should be true"));
   EXPECT_TRUE(has(tampered("/design/targets/0/better_state", true), "met should be false"));
   EXPECT_TRUE(has(tampered("/design/objective", 0.0), "/design/objective: 0 reported"));

@@ -1,5 +1,5 @@
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>
@@ -15,10 +15,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Torus torus(double R, double r0, double r1, const Vec3& centre = Vec3::Zero(), const Vec3& turn = Vec3::Zero())
+Torus torus(double R, double r0, double r1, const Vec3& centre = Vec3::Zero(),
+            const Vec3& turn = Vec3::Zero())
 {
-  const Mat3 rotation =
-      turn.norm() > 0.0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() : Mat3::Identity();
+  const Mat3 rotation = turn.norm() > 0.0
+                            ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
+                            : Mat3::Identity();
   return {"ring", {centre, rotation}, R, r0, r1};
 }
 
@@ -27,7 +29,8 @@ Torus random_torus(std::mt19937_64& random, bool circular)
   std::uniform_real_distribution<> unit(-1.0, 1.0);
   const double r0 = 0.6 + 0.4 * unit(random);
   return torus(4.0 + unit(random), r0, circular ? r0 : 0.8 + 0.6 * unit(random),
-               8.0 * Vec3(unit(random), unit(random), unit(random)), 3.0 * Vec3(unit(random), unit(random), unit(random)));
+               8.0 * Vec3(unit(random), unit(random), unit(random)),
+               3.0 * Vec3(unit(random), unit(random), unit(random)));
 }
 
 TEST(SignedDistance, KnownPoints)
@@ -36,7 +39,8 @@ TEST(SignedDistance, KnownPoints)
   EXPECT_NEAR(signed_distance(ring, {7.0, 0.0, 0.0}), 1.3, 1e-15);
   EXPECT_NEAR(signed_distance(ring, {0.0, 0.0, 0.0}), 4.3, 1e-15);
   EXPECT_NEAR(signed_distance(ring, {0.0, -5.0, 2.0}), 0.8, 1e-15);
-  EXPECT_NEAR(signed_distance(ring, {5.0, 0.0, 0.0}), -0.7, 1e-12) << "the shorter half-axis, from the centre";
+  EXPECT_NEAR(signed_distance(ring, {5.0, 0.0, 0.0}), -0.7, 1e-12)
+      << "the shorter half-axis, from the centre";
   EXPECT_NEAR(signed_distance(ring, {5.5, 0.0, 0.0}), -0.2, 1e-12);
 }
 
@@ -89,10 +93,14 @@ TEST(Separation, RandomPairsAgainstDenseSampling)
 TEST(Separation, ExactPairs)
 {
   const Torus ring = torus(5.0, 0.7, 0.7);
-  EXPECT_NEAR(separation(ring, torus(4.0, 0.5, 0.5, {13.0, 0.0, 0.0})), 13.0 - 5.7 - 4.5, 1e-14) << "side by side";
-  EXPECT_NEAR(separation(ring, torus(5.0, 0.7, 0.7, {0.0, 0.0, 3.0})), 1.6, 1e-14) << "stacked: a valley of minima";
-  EXPECT_NEAR(separation(ring, torus(5.0, 0.7, 0.7, {8.6 - 1e-10, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 1e-10, 1e-14);
-  EXPECT_NEAR(separation(torus(5.0, 0.7, 0.4), torus(5.0, 0.7, 0.4, {8.6, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 0.0, 1e-14)
+  EXPECT_NEAR(separation(ring, torus(4.0, 0.5, 0.5, {13.0, 0.0, 0.0})), 13.0 - 5.7 - 4.5, 1e-14)
+      << "side by side";
+  EXPECT_NEAR(separation(ring, torus(5.0, 0.7, 0.7, {0.0, 0.0, 3.0})), 1.6, 1e-14)
+      << "stacked: a valley of minima";
+  EXPECT_NEAR(separation(ring, torus(5.0, 0.7, 0.7, {8.6 - 1e-10, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 1e-10,
+              1e-14);
+  EXPECT_NEAR(separation(torus(5.0, 0.7, 0.4), torus(5.0, 0.7, 0.4, {8.6, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})),
+              0.0, 1e-14)
       << "elliptical tubes lock by r0 while they are slender";
   EXPECT_NEAR(separation(torus(5.0, 0.7, 1.1), torus(5.0, 0.9, 1.3, {0.0, 0.0, 4.0})), 4.0 - 2.4, 1e-13);
 }
@@ -103,7 +111,8 @@ TEST(Links, HopfPairAndItsMirror)
   const int number = linking_number(a, b);
   EXPECT_EQ(std::abs(number), 1);
   EXPECT_EQ(linking_number(b, a), number) << "symmetric";
-  EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {6.0, 0.0, 0.0}, {-pi / 2.0, 0.0, 0.0})), -number) << "b reversed";
+  EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {6.0, 0.0, 0.0}, {-pi / 2.0, 0.0, 0.0})), -number)
+      << "b reversed";
   EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {-6.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), -number);
   EXPECT_EQ(linking_number(a, torus(5.0, 0.7, 0.7, {10.5, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 0) << "apart";
   EXPECT_EQ(linking_number(a, torus(1.0, 0.1, 0.1, {2.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0})), 0)
@@ -127,7 +136,8 @@ TEST(Links, MatchGaussIntegralOnRandomPairs)
       for (int q = 0; q < n; ++q) {
         const double u = 2.0 * pi * p / n, v = 2.0 * pi * q / n;
         const Vec3 x = core_point(a, u), y = core_point(b, v), d = x - y;
-        const Vec3 dx = core_point(a, u + pi / 2.0) - a.place.position, dy = core_point(b, v + pi / 2.0) - b.place.position;
+        const Vec3 dx = core_point(a, u + pi / 2.0) - a.place.position,
+                   dy = core_point(b, v + pi / 2.0) - b.place.position;
         sum += d.dot(dx.cross(dy)) / std::pow(d.norm(), 3);
       }
     const double gauss = sum * (2.0 * pi / n) * (2.0 * pi / n) / (4.0 * pi);

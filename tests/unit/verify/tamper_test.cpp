@@ -1,8 +1,8 @@
 #include <hauberk/verify/verify.hpp>
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -27,7 +27,8 @@ void expect_caught(const json::value& document, const std::string& message)
 {
   const VerifyReport report = verify(document);
   EXPECT_FALSE(report.ok);
-  EXPECT_NE(report.text().find(message), std::string::npos) << "missing: " << message << '\n' << report.text();
+  EXPECT_NE(report.text().find(message), std::string::npos) << "missing: " << message << '\n'
+                                                            << report.text();
 }
 
 TEST(Tamper, PoseShiftedByAThousandth)
@@ -38,7 +39,8 @@ TEST(Tamper, PoseShiftedByAThousandth)
       add(document, std::string("/limits/0/poses/") + element + "/position/" + axis, 1e-3);
       expect_caught(document, "the mean translation moved by 0.0005");
       // Hidden from the mean by moving both: still caught by the contacts.
-      add(document, std::string("/limits/0/poses/") + (*element == '0' ? "1" : "0") + "/position/" + axis, -1e-3);
+      add(document, std::string("/limits/0/poses/") + (*element == '0' ? "1" : "0") + "/position/" + axis,
+          -1e-3);
       expect_caught(document, "contact 0: ");
     }
 }

@@ -10,8 +10,8 @@ namespace hauberk {
 
 /// One row per limit, a header first; separator comma, decimal point, empty where there is no value. Columns:
 /// load_case, direction_deg, sense, measure, value, companions and macroscopic unknowns by name, status,
-/// iterations, evaluations, seconds, min_gap, error_estimate, links_kept, z_range, better_state, force_balance,
-/// starts, contacts (counts). Numbers read back exactly. Thread safe.
+/// iterations, evaluations, seconds, min_gap, error_estimate, links_kept, z_range, better_state,
+/// force_balance, starts, contacts (counts). Numbers read back exactly. Thread safe.
 std::string limits_csv(std::span<const LimitResult> limits);
 
 }  // namespace hauberk

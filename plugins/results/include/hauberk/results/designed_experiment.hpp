@@ -14,8 +14,8 @@ namespace hauberk {
 /// parameters; `cell` becomes the supercell with `repeat` [1, 1] and one entry of `place` for each element;
 /// task is `limits`, the name ends in "_designed", and `design` and `expect`, which belong to the design run,
 /// are left out. Everything else stays. Running it gives the limits reported for the design.
-/// Throws ComputationError for scenes without a periodic cell (a patch cannot be rewritten this way), InputError
-/// when the text is malformed. Thread safe.
+/// Throws ComputationError for scenes without a periodic cell (a patch cannot be rewritten this way),
+/// InputError when the text is malformed. Thread safe.
 boost::json::object designed_experiment(const std::string& experiment_json, const SceneSpec& scene);
 
 }  // namespace hauberk

@@ -38,8 +38,9 @@ struct ResultNames {
 };
 
 /// Builds the document. `experiment_json` is the resolved experiment as strict JSON text; lengths are in its
-/// unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite are null.
-/// Keys have a fixed order. Throws InputError when a JSON text is malformed, and what shapes throw. Thread safe.
+/// unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite are
+/// null. Keys have a fixed order. Throws InputError when a JSON text is malformed, and what shapes throw.
+/// Thread safe.
 boost::json::object results_document(const RunResult& run, const std::string& experiment_json,
                                      const Provenance& provenance, const ResultNames& names = {});
 

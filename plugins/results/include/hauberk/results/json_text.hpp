@@ -8,9 +8,9 @@
 
 namespace hauberk {
 
-/// Parses strict JSON (no comments, no trailing commas). Unlike boost::json::parse of Boost 1.81, which is off
-/// by a unit in the last place for about one number in twelve, every number is the double nearest to its text.
-/// `name` is the file to name in errors. Throws InputError with file and line. Thread safe.
+/// Parses strict JSON (no comments, no trailing commas). Unlike boost::json::parse of Boost 1.81, which is
+/// off by a unit in the last place for about one number in twelve, every number is the double nearest to its
+/// text. `name` is the file to name in errors. Throws InputError with file and line. Thread safe.
 boost::json::value parse_json(std::string_view text, std::string_view name);
 
 /// Reads and parses a file; throws InputError when it cannot be read.

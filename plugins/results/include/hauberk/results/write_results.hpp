@@ -17,16 +17,16 @@ inline constexpr const char* limits_file = "limits.csv";
 inline constexpr const char* profile_file = "profile.svg";
 inline constexpr const char* designed_file = "designed.json";
 
-/// The files that `write_results` makes for `run`, for ResultNames::files: limits, profile and, for a design of a
-/// periodic cell, designed.
+/// The files that `write_results` makes for `run`, for ResultNames::files: limits, profile and, for a design
+/// of a periodic cell, designed.
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run);
 
-/// Writes limits.csv, profile.svg, designed.json (for a design of a periodic cell) and, last, results.json, so that
-/// a results.json on the disk means that the files it names are complete. `document` is that of
+/// Writes limits.csv, profile.svg, designed.json (for a design of a periodic cell) and, last, results.json,
+/// so that a results.json on the disk means that the files it names are complete. `document` is that of
 /// `results_document`. May be called again with more results (partial results of a long run). Every file is
 /// replaced atomically; throws ComputationError naming the file that could not be written, which then is as
 /// before. The folder must exist.
-void write_results(const std::filesystem::path& directory, const boost::json::object& document, const RunResult& run,
-                   const std::string& experiment_json, const PlotLabels& labels);
+void write_results(const std::filesystem::path& directory, const boost::json::object& document,
+                   const RunResult& run, const std::string& experiment_json, const PlotLabels& labels);
 
 }  // namespace hauberk

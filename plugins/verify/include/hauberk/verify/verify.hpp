@@ -10,11 +10,12 @@ namespace hauberk {
 
 /// What counts as equal. Lengths are multiples of the scene's characteristic length L.
 struct VerifyTolerances {
-  /// Of surface distances. Both the solver and the search here are exact to rounding, about 1e-15 L; a thousand
-  /// times a thousand more leaves room for long sums, and still sees a pose 1e-3 mm off (second order: 1e-8 L).
+  /// Of surface distances. Both the solver and the search here are exact to rounding, about 1e-15 L; a
+  /// thousand times a thousand more leaves room for long sums, and still sees a pose 1e-3 mm off (second
+  /// order: 1e-8 L).
   double gap = 1e-9;
-  /// Of normals against the surfaces' own, radians. The closest points, hence normals, of a converged pair are
-  /// good to the root of rounding.
+  /// Of normals against the surfaces' own, radians. The closest points, hence normals, of a converged pair
+  /// are good to the root of rounding.
   double normal = 1e-6;
   /// Largest admissible imbalance, over the norm of the load. Barrier forces at a gap g carry a relative
   /// rounding error of about 1e-15 L / g, 1e-5 at g = 1e-10 L.
@@ -25,9 +26,9 @@ struct VerifyTolerances {
   double translation = 1e-8;
   /// Of values that are functions of other values in the file.
   double value = 1e-11;
-  /// `arc` spreads each force along a stretch of tube of which the file lists the resultant. Within a stretch of
-  /// half-width w = sqrt(2 r g) the surfaces turn by w / r and bow by g: points are exact to that many gaps,
-  /// normals and imbalance to this many times sqrt(gap / L).
+  /// `arc` spreads each force along a stretch of tube of which the file lists the resultant. Within a stretch
+  /// of half-width w = sqrt(2 r g) the surfaces turn by w / r and bow by g: points are exact to that many
+  /// gaps, normals and imbalance to this many times sqrt(gap / L).
   double arc_gaps = 10.0;
 };
 
@@ -44,19 +45,22 @@ struct VerifyReport {
   std::string text() const;
 };
 
-/// Checks a document of format "hauberk-results/1": a line per limit (also those of a design's initial scene),
-/// one for the profiles, one for the design.
+/// Checks a document of format "hauberk-results/1": a line per limit (also those of a design's initial
+/// scene), one for the profiles, one for the design.
 ///
 /// For every limit with poses:
-/// - smallest separation of surfaces of different elements and images, by exhaustive search, against min_gap and
+/// - smallest separation of surfaces of different elements and images, by exhaustive search, against min_gap
+/// and
 ///   the clearance; nothing intersects;
 /// - listed contacts: points on the two surfaces, normal unit and along the surfaces' normals, gap = distance
 ///   minus clearance, force >= 0;
 /// - linking numbers of all pairs of core circles, image by image, equal at rest and at the limit;
-/// - force balance: s t + sum_k f_k dg_k/dy = 0 for all unknowns y (in-plane strains, positions, rotations), where
-///   t = d value / d strain, s = +1 for stretch and -1 for compress, normals point from the first element to the
-///   second, so that the first is pushed by -f n and the second by +f n;
-/// - value, companions and starts are what macro says; F is positive definite; the mean translation is rest's;
+/// - force balance: s t + sum_k f_k dg_k/dy = 0 for all unknowns y (in-plane strains, positions, rotations),
+/// where
+///   t = d value / d strain, s = +1 for stretch and -1 for compress, normals point from the first element to
+///   the second, so that the first is pushed by -f n and the second by +f n;
+/// - value, companions and starts are what macro says; F is positive definite; the mean translation is
+/// rest's;
 ///   heights keep to `out_of_plane`.
 /// Never throws for a bad document: what is missing or malformed is a failing line. Thread safe.
 VerifyReport verify(const boost::json::value& results, const VerifyTolerances& tolerances = {});

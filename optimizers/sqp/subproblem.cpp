@@ -17,7 +17,8 @@ using Status = QuadraticSolution::Status;
 constexpr int penalty_raises = 8;
 /// A tenfold price that lowers the violation by less than this part does not help any more.
 constexpr double worthwhile = 1e-2;
-/// Curvature given to slacks, which the QP method needs, relative to price per violation: small beside either.
+/// Curvature given to slacks, which the QP method needs, relative to price per violation: small beside
+/// either.
 constexpr double slack_curvature = 1e-6;
 
 /// The program with `slacks` further variables, one for each constraint of `violated`, priced at `price`.

@@ -28,8 +28,8 @@ struct Step {
 /// min g.d + 1/2 d.B d subject to c + J d >= 0 and lower <= d <= upper, where lower <= 0 <= upper.
 ///
 /// Where the constraints have no common point, those that are violated at d = 0 get a slack each whose sum is
-/// charged with an exact penalty, raised from `penalty` until a dearer slack would not get smaller; the result
-/// then reduces the violation as far as the model allows.
+/// charged with an exact penalty, raised from `penalty` until a dearer slack would not get smaller; the
+/// result then reduces the violation as far as the model allows.
 Step propose_step(const Eigen::MatrixXd& B, const Linearisation& at, const Eigen::VectorXd& lower,
                   const Eigen::VectorXd& upper, double penalty);
 

@@ -1,0 +1,101 @@
+/// The globalisation of Minimizer: l1 merit function, backtracking from the largest safe step and a
+/// second-order correction (Nocedal and Wright, Numerical Optimization, 2nd ed., sections 15.4 and 18.3).
+
+#include "minimizer.hpp"
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Part of the predicted decrease that a step must bring (Armijo).
+constexpr double sufficient = 1e-4;
+/// Trial points of one search; each costs an evaluation.
+constexpr int max_trials = 12;
+/// A shorter step is this much shorter, at least and at most; and after an evaluation that failed.
+constexpr double least_cut = 0.5;
+constexpr double largest_cut = 0.1;
+constexpr double failure_cut = 0.25;
+/// The penalty exceeds the multipliers, for which the merit function is exact, by this factor.
+constexpr double penalty_margin = 1.5;
+/// Part of the penalised decrease of the violation that the objective's increase may use up.
+constexpr double usable = 0.5;
+/// A correction has to remove this part of the violation, and may not be longer than this part of the step.
+constexpr double correction_gain = 0.5;
+constexpr double correction_length = 0.5;
+
+/// Minimum of the parabola through merit(0) with slope, and merit(alpha), kept within the cuts.
+double shorter(double alpha, double slope, double rise)
+{
+  const double curvature = rise - slope * alpha;
+  const double minimum = curvature > 0.0 ? -0.5 * slope * alpha * alpha / curvature : least_cut * alpha;
+  return std::clamp(minimum, largest_cut * alpha, least_cut * alpha);
+}
+
+}  // namespace
+
+void Minimizer::raise_penalty(const Step& step)
+{
+  if (at_.c.size() == 0) return;
+  const double target = penalty_margin * step.multipliers.maxCoeff();
+  // It may come down again, slowly: a penalty that stays too large follows the constraints in tiny steps.
+  penalty_ = std::max(target, 0.5 * (penalty_ + target));
+  const double removed = total_violation(at_.c) - step.model_violation;
+  const double increase = at_.gradient.dot(step.d) + 0.5 * step.d.dot(hessian_.matrix() * step.d);
+  if (removed > 0.0) penalty_ = std::max(penalty_, increase / (usable * removed));
+}
+
+bool Minimizer::line_search(const Step& step)
+{
+  const double slope = at_.gradient.dot(step.d) - penalty_ * (total_violation(at_.c) - step.model_violation);
+  const double length = step.d.size() == 0 ? 0.0 : step.d.cwiseAbs().maxCoeff();
+  double alpha = problem_.largest_safe_step(x_, step.d);
+  blocked_ = alpha * length < settings_.min_step && length >= settings_.min_step;
+  if (!(slope < 0.0)) return false;
+
+  const double before = merit(value_, at_.c);
+  for (int trial = 0; trial < max_trials && alpha * length >= settings_.min_step; ++trial) {
+    VectorXd d = alpha * step.d;
+    VectorXd x = problem_.moved(x_, d, 1.0);
+    VectorXd c = problem_.constraints(x);
+    if (trial == 0 && alpha == 1.0 && c.allFinite() && correct(step, d, c)) x = problem_.moved(x_, d, 1.0);
+    const Trial found = problem_.evaluate(x);
+    if (!found.ok || !c.allFinite()) {
+      alpha *= failure_cut;
+      continue;
+    }
+    const double rise = merit(found.value, c) - before;
+    if (rise <= sufficient * alpha * slope) {
+      slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
+      move_to(x, found, d, step);
+      return true;
+    }
+    alpha = shorter(alpha, slope, rise);
+  }
+  return false;
+}
+
+bool Minimizer::correct(const Step& step, VectorXd& d, VectorXd& c)
+{
+  // Constraints curve away from their linearisation. Their values at the end of the step tell by how much;
+  // solving the model again with that difference costs no evaluation of the objective.
+  const double violation = total_violation(c);
+  if (step.elastic || largest_violation(c) <= settings_.constraint_tolerance) return false;
+  Linearisation curved = at_;
+  curved.c = c - at_.J * d;
+  const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
+  const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
+  const Step corrected = propose_step(hessian_.matrix(), curved, lower, upper, penalty_);
+  if (!corrected.ok || corrected.elastic) return false;
+  if ((corrected.d - d).norm() > correction_length * d.norm()) return false;
+  if (problem_.largest_safe_step(x_, corrected.d) < 1.0) return false;
+  const VectorXd c_corrected = problem_.constraints(problem_.moved(x_, corrected.d, 1.0));
+  if (!c_corrected.allFinite() || total_violation(c_corrected) > correction_gain * violation) return false;
+  d = corrected.d;
+  c = c_corrected;
+  return true;
+}
+
+}  // namespace hauberk

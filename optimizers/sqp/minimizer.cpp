@@ -1,0 +1,209 @@
+#include "minimizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hauberk {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Accepted steps in a row that gain less than the tolerance before the run counts as stalled.
+constexpr int slow_limit = 3;
+/// A restart paid off when the objective or the violation fell by these parts since.
+constexpr double worthwhile_value = 1e-2;
+constexpr double worthwhile_violation = 0.5;
+/// Violation that the relaxed model must be able to remove, or the iterate is a minimum of the violation.
+constexpr double removable = 1e-6;
+
+}  // namespace
+
+Minimizer::Minimizer(OptimizationProblem& problem, const SqpSettings& settings, OptimizerObserver& observer,
+                     std::span<const double> start)
+    : problem_(problem, start),
+      settings_(settings),
+      observer_(observer),
+      x_(Eigen::Map<const VectorXd>(start.data(), static_cast<Eigen::Index>(start.size())))
+{
+}
+
+OptimizerResult Minimizer::run()
+{
+  std::string why;
+  if (!begin(why)) return finish("failed", "the start cannot be evaluated: " + why);
+  for (;;) {
+    const Step step = propose();
+    if (!step.ok) {
+      if (restart()) continue;
+      return finish("failed", "the quadratic model has no solution; gradients or constraints are not finite");
+    }
+    if (!report(step)) return finish("stopped", "stopped on request");
+    if (converged(step)) return finish("converged", "no step promises a noticeable decrease");
+    if (locally_infeasible(step)) {
+      return finish("infeasible", "no small step reduces the violation of the constraints");
+    }
+    if (iteration_ >= settings_.max_iterations) {
+      return finish("iteration_limit", "stopped after " + std::to_string(iteration_) + " iterations");
+    }
+    raise_penalty(step);
+    if (slow_steps_ < slow_limit && line_search(step)) {
+      ++iteration_;
+      continue;
+    }
+    if (restart()) continue;
+    return finish("small_step", blocked_ ? "the next step would pass through an intersection"
+                                         : "steps became too small to make progress");
+  }
+}
+
+bool Minimizer::begin(std::string& why)
+{
+  const Trial trial = problem_.evaluate(x_);
+  value_ = first_value_ = trial.value;
+  if (!trial.ok) {
+    why = trial.why;
+    return false;
+  }
+  problem_.accept(x_);
+  at_.gradient = trial.gradient;
+  problem_.linearise(x_, at_);
+  if (!at_.c.allFinite() || !at_.J.allFinite()) {
+    why = "the constraints or their derivatives are not finite";
+    return false;
+  }
+  remember();
+  reset_hessian(settings_.initial_step);
+  return true;
+}
+
+Step Minimizer::propose() const
+{
+  const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
+  const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
+  return propose_step(hessian_.matrix(), at_, lower, upper, penalty_);
+}
+
+double Minimizer::optimality(const Step& step) const
+{
+  // What the Lagrangian's gradient promises in each variable over its range, or over the room that the bounds
+  // leave. In the objective's unit, and zero at a solution.
+  const VectorXd gradient = at_.gradient - at_.J.transpose() * step.multipliers;
+  const VectorXd down = -problem_.step_lower(x_);
+  const VectorXd up = problem_.step_upper(x_);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    const double room = std::min(1.0, gradient[i] > 0.0 ? down[i] : up[i]);
+    largest = std::max(largest, std::abs(gradient[i]) * room);
+  }
+  return largest;
+}
+
+double Minimizer::objective_scale() const
+{
+  const double scale = std::max(std::abs(first_value_), std::abs(value_));
+  return scale > 0.0 ? scale : 1.0;
+}
+
+bool Minimizer::converged(const Step& step) const
+{
+  if (largest_violation(at_.c) > settings_.constraint_tolerance) return false;
+  // A gradient g promises g^2/(2 H); with H of the objective's size in scaled variables, the square root
+  // makes both conditions ask for the same.
+  const double scale = objective_scale();
+  const double decrease = -at_.gradient.dot(step.d) - 0.5 * step.d.dot(hessian_.matrix() * step.d);
+  const bool no_step = step.d.size() == 0 || step.d.cwiseAbs().maxCoeff() < settings_.min_step;
+  return (decrease <= settings_.tolerance * scale || no_step) &&
+         optimality(step) <= std::sqrt(settings_.tolerance) * scale;
+}
+
+bool Minimizer::locally_infeasible(const Step& step) const
+{
+  return step.elastic && largest_violation(at_.c) > settings_.constraint_tolerance &&
+         step.model_violation >= (1.0 - removable) * total_violation(at_.c);
+}
+
+bool Minimizer::report(const Step& step)
+{
+  if (reported_) return true;
+  reported_ = true;
+  OptimizerIterate iterate;
+  iterate.iteration = iteration_;
+  iterate.value = value_;
+  iterate.step = step_length_;
+  iterate.constraint_violation = largest_violation(at_.c);
+  iterate.optimality = optimality(step);
+  iterate.x = {x_.data(), static_cast<std::size_t>(x_.size())};
+  return observer_.on_iterate(iterate);
+}
+
+void Minimizer::reset_hessian(double radius)
+{
+  // The first step is then at most about `radius` long in every scaled variable.
+  const double steepest = at_.gradient.size() == 0 ? 0.0 : at_.gradient.cwiseAbs().maxCoeff();
+  hessian_.reset(x_.size(), steepest > 0.0 ? steepest / radius : 1.0);
+}
+
+bool Minimizer::restart()
+{
+  if (hessian_.fresh()) return false;  // the same step again
+  if (restarted_) {
+    const bool better = value_ < restart_value_ - worthwhile_value * std::abs(restart_value_);
+    const bool more_feasible = total_violation(at_.c) < worthwhile_violation * restart_violation_;
+    if (!better && !more_feasible) return false;
+  }
+  restarted_ = true;
+  restart_value_ = value_;
+  restart_violation_ = total_violation(at_.c);
+  slow_steps_ = 0;
+  reset_hessian(std::clamp(step_length_, 10.0 * settings_.min_step, settings_.initial_step));
+  return true;
+}
+
+void Minimizer::move_to(const VectorXd& x, const Trial& trial, const VectorXd& s, const Step& step)
+{
+  problem_.accept(x);
+  Linearisation next;
+  next.gradient = trial.gradient;
+  problem_.linearise(x, next);
+  VectorXd y = next.gradient - at_.gradient;
+  if (next.c.size() == at_.c.size()) y -= (next.J - at_.J).transpose() * step.multipliers;
+  hessian_.update(s, y);
+  at_ = std::move(next);
+  x_ = x;
+  value_ = trial.value;
+  step_length_ = s.size() == 0 ? 0.0 : s.cwiseAbs().maxCoeff();
+  reported_ = false;
+  remember();
+}
+
+void Minimizer::remember()
+{
+  const double violation = largest_violation(at_.c);
+  const auto feasible = [this](double v) { return v <= settings_.constraint_tolerance; };
+  bool better = !best_.any;
+  if (!better && feasible(violation) != feasible(best_.violation))
+    better = feasible(violation);
+  else if (!better)
+    better = feasible(violation) ? value_ < best_.value : violation < best_.violation;
+  if (better) best_ = {true, x_, value_, violation};
+}
+
+OptimizerResult Minimizer::finish(std::string status, std::string message) const
+{
+  OptimizerResult result;
+  const VectorXd& x = best_.any ? best_.x : x_;
+  result.x.assign(x.begin(), x.end());
+  result.value = best_.any ? best_.value : value_;
+  result.iterations = iteration_;
+  result.evaluations = problem_.evaluations();
+  if (best_.violation > settings_.constraint_tolerance) {
+    if (status == "small_step") status = "infeasible";
+    message += "; the constraints are violated by up to " + std::to_string(best_.violation);
+  }
+  result.status = std::move(status);
+  result.message = std::move(message);
+  return result;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,83 @@
+#pragma once
+/// One run of sequential quadratic programming.
+
+#include "damped_bfgs.hpp"
+#include "scaled_problem.hpp"
+#include "subproblem.hpp"
+
+#include <hauberk/optimizer.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hauberk {
+
+/// Steps and optimality are measured in variables scaled by their ranges.
+struct SqpSettings {
+  int max_iterations = 100;
+  double tolerance = 1e-6;             ///< of decrease and optimality, relative to the objective
+  double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
+  double initial_step = 0.05;          ///< longest first step, part of a variable's range
+  double max_step = 0.5;               ///< longest step, part of a variable's range
+  double min_step = 1e-7;              ///< shortest step worth an evaluation, part of a variable's range
+};
+
+/// Minimises one problem once. Not thread safe; runs on different problems do not share anything.
+class Minimizer {
+ public:
+  Minimizer(OptimizationProblem& problem, const SqpSettings& settings, OptimizerObserver& observer,
+            std::span<const double> start);
+
+  OptimizerResult run();
+
+ private:
+  /// Best point so far: feasible before infeasible, then by value or by violation.
+  struct Best {
+    bool any = false;
+    Eigen::VectorXd x;
+    double value = 0.0;
+    double violation = 0.0;
+  };
+
+  bool begin(std::string& why);
+  Step propose() const;
+  double optimality(const Step& step) const;
+  bool converged(const Step& step) const;
+  bool locally_infeasible(const Step& step) const;
+  bool report(const Step& step);
+  bool restart();
+  void raise_penalty(const Step& step);
+  bool line_search(const Step& step);
+  /// Second-order correction of a full step that ended at constraint values c; false when it does not help.
+  bool correct(const Step& step, Eigen::VectorXd& d, Eigen::VectorXd& c);
+  void move_to(const Eigen::VectorXd& x, const Trial& trial, const Eigen::VectorXd& s, const Step& step);
+  void remember();
+  double merit(double value, const Eigen::VectorXd& c) const { return value + penalty_ * total_violation(c); }
+  double objective_scale() const;
+  void reset_hessian(double radius);
+  OptimizerResult finish(std::string status, std::string message) const;
+
+  ScaledProblem problem_;
+  SqpSettings settings_;
+  OptimizerObserver& observer_;
+
+  Eigen::VectorXd x_;
+  double value_ = 0.0;
+  double first_value_ = 0.0;
+  Linearisation at_;
+  DampedBfgs hessian_;
+  double penalty_ = 0.0;  ///< of the l1 merit function
+  Best best_;
+
+  int iteration_ = 0;
+  double step_length_ = 0.0;  ///< of the last accepted step
+  bool reported_ = false;     ///< the observer knows the current iterate
+  int slow_steps_ = 0;        ///< accepted in a row without noticeable decrease
+  bool blocked_ = false;      ///< the last line search was stopped by an intersection, not by the objective
+  bool restarted_ = false;    ///< the Hessian was reset and nothing came of it yet
+  double restart_value_ = 0.0;
+  double restart_violation_ = 0.0;
+};
+
+}  // namespace hauberk

@@ -1,0 +1,37 @@
+#pragma once
+/// Sequential quadratic programming for expensive, constrained, possibly kinked objectives.
+
+#include "minimizer.hpp"
+
+#include <hauberk/optimizer.hpp>
+#include <hauberk/settings.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace hauberk {
+
+/// Line-search SQP with a damped BFGS Hessian; see the README for the method. Immutable, thread safe.
+class Sqp final : public Optimizer {
+ public:
+  explicit Sqp(const SqpSettings& settings) : settings_(settings) {}
+
+ protected:
+  OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
+                              OptimizerObserver& observer) const override
+  {
+    return Minimizer(problem, settings_, observer, start).run();
+  }
+
+ private:
+  SqpSettings settings_;
+};
+
+/// The fields of the optimizer's section of an experiment.
+void sqp_fields(std::vector<Field>& out);
+
+/// Builds the optimizer from a section checked against these fields. What contradicts itself goes to
+/// `problems`; then null is returned.
+std::unique_ptr<Optimizer> make_sqp(const Node& section, Problems& problems);
+
+}  // namespace hauberk

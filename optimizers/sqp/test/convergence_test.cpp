@@ -1,0 +1,236 @@
+/// Known optima, and what they cost.
+
+#include "../sqp.hpp"
+#include "problems.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+using namespace testing_problems;
+
+SqpSettings accurate()
+{
+  SqpSettings settings;
+  settings.tolerance = 1e-10;
+  return settings;
+}
+
+OptimizerResult minimise(FunctionProblem& problem, const std::vector<double>& start, Recorder& recorder,
+                         const SqpSettings& settings = accurate())
+{
+  const OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
+  EXPECT_EQ(problem.broken_protocol, 0);
+  EXPECT_EQ(result.evaluations, static_cast<int>(problem.evaluated.size()));
+  EXPECT_EQ(recorder.iterates.size(), static_cast<std::size_t>(result.iterations) + 1);
+  return result;
+}
+
+TEST(SqpConvergence, RosenbrockInsideBounds)
+{
+  FunctionProblem problem = rosenbrock(-2.0, 2.0);
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {-1.2, 1.0}, recorder);
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_NEAR(r.x[0], 1.0, 1e-5);
+  EXPECT_NEAR(r.x[1], 1.0, 1e-5);
+  EXPECT_LT(r.evaluations, 70);
+  EXPECT_EQ(recorder.iterates[0].step, 0.0);
+  EXPECT_LE(recorder.iterates[1].step, 0.05 + 1e-12);  // initial_step
+}
+
+TEST(SqpConvergence, RosenbrockOnItsBound)
+{
+  // With x1 <= 0.5 the valley is left at (0.5, 0.25).
+  FunctionProblem problem = rosenbrock(-2.0, 2.0);
+  problem.upper_bounds[0] = 0.5;
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {-1.2, 1.0}, recorder);
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_EQ(r.x[0], 0.5);
+  EXPECT_NEAR(r.x[1], 0.25, 1e-6);
+  EXPECT_NEAR(r.value, 0.25, 1e-9);
+}
+
+TEST(SqpConvergence, RosenbrockOnADisk)
+{
+  // x.x <= 2 touches the minimum (1, 1): a constraint that is active with multiplier zero.
+  FunctionProblem problem = rosenbrock(-1.5, 1.5);
+  problem.constraint_number = 1;
+  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << 2.0 - x.squaredNorm();
+    J.row(0) = -2.0 * x;
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {-0.5, 0.5}, recorder);
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_NEAR(r.x[0], 1.0, 1e-4);
+  EXPECT_NEAR(r.x[1], 1.0, 1e-4);
+}
+
+TEST(SqpConvergence, HockSchittkowski71)
+{
+  FunctionProblem problem = hs71();
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {1, 5, 5, 1}, recorder);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_NEAR(r.value, 17.0140173, 1e-6);
+  EXPECT_NEAR(r.x[0], 1.0, 1e-9);
+  EXPECT_NEAR(r.x[1], 4.7429994, 1e-5);
+  EXPECT_NEAR(r.x[2], 3.8211503, 1e-5);
+  EXPECT_NEAR(r.x[3], 1.3794082, 1e-5);
+  EXPECT_LT(r.evaluations, 25);
+  EXPECT_LT(recorder.iterates.back().constraint_violation, 1e-8);
+}
+
+TEST(SqpConvergence, HockSchittkowski76)
+{
+  FunctionProblem problem = box(4, 0.0, 10.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    g << 2 * x[0] - x[2] - 1, x[1] - 3, 2 * x[2] - x[0] + x[3] + 1, x[3] + x[2] - 1;
+    return x[0] * x[0] + 0.5 * x[1] * x[1] + x[2] * x[2] + 0.5 * x[3] * x[3] - x[0] * x[2] + x[2] * x[3] -
+           x[0] - 3 * x[1] + x[2] - x[3];
+  };
+  problem.constraint_number = 3;
+  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    J << -1, -2, -1, -1, -3, -1, -2, 1, 0, 1, 4, 0;
+    c = J * x + Eigen::Vector3d(5.0, 4.0, -1.5);
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {0.5, 0.5, 0.5, 0.5}, recorder);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_NEAR(r.value, -4.681818181818, 1e-8);
+  EXPECT_LT(r.evaluations, 30);
+}
+
+TEST(SqpConvergence, InfeasibleStartOfACurvedProblem)
+{
+  // min x + y on the outside of the unit disk, inside a box: a corner; start in the disk.
+  FunctionProblem problem = box(2, -0.9, 3.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    g.setOnes();
+    return x.sum();
+  };
+  problem.constraint_number = 1;
+  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << x.squaredNorm() - 1.0;
+    J.row(0) = 2.0 * x;
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {0.2, 0.1}, recorder);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_GE(r.x[0] * r.x[0] + r.x[1] * r.x[1], 1.0 - 1e-8);
+  EXPECT_GT(recorder.iterates.front().constraint_violation, 0.9);
+}
+
+TEST(SqpConvergence, MaratosEffect)
+{
+  // Powell's example: full steps along the circle violate it to second order; the correction takes them.
+  FunctionProblem problem = box(2, -2.0, 2.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    g << 4.0 * x[0] - 1.0, 4.0 * x[1];
+    return 2.0 * (x.squaredNorm() - 1.0) - x[0];
+  };
+  problem.constraint_number = 2;
+  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << x.squaredNorm() - 1.0, 1.0 - x.squaredNorm();
+    J.row(0) = 2.0 * x;
+    J.row(1) = -2.0 * x;
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {0.8, 0.6}, recorder);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_NEAR(r.x[0], 1.0, 1e-8);
+  EXPECT_NEAR(r.value, -1.0, 1e-8);
+  EXPECT_LT(r.evaluations, 25);
+}
+
+TEST(SqpConvergence, DegenerateVertexWithDependentConstraints)
+{
+  // Five constraints meet at the optimum (1, 1), one of them twice.
+  FunctionProblem problem = box(2, 0.0, 4.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    g = 2.0 * x;
+    return x.squaredNorm();
+  };
+  problem.constraint_number = 5;
+  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    J << 1, 0, 0, 1, 1, 1, 1, 1, 3, 1;
+    c = J * x;
+    c[0] -= 1.0;
+    c[1] -= 1.0;
+    c[2] -= 2.0;
+    c[3] -= 2.0;
+    c[4] -= 4.0;
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {3.0, 2.5}, recorder);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_NEAR(r.x[0], 1.0, 1e-8);
+  EXPECT_NEAR(r.x[1], 1.0, 1e-8);
+}
+
+TEST(SqpConvergence, ScaleOfVariablesDoesNotMatter)
+{
+  // The same problem in other units takes the same iterates.
+  FunctionProblem metres = rosenbrock(-2.0, 2.0);
+  FunctionProblem micrometres = rosenbrock(-2e6, 2e6);
+  micrometres.objective = [&metres](const VectorXd& x, VectorXd& g) {
+    const double value = metres.objective(1e-6 * x, g);
+    g *= 1e-6;
+    return value;
+  };
+  Recorder first, second;
+  const OptimizerResult a = minimise(metres, {-1.2, 1.0}, first);
+  const OptimizerResult b = minimise(micrometres, {-1.2e6, 1.0e6}, second);
+  EXPECT_EQ(a.iterations, b.iterations);
+  EXPECT_NEAR(b.x[0], 1e6 * a.x[0], 1.0);
+}
+
+TEST(SqpConvergence, FixedAndUnboundedVariables)
+{
+  FunctionProblem problem = rosenbrock(-1e300, 1e300);
+  problem.lower_bounds = {-1.0, -std::numeric_limits<double>::infinity()};
+  problem.upper_bounds = {-1.0, std::numeric_limits<double>::infinity()};
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {-1.0, 7.0}, recorder);
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_EQ(r.x[0], -1.0);
+  EXPECT_NEAR(r.x[1], 1.0, 1e-5);
+}
+
+TEST(SqpConvergence, ManyLeastSquaresVariables)
+{
+  // 24 variables, a few residuals, as designs are: far fewer evaluations than variables squared.
+  FunctionProblem problem = box(24, 0.0, 1.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    double value = 0.0;
+    g.setZero();
+    for (int k = 0; k < 8; ++k) {
+      double residual = 0.0;
+      VectorXd row(24);
+      for (int i = 0; i < 24; ++i) {
+        row[i] = 0.5 + 0.5 * std::cos(1.0 + k * (i + 1.3));
+        const double target = 0.3 + 0.025 * ((5 * i) % 24);
+        residual += 0.1 * row[i] * (x[i] - target + 0.3 * (x[i] * x[i] - target * target));
+        row[i] *= 0.1 * (1.0 + 0.6 * x[i]);
+      }
+      value += 0.5 * residual * residual;
+      g += residual * row;
+    }
+    return value;
+  };
+  Recorder recorder;
+  SqpSettings settings;
+  settings.tolerance = 1e-6;
+  const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, settings);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_LT(r.value, 1e-4 * recorder.iterates.front().value);
+  EXPECT_LT(r.evaluations, 60);
+}
+
+}  // namespace
+}  // namespace hauberk

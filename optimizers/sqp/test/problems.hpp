@@ -1,0 +1,156 @@
+#pragma once
+/// Problems given by functions, which record how the optimizer uses them.
+
+#include <hauberk/optimizer.hpp>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace hauberk::testing_problems {
+
+using Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A problem made of functions. Checks the protocol: evaluations stay within bounds and within the safe part
+/// of a direction asked for at the accepted point, and only evaluated points are accepted.
+class FunctionProblem : public OptimizationProblem {
+ public:
+  std::vector<double> lower_bounds, upper_bounds;
+  std::function<double(const VectorXd&, VectorXd&)> objective;  ///< value; fills the gradient
+  int constraint_number = 0;
+  std::function<void(const VectorXd&, VectorXd&, RowMajor&)> constraint_functions;
+  std::function<double(const VectorXd&, const VectorXd&)> safe = [](const auto&, const auto&) { return 1.0; };
+  std::function<bool(const VectorXd&)> fails = [](const auto&) { return false; };
+
+  std::vector<VectorXd> evaluated, accepted;
+  int broken_protocol = 0;
+
+  std::span<const double> lower() const override { return lower_bounds; }
+  std::span<const double> upper() const override { return upper_bounds; }
+  int constraint_count() const override { return constraint_number; }
+
+  Evaluation evaluate(std::span<const double> x, bool want_gradient) override
+  {
+    const VectorXd v = vector(x);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (x[i] < lower_bounds[i] || x[i] > upper_bounds[i]) ++broken_protocol;
+    }
+    if (!accepted.empty() && !allowed(v)) ++broken_protocol;
+    evaluated.push_back(v);
+    Evaluation e;
+    if (fails(v)) {
+      e.why = "told to fail";
+      return e;
+    }
+    VectorXd gradient(v.size());
+    e.value = objective(v, gradient);
+    e.ok = true;
+    if (want_gradient) e.gradient.assign(gradient.begin(), gradient.end());
+    return e;
+  }
+
+  void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
+  {
+    const VectorXd v = vector(x);
+    VectorXd values(constraint_number);
+    RowMajor J(constraint_number, v.size());
+    constraint_functions(v, values, J);
+    std::copy(values.begin(), values.end(), c.begin());
+    if (!jacobian.empty()) std::copy(J.data(), J.data() + J.size(), jacobian.begin());
+  }
+
+  double largest_safe_step(std::span<const double> x, std::span<const double> d) override
+  {
+    if (accepted.empty() || vector(x) != accepted.back()) ++broken_protocol;
+    directions.push_back({vector(d), safe(vector(x), vector(d))});
+    return directions.back().alpha;
+  }
+
+  void accept(std::span<const double> x) override
+  {
+    if (evaluated.empty() || vector(x) != evaluated.back()) ++broken_protocol;
+    accepted.push_back(vector(x));
+    directions.clear();
+  }
+
+ private:
+  struct Direction {
+    VectorXd d;
+    double alpha;
+  };
+
+  static VectorXd vector(std::span<const double> x)
+  {
+    return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+  }
+
+  /// v is on the safe part of one of the directions asked for.
+  bool allowed(const VectorXd& v) const
+  {
+    return std::any_of(directions.begin(), directions.end(), [&](const Direction& at) {
+      const VectorXd moved = v - accepted.back();
+      const double alpha = moved.dot(at.d) / at.d.squaredNorm();
+      const double rounding = 1e-14 * (1.0 + v.norm());
+      return (alpha - at.alpha) * at.d.norm() <= rounding && (moved - alpha * at.d).norm() <= rounding;
+    });
+  }
+
+  std::vector<Direction> directions;
+};
+
+/// Records iterates; stops after `limit` of them.
+class Recorder : public OptimizerObserver {
+ public:
+  std::vector<OptimizerIterate> iterates;  // x is not kept: it points into the optimizer
+  int limit = 1 << 30;
+
+  bool on_iterate(const OptimizerIterate& iterate) override
+  {
+    iterates.push_back(iterate);
+    iterates.back().x = {};
+    return static_cast<int>(iterates.size()) < limit;
+  }
+};
+
+inline FunctionProblem box(std::size_t n, double lower, double upper)
+{
+  FunctionProblem p;
+  p.lower_bounds.assign(n, lower);
+  p.upper_bounds.assign(n, upper);
+  return p;
+}
+
+inline FunctionProblem rosenbrock(double lower, double upper)
+{
+  FunctionProblem p = box(2, lower, upper);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    const double a = x[1] - x[0] * x[0];
+    const double b = 1.0 - x[0];
+    g << -400.0 * a * x[0] - 2.0 * b, 200.0 * a;
+    return 100.0 * a * a + b * b;
+  };
+  return p;
+}
+
+/// Hock and Schittkowski 71, its equation as two inequalities. Optimum 17.0140173.
+inline FunctionProblem hs71()
+{
+  FunctionProblem p = box(4, 1.0, 5.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    const double sum = x[0] + x[1] + x[2];
+    g << x[3] * (sum + x[0]), x[0] * x[3], x[0] * x[3] + 1.0, x[0] * sum;
+    return x[0] * x[3] * sum + x[2];
+  };
+  p.constraint_number = 3;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << x.prod() - 25.0, x.squaredNorm() - 40.0, 40.0 - x.squaredNorm();
+    J.row(0) = x.prod() * x.cwiseInverse();
+    J.row(1) = 2.0 * x;
+    J.row(2) = -2.0 * x;
+  };
+  return p;
+}
+
+}  // namespace hauberk::testing_problems

@@ -26,13 +26,18 @@ Node flag(bool value)
   return node;
 }
 
-Node object(std::vector<std::pair<std::string, Node>> members)
+struct Member {
+  const char* key;
+  Node value;
+};
+
+Node object(const std::vector<Member>& members)
 {
   Node node;
   node.type = Node::Type::object;
   node.pointer = "/section";
   node.line = 3;
-  node.members = std::move(members);
+  for (const Member& member : members) node.members.emplace_back(member.key, member.value);
   return node;
 }
 

@@ -31,9 +31,9 @@ class Normal {
 
 }  // namespace
 
-State perturbed_rest(const Model& m, double size, std::uint64_t seed)
+State perturbed(const Model& m, const State& from, double size, std::uint64_t seed)
 {
-  State s = rest_state(m);
+  State s = from;
   if (size <= 0.0) return s;
   Normal normal(seed);
   const int count = size > 0.01 ? moves : 1;
@@ -55,7 +55,7 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
                         const KeepGoing& keep_going)
 {
   const double size = start == 0 ? settings.perturbation : settings.further_perturbation;
-  const State from = perturbed_rest(m, size, settings.seed + static_cast<std::uint64_t>(start));
+  const State from = perturbed(m, rest_state(m), size, settings.seed + static_cast<std::uint64_t>(start));
   return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact, settings.schedule,
               keep_going);
 }

@@ -24,10 +24,10 @@ struct LimitTask {
   Sense sense = Sense::positive;
 };
 
-/// Rest state moved at random: for every element a displacement and a turn, normally distributed with
+/// A state moved at random: for every element a displacement and a turn, normally distributed with
 /// standard deviation `size` (L, and radians), drawn in the element's own frame so that turning the scene
 /// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
-State perturbed_rest(const Model& model, double size, std::uint64_t seed);
+State perturbed(const Model& model, const State& from, double size, std::uint64_t seed);
 
 /// Locked state of one task from one start; start 0 is the smallest perturbation.
 Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,

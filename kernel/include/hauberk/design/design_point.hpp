@@ -1,0 +1,42 @@
+#pragma once
+/// One design: parameters, relaxed rest state, and the limits that its targets need with their gradients.
+
+#include <hauberk/design/design.hpp>
+#include <hauberk/mechanics/gaps.hpp>
+
+namespace hauberk {
+
+/// A design whose rest state is relaxed; the reference positions of the model stay those of the scene, so
+/// states of different designs can be exchanged.
+struct DesignPoint {
+  std::vector<double> x;
+  SceneSpec spec;              ///< with the parameters of x; rest poses as in the scene
+  Model model;
+  State rest;                  ///< relaxed
+  std::vector<Gap> rest_gaps;  ///< close pairs at rest, with derivatives
+  std::vector<std::optional<State>> warm;  ///< per task
+  std::vector<double> values;              ///< per target
+  Matrix value_gradients;                  ///< row per target, column per variable
+  double objective = 0.0;
+  Vector gradient;
+  bool evaluated = false;
+  std::string why;             ///< why it could not be evaluated
+};
+
+/// Turns variables into element parameters.
+SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables,
+                         std::span<const double> x);
+
+/// Response of the rest poses to the variables: least-squares motion that keeps all close gaps; columns are
+/// variables, rows unknowns.
+Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables);
+
+/// d gap / d variables at fixed poses.
+Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point, const std::vector<DesignVariable>& variables);
+
+/// Largest t in [0, 1] such that nothing collides while parameters go from `a` to `b` (same topology) and the
+/// state moves along dy: conservative advancement with |dR| + max(|dr0|, |dr1|) + |dposition| of both bodies
+/// added to the speed of the motion.
+double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy);
+
+}  // namespace hauberk

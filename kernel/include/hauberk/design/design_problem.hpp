@@ -1,0 +1,66 @@
+#pragma once
+/// The design as an optimizer sees it: objective with gradient, bounds, clearance constraints, safe steps.
+
+#include <hauberk/design/design_point.hpp>
+
+#include <map>
+
+namespace hauberk {
+
+/// min_x sum_i w_i/2 (value_i(x) - target_i)^2 under hole and rest clearances. Evaluations run directions in
+/// parallel; results do not depend on the number of threads. Not thread safe itself.
+class DesignProblem final : public OptimizationProblem {
+ public:
+  DesignProblem(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
+                const DesignSpec& design, unsigned threads, KeepGoing keep_going);
+
+  std::span<const double> lower() const override { return lower_; }
+  std::span<const double> upper() const override { return upper_; }
+  int constraint_count() const override { return static_cast<int>(holes_.size() + pairs_.size()); }
+  Evaluation evaluate(std::span<const double> x, bool want_gradient) override;
+  void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override;
+  double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
+  void accept(std::span<const double> x) override;
+
+  /// The last accepted design.
+  const DesignPoint& current() const { return *current_; }
+  /// Variables of the scene as given.
+  std::vector<double> scene_variables() const;
+  /// Moves the start along d as far as nothing collides and every constraint holds; returns the design.
+  std::vector<double> feasible_towards(std::span<const double> d);
+  long evaluations() const { return evaluations_; }
+  /// Smallest surface distance at rest of the current design, file units.
+  double rest_distance() const;
+
+ private:
+  /// One side of a hole constraint: hole of body `ring` against half-width `size_index` of body `thread`.
+  struct Hole {
+    int ring, thread, size_index;
+  };
+  /// A pair of bodies whose rest clearance is a constraint.
+  struct Pair {
+    int a, b;
+    Image image;
+  };
+
+  std::shared_ptr<DesignPoint> make_point(std::span<const double> x);
+  void solve_targets(DesignPoint& p);
+  void list_constraints();
+  double rest_target(const Model& m) const;
+
+  const SceneSpec& scene_;
+  const LoadCase& load_;
+  double clearance_;
+  const LimitSettings& limits_;
+  const DesignSpec& design_;
+  unsigned threads_;
+  KeepGoing keep_going_;
+  std::vector<double> lower_, upper_;
+  std::vector<LimitTask> tasks_;
+  std::vector<Hole> holes_;
+  std::vector<Pair> pairs_;
+  std::shared_ptr<DesignPoint> current_, last_;
+  long evaluations_ = 0;
+};
+
+}  // namespace hauberk

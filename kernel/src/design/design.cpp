@@ -1,0 +1,201 @@
+#include <hauberk/design/design.hpp>
+#include <hauberk/design/design_problem.hpp>
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <random>
+
+namespace hauberk {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point t0)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+}
+
+/// Records every iterate and passes it on.
+class Recorder final : public OptimizerObserver {
+ public:
+  Recorder(DesignProblem& problem, int start, int starts, const DesignObserver& observer)
+      : problem_(problem), start_(start), starts_(starts), observer_(observer), t0_(std::chrono::steady_clock::now())
+  {
+  }
+
+  bool on_iterate(const OptimizerIterate& it) override
+  {
+    const DesignPoint& p = problem_.current();
+    DesignIterate d;
+    d.iteration = it.iteration;
+    d.objective = it.value;
+    d.step = it.step;
+    d.optimality = it.optimality;
+    d.constraint_violation = it.constraint_violation * p.model.length;
+    d.min_gap = problem_.rest_distance();
+    d.links_kept = links_kept(p.model, p.rest);
+    d.seconds = seconds_since(t0_);
+    d.values = p.values;
+    history.push_back(d);
+    if (!observer_({start_, starts_, &history.back()})) interrupted = true;
+    return !interrupted;
+  }
+
+  std::vector<DesignIterate> history;
+  bool interrupted = false;
+
+ private:
+  DesignProblem& problem_;
+  int start_, starts_;
+  const DesignObserver& observer_;
+  std::chrono::steady_clock::time_point t0_;
+};
+
+/// Starting design of a run: the scene's parameters moved at random, relative to the width of the bounds.
+std::vector<double> random_move(const DesignSpec& design, int start)
+{
+  std::mt19937_64 rng(design.seed * 1000003U + static_cast<std::uint64_t>(start));
+  std::vector<double> d;
+  for (const DesignVariable& v : design.variables) {
+    // Sum of uniforms: the same on every standard library.
+    double sum = -6.0;
+    for (int k = 0; k < 12; ++k) sum += static_cast<double>(rng() >> 11U) * 0x1.0p-53;
+    d.push_back(design.perturbation * (v.upper - v.lower) * sum);
+  }
+  return d;
+}
+
+/// Relaxed rest of a design as a scene.
+SceneSpec scene_of(const DesignPoint& p)
+{
+  SceneSpec s = p.spec;
+  const std::vector<Pose> rest = poses(p.model, p.rest);
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    s.elements[k].rest = {rest[k].position * p.model.length, rest[k].rotation};
+  }
+  return s;
+}
+
+}  // namespace
+
+std::vector<LimitTask> target_tasks(const DesignSpec& design)
+{
+  std::vector<LimitTask> tasks;
+  for (const DesignTarget& t : design.targets) {
+    if (design.quantity != DesignQuantity::negative) tasks.push_back({t.direction_deg, Sense::positive});
+    if (design.quantity != DesignQuantity::positive) tasks.push_back({t.direction_deg, Sense::negative});
+  }
+  return tasks;
+}
+
+std::vector<std::optional<double>> target_values(const DesignSpec& design, const std::vector<LimitResult>& limits)
+{
+  std::vector<std::optional<double>> out;
+  std::size_t k = 0;
+  const auto locked = [&limits](std::size_t i) -> std::optional<double> {
+    return limits[i].status == LimitStatus::locked ? limits[i].value : std::nullopt;
+  };
+  for (std::size_t i = 0; i < design.targets.size(); ++i) {
+    if (design.quantity == DesignQuantity::eta) {
+      const auto s = locked(k), c = locked(k + 1);
+      k += 2;
+      out.push_back(s && c && 1.0 + *c > 0.0 ? std::optional((*s - *c) / (1.0 + *c)) : std::nullopt);
+    } else {
+      out.push_back(locked(k++));
+    }
+  }
+  return out;
+}
+
+Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
+                    const DesignSpec& design, const Optimizer& optimizer, unsigned threads, const DesignObserver& observer)
+{
+  const auto t0 = std::chrono::steady_clock::now();
+  SceneSpec frozen = scene;
+  frozen.length = characteristic_length(scene);
+  Designed best;
+  bool any = false, interrupted = false;
+  long evaluations = 0;
+  std::string failure;
+  std::vector<std::pair<int, double>> finals;
+  for (int start = 0; start < design.starts && !interrupted; ++start) {
+    std::atomic<bool> going{true};
+    DesignProblem problem(frozen, load, clearance, limits, design, threads, [&going] { return going.load(); });
+    if (start == 0) best.result.initial_scene = scene_of(problem.current());
+    const std::vector<double> x0 = problem.feasible_towards(random_move(design, start));
+    Recorder recorder(problem, start, design.starts, observer);
+    const OptimizerResult r = optimizer.minimize(problem, x0, recorder);
+    evaluations += problem.evaluations();
+    interrupted = recorder.interrupted;
+    if (recorder.history.empty()) {
+      failure = r.message;
+      continue;
+    }
+    finals.emplace_back(start, r.value);
+    if (any && !(r.value < best.result.objective)) continue;
+    any = true;
+    DesignResult& out = best.result;
+    // The best point may not be the last accepted one; its states are found again from there.
+    problem.accept(r.x);
+    const DesignPoint& p = problem.current();
+    best.scene = scene_of(p);
+    out.status = interrupted ? "interrupted" : r.status;
+    out.message = r.message;
+    out.objective = r.value;
+    out.start = start;
+    out.history = recorder.history;
+    out.iterations = r.iterations;
+    out.variables.clear();
+    const std::vector<double> initial = problem.scene_variables();
+    for (std::size_t v = 0; v < design.variables.size(); ++v) {
+      const DesignVariable& d = design.variables[v];
+      out.variables.push_back({d.name, initial[v], r.x[v], d.lower, d.upper});
+    }
+    out.targets.clear();
+    for (std::size_t i = 0; i < design.targets.size(); ++i) {
+      DesignTargetResult t;
+      t.direction_deg = design.targets[i].direction_deg;
+      t.target = design.targets[i].value;
+      t.weight = design.targets[i].weight;
+      if (i < p.values.size()) t.provisional = p.values[i];
+      out.targets.push_back(t);
+    }
+  }
+  if (!any) throw ComputationError("no design could be evaluated: " + failure);
+  best.result.quantity = design.quantity_name;
+  best.result.starts = finals;
+  best.result.evaluations = evaluations;
+  best.result.seconds = seconds_since(t0);
+  return best;
+}
+
+void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,
+                   const std::vector<LimitResult>& final)
+{
+  constexpr double met_within = 0.05;
+  const auto before = target_values(design, initial), after = target_values(design, final);
+  const std::size_t per = design.quantity == DesignQuantity::eta ? 2 : 1;
+  const auto objective = [&](const std::vector<std::optional<double>>& v) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (!v[i]) return std::numeric_limits<double>::quiet_NaN();
+      const double r = *v[i] - design.targets[i].value;
+      sum += 0.5 * design.targets[i].weight * r * r;
+    }
+    return sum;
+  };
+  for (std::size_t i = 0; i < result.targets.size(); ++i) {
+    DesignTargetResult& t = result.targets[i];
+    t.initial = before[i];
+    t.recomputed = after[i];
+    for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
+    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target) && !t.better_state;
+  }
+  result.objective_initial = objective(before);
+  result.objective = objective(after);
+  result.initial_limits = initial;
+}
+
+}  // namespace hauberk

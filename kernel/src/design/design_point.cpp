@@ -1,0 +1,124 @@
+#include <hauberk/design/design_point.hpp>
+#include <hauberk/geometry/separation.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+constexpr double response_weight = 1e-6;  ///< weight of staying against keeping gaps
+constexpr double least_gap = 0.05;        ///< of the smallest gap at the start: the advance stops there
+constexpr double shortest_advance = 1e-6;
+
+/// Model between a and b: bodies interpolated linearly. Kinds follow `b` unless both are tubes.
+Model between(const Model& a, const Model& b, double t)
+{
+  Model m = a;
+  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
+    Body& q = m.bodies[k];
+    const Body& o = b.bodies[k];
+    const auto mix = [t](double x, double y) { return (1.0 - t) * x + t * y; };
+    q.R = mix(q.R, o.R);
+    q.r0 = mix(q.r0, o.r0);
+    q.r1 = mix(q.r1, o.r1);
+    q.center = (1.0 - t) * q.center + t * o.center;
+    q.bound = std::max(q.bound, o.bound);
+    q.reach = std::max(q.reach, o.reach);
+    if (!o.is_tube()) q.kind = o.kind;
+  }
+  for (std::size_t i = 0; i < m.reach.size(); ++i) m.reach[i] = std::max(m.reach[i], b.reach[i]);
+  return m;
+}
+
+double shape_speed(const Body& a, const Body& b)
+{
+  return std::abs(a.R - b.R) + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
+}
+
+}  // namespace
+
+SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables, std::span<const double> x)
+{
+  SceneSpec s = scene;
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    for (const auto& [element, parameter] : variables[v].entries) {
+      s.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)] = x[v];
+    }
+  }
+  return s;
+}
+
+Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point, const std::vector<DesignVariable>& variables)
+{
+  const int ea = point.model.bodies[static_cast<std::size_t>(gap.a)].element;
+  const int eb = point.model.bodies[static_cast<std::size_t>(gap.b)].element;
+  Vector d = Vector::Zero(static_cast<int>(variables.size()));
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    for (const auto& [element, parameter] : variables[v].entries) {
+      if (element == ea) d[static_cast<int>(v)] += gap.da[parameter];
+      if (element == eb) d[static_cast<int>(v)] += gap.db[parameter];
+    }
+  }
+  return d;
+}
+
+Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables)
+{
+  const Model& m = point.model;
+  const int n = m.dofs(), nv = static_cast<int>(variables.size());
+  Matrix A = Matrix::Zero(n, n), B = Matrix::Zero(n, nv);
+  A.diagonal() = response_weight * m.metric;
+  for (const Gap& g : point.rest_gaps) {
+    Vector dy = g.dy;
+    dy.head(m.macro_count).setZero();
+    A.noalias() += dy * dy.transpose();
+    B.noalias() += dy * gap_parameter_gradient(g, point, variables).transpose();
+  }
+  Matrix response = -A.ldlt().solve(B);
+  response.topRows(m.macro_count).setZero();
+  return response;
+}
+
+double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy)
+{
+  const double motion = largest_motion(a, dy);
+  double shape = 0.0;
+  for (std::size_t k = 0; k < a.bodies.size(); ++k) shape = std::max(shape, shape_speed(a.bodies[k], b.bodies[k]));
+  const double most = 2.0 * (motion + shape);
+  if (most == 0.0) return 1.0;
+  double t = 0.0, first = -1.0;
+  while (t < 1.0) {
+    const Model m = between(a, b, t);
+    const State s = advanced(a, from, dy, t);
+    // Largest further advance for which every pair keeps a positive gap.
+    double advance = 1.0 - t, smallest = std::numeric_limits<double>::infinity();
+    for (const ElementPair& pair : near_pairs(m, s, m.clearance + most)) {
+      const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+      const Pose pi = image_pose(m, s, pair.i, {0, 0}), pj = image_pose(m, s, pair.j, pair.image);
+      const auto speed = [&](int element) {
+        const int o = m.offset(element), nc = m.coordinate_count;
+        return std::pair{dy.segment(o, nc).norm(), dy.segment<3>(o + nc).norm()};
+      };
+      const auto [vi, wi] = speed(pair.i);
+      const auto [vj, wj] = speed(pair.j);
+      for (int p = m.first_body[i]; p < m.first_body[i + 1]; ++p) {
+        for (int q = m.first_body[j]; q < m.first_body[j + 1]; ++q) {
+          const auto P = static_cast<std::size_t>(p), Q = static_cast<std::size_t>(q);
+          const double rate = vi + vj + wi * m.bodies[P].reach + wj * m.bodies[Q].reach +
+                              shape_speed(a.bodies[P], b.bodies[P]) + shape_speed(a.bodies[Q], b.bodies[Q]);
+          const double gap =
+              separation(m.bodies[P], pi, m.bodies[Q], pj, m.clearance + 2.0 * rate, 0.9).lower - m.clearance;
+          smallest = std::min(smallest, gap);
+          if (rate > 0.0) advance = std::min(advance, std::max(0.0, gap) / rate);
+        }
+      }
+    }
+    if (first < 0.0) first = smallest;
+    if (smallest <= least_gap * first || advance < shortest_advance) return t;
+    t += t + advance >= 1.0 ? 1.0 - t : 0.95 * advance;
+  }
+  return 1.0;
+}
+
+}  // namespace hauberk

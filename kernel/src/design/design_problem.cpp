@@ -1,0 +1,298 @@
+#include <hauberk/design/design_problem.hpp>
+#include <hauberk/error.hpp>
+#include <hauberk/motion/advancement.hpp>
+#include <hauberk/parallel.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Pairs up to this far apart at the first rest state (L) are held apart by constraints of their own; all
+/// others by the collision check alone.
+constexpr double constrained_range = 0.3;
+/// Gaps within this of the required clearance respond together when parameters change (L).
+constexpr double response_range = 0.03;
+constexpr double smallest_share = 1e-3;
+
+std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()}; }
+
+}  // namespace
+
+DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
+                             const DesignSpec& design, unsigned threads, KeepGoing keep_going)
+    : scene_(scene), load_(load), clearance_(clearance), limits_(limits), design_(design), threads_(threads),
+      keep_going_(std::move(keep_going)), tasks_(target_tasks(design))
+{
+  for (const DesignVariable& v : design_.variables) {
+    lower_.push_back(v.lower);
+    upper_.push_back(v.upper);
+  }
+  auto p = std::make_shared<DesignPoint>();
+  p->x = scene_variables();
+  p->spec = scene_;
+  p->model = make_model(scene_, load_, clearance_);
+  const Relaxed r = relax(p->model, rest_state(p->model), rest_target(p->model));
+  if (!r.problem.empty()) throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem);
+  p->rest = r.state;
+  p->rest_gaps = find_gaps(p->model, p->rest, rest_target(p->model) + response_range, true);
+  p->warm.resize(tasks_.size());
+  current_ = last_ = p;
+  list_constraints();
+}
+
+double DesignProblem::rest_target(const Model& m) const { return design_.rest_clearance / m.length - m.clearance; }
+
+std::vector<double> DesignProblem::scene_variables() const
+{
+  std::vector<double> x;
+  for (const DesignVariable& v : design_.variables) {
+    const auto& [element, parameter] = v.entries.front();
+    x.push_back(scene_.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)]);
+  }
+  return x;
+}
+
+void DesignProblem::list_constraints()
+{
+  const Model& m = current_->model;
+  const auto add_hole = [this](int ring, int thread) {
+    for (const int k : {4, 5}) {
+      for (const Hole& h : holes_) {
+        if (h.ring == ring && h.thread == thread && h.size_index == k) return;
+      }
+      holes_.push_back({ring, thread, k});
+    }
+  };
+  for (const Link& l : m.links) {
+    add_hole(l.a, l.b);
+    add_hole(l.b, l.a);
+  }
+  for (const Gap& g : find_gaps(m, current_->rest, constrained_range, false)) {
+    const bool known = std::any_of(pairs_.begin(), pairs_.end(),
+                                   [&g](const Pair& p) { return p.a == g.a && p.b == g.b && p.image == g.image; });
+    if (!known) pairs_.push_back({g.a, g.b, g.image});
+  }
+}
+
+std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x)
+{
+  if (std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return current_;
+  if (std::equal(x.begin(), x.end(), last_->x.begin(), last_->x.end())) return last_;
+  auto p = std::make_shared<DesignPoint>();
+  p->x = copy(x);
+  p->spec = with_variables(scene_, design_.variables, x);
+  last_ = p;
+  try {
+    p->model = make_model(p->spec, load_, clearance_);
+  } catch (const InputError& e) {
+    p->why = e.what();
+    return p;
+  }
+  p->model.links = current_->model.links;  // found at the rest state, not at the reference positions
+  // Rest: predicted along the response, then relaxed; both parts of the way are checked.
+  Vector dx(static_cast<int>(x.size()));
+  for (std::size_t k = 0; k < x.size(); ++k) dx[static_cast<int>(k)] = x[k] - current_->x[k];
+  const Vector dy = rest_response(*current_, design_.variables) * dx;
+  if (safe_parameter_step(current_->model, p->model, current_->rest, dy) < 1.0) {
+    p->why = "elements collide at rest on the way";
+    return p;
+  }
+  const State predicted = advanced(current_->model, current_->rest, dy, 1.0);
+  const Relaxed r = relax(p->model, predicted, rest_target(p->model));
+  if (r.moved && hauberk::largest_safe_step(p->model, predicted, difference(p->model, predicted, r.state), 0.02).alpha < 1.0) {
+    p->why = "relaxing the rest state would pass through an element";
+    return p;
+  }
+  p->rest = r.state;
+  p->rest_gaps = find_gaps(p->model, p->rest, rest_target(p->model) + response_range, true);
+  return p;
+}
+
+void DesignProblem::solve_targets(DesignPoint& p)
+{
+  p.warm.assign(tasks_.size(), std::nullopt);
+  std::vector<Locked> locked(tasks_.size());
+  std::vector<double> estimate(tasks_.size());
+  std::vector<Vector> gradient(tasks_.size());
+  const auto nv = static_cast<int>(design_.variables.size());
+  parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
+    const Vector load = load_vector(p.model, tasks_[k].direction_deg * degree, tasks_[k].sense);
+    std::optional<State> start;
+    if (current_->warm.size() == tasks_.size() && current_->warm[k] && &p != current_.get() &&
+        safe_parameter_step(current_->model, p.model, *current_->warm[k], Vector::Zero(p.model.dofs())) >= 1.0) {
+      start = current_->warm[k];
+    }
+    if (!start) start = perturbed(p.model, p.rest, limits_.perturbation, limits_.seed);
+    locked[k] = lock(p.model, *start, load, limits_.contact, design_.schedule, keep_going_);
+    const Locked& l = locked[k];
+    if (l.status != LockStatus::locked) return;
+    p.warm[k] = l.warm;
+    // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
+    Request request;
+    request.order = 1;
+    request.parameters = true;
+    const ContactEnergy e = contact_energy(p.model, l.state, stage_pairs(p.model, l.state, l.stage), l.stage.contact, request);
+    const double scale = std::pow(p.model.length, load_.value_length_power());
+    const double sign = tasks_[k].sense == Sense::positive ? 1.0 : -1.0;
+    estimate[k] = sign * (load.dot(l.state.macro) - l.stage.mu * e.energy) * scale;
+    gradient[k] = Vector::Zero(nv);
+    for (int v = 0; v < nv; ++v) {
+      for (const auto& [element, parameter] : design_.variables[static_cast<std::size_t>(v)].entries) {
+        gradient[k][v] -= sign * l.stage.mu * e.parameters(parameter, element) * scale;
+      }
+    }
+  });
+  for (std::size_t k = 0; k < tasks_.size(); ++k) {
+    evaluations_ += locked[k].evaluations;
+    if (locked[k].status != LockStatus::locked) {
+      p.why = fmt::format("no limit at {} degrees: {}", tasks_[k].direction_deg, locked[k].message);
+      return;
+    }
+  }
+  const auto nt = static_cast<int>(design_.targets.size());
+  p.value_gradients = Matrix::Zero(nt, nv);
+  p.values.assign(design_.targets.size(), 0.0);
+  p.objective = 0.0;
+  p.gradient = Vector::Zero(nv);
+  for (int i = 0; i < nt; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (design_.quantity == DesignQuantity::eta) {
+      // eta = (s - c)/(1 + c)
+      const double s = estimate[2 * k], c = estimate[2 * k + 1];
+      p.values[k] = (s - c) / (1.0 + c);
+      p.value_gradients.row(i) = (gradient[2 * k] / (1.0 + c) - gradient[2 * k + 1] * (1.0 + s) / ((1.0 + c) * (1.0 + c))).transpose();
+    } else {
+      p.values[k] = estimate[k];
+      p.value_gradients.row(i) = gradient[k].transpose();
+    }
+    const DesignTarget& t = design_.targets[k];
+    const double r = p.values[k] - t.value;
+    p.objective += 0.5 * t.weight * r * r;
+    p.gradient += t.weight * r * p.value_gradients.row(i).transpose();
+  }
+  p.evaluated = true;
+}
+
+OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> x, bool want_gradient)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  if (p->why.empty() && !p->evaluated) solve_targets(*p);
+  Evaluation e;
+  e.ok = p->evaluated && std::isfinite(p->objective);
+  e.why = p->why;
+  if (!e.ok) return e;
+  e.value = p->objective;
+  if (want_gradient) e.gradient.assign(p->gradient.data(), p->gradient.data() + p->gradient.size());
+  return e;
+}
+
+void DesignProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  const auto nv = static_cast<int>(design_.variables.size());
+  std::fill(jacobian.begin(), jacobian.end(), 0.0);
+  const Model& m = p->model.bodies.empty() ? current_->model : p->model;
+  const double L = m.length;
+  std::size_t row = 0;
+  for (const Hole& h : holes_) {
+    const Body& ring = m.bodies[static_cast<std::size_t>(h.ring)];
+    const Body& thread = m.bodies[static_cast<std::size_t>(h.thread)];
+    c[row] = ring.R - ring.r0 - (h.size_index == 4 ? thread.r0 : thread.r1) - design_.hole_clearance / L;
+    if (!jacobian.empty()) {
+      const auto add = [&](int body, int quantity, double factor) {
+        const int element = m.bodies[static_cast<std::size_t>(body)].element;
+        const int n = m.parameter_count[static_cast<std::size_t>(element)];
+        for (int v = 0; v < nv; ++v) {
+          for (const auto& [el, parameter] : design_.variables[static_cast<std::size_t>(v)].entries) {
+            if (el != element) continue;
+            jacobian[row * static_cast<std::size_t>(nv) + static_cast<std::size_t>(v)] +=
+                factor * m.jacobians[static_cast<std::size_t>(body)][static_cast<std::size_t>(quantity * n + parameter)] / L;
+          }
+        }
+      };
+      add(h.ring, 3, 1.0);
+      add(h.ring, 4, -1.0);
+      add(h.thread, h.size_index, -1.0);
+    }
+    ++row;
+  }
+  if (!p->why.empty() && p->rest_gaps.empty()) {  // no rest state: as infeasible as can be said
+    for (; row < c.size(); ++row) c[row] = -1.0;
+    return;
+  }
+  const double target = rest_target(m);
+  const Matrix response = jacobian.empty() ? Matrix() : rest_response(*p, design_.variables);
+  for (const Pair& pair : pairs_) {
+    c[row] = response_range;  // farther than that: not binding, no gradient
+    const Gap* closest = nullptr;
+    for (const Gap& g : p->rest_gaps) {
+      if (g.a == pair.a && g.b == pair.b && g.image == pair.image && g.gap - target < c[row]) {
+        c[row] = g.gap - target;
+        closest = &g;
+      }
+    }
+    if (closest != nullptr && !jacobian.empty()) {
+      const Vector d = gap_parameter_gradient(*closest, *p, design_.variables) + response.transpose() * closest->dy;
+      for (int v = 0; v < nv; ++v) jacobian[row * static_cast<std::size_t>(nv) + static_cast<std::size_t>(v)] = d[v];
+    }
+    ++row;
+  }
+}
+
+double DesignProblem::largest_safe_step(std::span<const double> x, std::span<const double> d)
+{
+  if (!std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return 0.0;
+  std::vector<double> end = copy(x);
+  Vector dx(static_cast<int>(d.size()));
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    dx[static_cast<int>(k)] = d[k];
+    end[k] += d[k];
+  }
+  double share = 1.0;
+  // Parameters must stay admissible for the shape; halve until they are.
+  while (share > smallest_share) {
+    std::vector<double> y(end.size());
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] = x[k] + share * d[k];
+    try {
+      const Model m = make_model(with_variables(scene_, design_.variables, y), load_, clearance_);
+      const Vector dy = rest_response(*current_, design_.variables) * (share * dx);
+      return share * safe_parameter_step(current_->model, m, current_->rest, dy);
+    } catch (const InputError&) {
+      share *= 0.5;
+    }
+  }
+  return 0.0;
+}
+
+void DesignProblem::accept(std::span<const double> x) { current_ = make_point(x); }
+
+std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
+{
+  const std::vector<double> x0 = current_->x;
+  double share = 1.0;
+  for (int k = 0; k < 12; ++k, share *= 0.6) {
+    std::vector<double> x(x0.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x0[i] + share * d[i], lower_[i], upper_[i]);
+    std::vector<double> c(static_cast<std::size_t>(constraint_count()));
+    const auto p = make_point(x);
+    if (!p->why.empty()) continue;
+    constraints(x, c, {});
+    if (std::all_of(c.begin(), c.end(), [](double v) { return v >= -1e-6; })) {
+      current_ = p;
+      return x;
+    }
+  }
+  return x0;
+}
+
+double DesignProblem::rest_distance() const
+{
+  const Model& m = current_->model;
+  return (smallest_gap(m, current_->rest, constrained_range) + m.clearance) * m.length;
+}
+
+}  // namespace hauberk

@@ -43,12 +43,12 @@ Plan make_plan(const Model& model, const std::vector<LimitTask>& tasks, const Li
 /// is. Gaps within touching distance (1e-9 L) of the clearance are fine: relaxation opens them.
 std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& model, bool relax_allowed);
 
-/// Rest state as used: relaxed where gaps touch (or, with `relax_allowed`, overlap). Throws InputError when
+/// Rest state as used: relaxed where gaps touch or overlap (call after `rest_problems` found nothing). Throws InputError when
 /// there is no room. Returns the scene with new rest poses, and how far elements moved (file units).
 struct PreparedScene {
   SceneSpec scene;
   double moved = 0.0;
 };
-PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double clearance, bool relax_allowed);
+PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double clearance);
 
 }  // namespace hauberk

@@ -1,0 +1,120 @@
+#include <hauberk/geometry/separation.hpp>
+#include <hauberk/plan/plan.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace hauberk {
+namespace {
+
+constexpr std::size_t most_tight_pairs = 10;
+
+std::string kind_name(PrimitiveKind k) { return k == PrimitiveKind::circle_tube ? "circle_tube" : "revolved_ellipse"; }
+
+std::string reduction(const Body& a, const Body& b)
+{
+  if (a.is_tube() && b.is_tube()) return "distance of two circles minus radii: one angle searched, the other in closed form";
+  if (a.is_tube() || b.is_tube()) return "distance of a circle to a revolved ellipse: one angle searched, point-ellipse in the meridian plane";
+  return "two angles searched on one surface, point-ellipse in the meridian plane of the other";
+}
+
+/// True if all primitives of the element share one axis of revolution, so that spinning about it is inert.
+bool spins(const Model& m, std::size_t element)
+{
+  const Body& first = m.bodies[static_cast<std::size_t>(m.first_body[element])];
+  for (int k = m.first_body[element]; k < m.first_body[element + 1]; ++k) {
+    const Body& b = m.bodies[static_cast<std::size_t>(k)];
+    const Vec3 axis = first.axes.col(2);
+    if (b.axes.col(2).cross(axis).norm() > 1e-12 || (b.center - first.center).cross(axis).norm() > 1e-12) return false;
+  }
+  return true;
+}
+
+void decide(Plan& p, const Model& m, const LimitSettings& settings)
+{
+  if (p.inert > 0) {
+    p.decisions.push_back(fmt::format("{} elements are surfaces of revolution about one axis: their spin is inert and "
+                                      "carries only the regularisation of null directions", p.inert));
+  }
+  if (m.coordinate_count == 2) p.decisions.push_back("z is fixed: one unknown less per element");
+  const bool smooth_only = std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
+  if (smooth_only) p.decisions.push_back("every cross-section is a circle: no surface is searched in two angles");
+  switch (settings.contact) {
+    case ContactChoice::automatic:
+      p.decisions.push_back(fmt::format("contact: arc down to an activation distance of {:g} L, nearest below; arc "
+                                        "again from where nearest stalls", settings.schedule.change));
+      break;
+    case ContactChoice::nearest: p.decisions.push_back("contact: nearest in every stage"); break;
+    case ContactChoice::arc: p.decisions.push_back("contact: arc in every stage"); break;
+  }
+  p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
+                                    settings.schedule.first, settings.schedule.last, settings.schedule.ratio));
+}
+
+}  // namespace
+
+Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitSettings& settings)
+{
+  Plan p;
+  p.length = m.length;
+  p.elements = m.element_count();
+  p.primitives = static_cast<int>(m.bodies.size());
+  p.unknowns = m.dofs();
+  p.linear_solver = "dense Cholesky";
+  for (std::size_t i = 0; i < m.rest.size(); ++i) p.inert += spins(m, i) ? 1 : 0;
+  p.links_per_element.assign(m.rest.size(), 0);
+  for (const Link& l : m.links) {
+    ++p.links_per_element[static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(l.a)].element)];
+    ++p.links_per_element[static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(l.b)].element)];
+  }
+
+  const State rest = rest_state(m);
+  std::map<std::string, PairPlan> kinds;
+  for (const ElementPair& pair : near_pairs(m, rest, m.clearance + settings.schedule.first)) {
+    ++p.image_pairs;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (std::abs(pair.image[k]) > std::abs(p.farthest_image[k])) p.farthest_image[k] = pair.image[k];
+    }
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body& A = m.bodies[static_cast<std::size_t>(a)];
+        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        std::string x = kind_name(A.kind), y = kind_name(B.kind);
+        if (y < x) std::swap(x, y);
+        PairPlan& k = kinds[x + " / " + y];
+        k.kinds = x + " / " + y;
+        k.distance = reduction(A, B);
+        ++k.pairs;
+        const double far = 1.0;
+        const Separation s = separation(A, pi, B, pj, far, 0.999);
+        if (s.lower >= far) continue;
+        TightPair t;
+        t.elements = {pair.i, pair.j};
+        t.primitives = {A.index, B.index};
+        t.image = pair.image;
+        t.distance = std::min(s.upper, 1e300) * m.length;
+        t.linked = linking_number(A, pi, B, pj) != 0;
+        p.tightest.push_back(t);
+      }
+    }
+  }
+  for (auto& [name, k] : kinds) p.pairs.push_back(k);
+  std::stable_sort(p.tightest.begin(), p.tightest.end(),
+                   [](const TightPair& a, const TightPair& b) { return a.distance < b.distance; });
+  if (p.tightest.size() > most_tight_pairs) p.tightest.resize(most_tight_pairs);
+  decide(p, m, settings);
+  for (const LimitTask& t : tasks) {
+    const auto decided = decided_by_links(m, t);
+    p.bounded.emplace_back(t, !decided                                          ? "attained"
+                              : decided->status == LimitStatus::unbounded ? "unbounded"
+                                                                                : "not attained");
+  }
+  return p;
+}
+
+}  // namespace hauberk

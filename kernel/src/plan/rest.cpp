@@ -1,0 +1,83 @@
+#include <hauberk/error.hpp>
+#include <hauberk/mechanics/gaps.hpp>
+#include <hauberk/plan/plan.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+/// Gaps within this of the clearance count as touching (L).
+constexpr double touching = 1e-9;
+/// Room that relaxation opens for touching elements, L.
+constexpr double opened = 1e-3;
+/// Less room that is tried where that much does not exist, in steps of ten down to this, L.
+constexpr double least_opened = 1e-7;
+
+std::string where(const Model& m, const Gap& g)
+{
+  const Body& a = m.bodies[static_cast<std::size_t>(g.a)];
+  const Body& b = m.bodies[static_cast<std::size_t>(g.b)];
+  std::string text = fmt::format("element {} (primitive {}) and element {} (primitive {})", a.element, a.index, b.element, b.index);
+  if (g.image != Image{0, 0}) text += fmt::format(" of image [{}, {}]", g.image[0], g.image[1]);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool relax_allowed)
+{
+  std::vector<std::string> out;
+  if (m.links.empty()) {
+    out.emplace_back("nothing is linked: no ring passes through another, so no direction has a limit; check positions, "
+                     "rotations and the cell's vectors");
+    return out;
+  }
+  if (relax_allowed) return out;
+  // The deepest gap of every pair of bodies.
+  std::vector<Gap> worst;
+  for (const Gap& g : find_gaps(m, rest_state(m), 0.0, false)) {
+    const auto same = std::find_if(worst.begin(), worst.end(), [&g](const Gap& o) { return o.a == g.a && o.b == g.b && o.image == g.image; });
+    if (same == worst.end()) {
+      worst.push_back(g);
+    } else if (g.gap < same->gap) {
+      *same = g;
+    }
+  }
+  for (const Gap& g : worst) {
+    if (g.gap >= -touching) continue;
+    const double distance = (g.gap + m.clearance) * m.length;
+    if (distance < -touching * m.length) {
+      out.push_back(fmt::format("{} overlap at rest by {:.6g}; move them apart, make them thinner, or set cell.relax to true",
+                                where(m, g), -distance));
+    } else {
+      out.push_back(fmt::format("{} are {:.6g} apart at rest, less than solver.clearance {:.6g}; move them apart, lower "
+                                "the clearance, or set cell.relax to true", where(m, g), std::max(distance, 0.0), m.clearance * m.length));
+    }
+  }
+  return out;
+}
+
+PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double clearance)
+{
+  PreparedScene out;
+  out.scene = spec;
+  const Model m = make_model(spec, load, clearance);
+  const State rest = rest_state(m);
+  const double gap = smallest_gap(m, rest, opened);
+  if (gap > touching) return out;
+  Relaxed r;
+  for (double room = opened; room >= least_opened; room *= 0.1) {
+    r = relax(m, rest, room);
+    if (r.problem.empty()) break;
+  }
+  if (!r.problem.empty()) throw InputError("the rest state has no room nearby: " + r.problem);
+  const std::vector<Pose> p = poses(m, r.state);
+  for (std::size_t k = 0; k < p.size(); ++k) out.scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};
+  out.moved = r.largest_motion * m.length;
+  return out;
+}
+
+}  // namespace hauberk

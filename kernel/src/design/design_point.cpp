@@ -108,7 +108,7 @@ double safe_parameter_step(const Model& a, const Model& b, const State& from, co
           const double rate = vi + vj + wi * m.bodies[P].reach + wj * m.bodies[Q].reach +
                               shape_speed(a.bodies[P], b.bodies[P]) + shape_speed(a.bodies[Q], b.bodies[Q]);
           const double gap =
-              separation(m.bodies[P], pi, m.bodies[Q], pj, m.clearance + 2.0 * rate, 0.9).lower - m.clearance;
+              separation(m.bodies[P], pi, m.bodies[Q], pj, m.clearance, 2.0 * rate, 0.9).lower;
           smallest = std::min(smallest, gap);
           if (rate > 0.0) advance = std::min(advance, std::max(0.0, gap) / rate);
         }

@@ -11,9 +11,10 @@ constexpr double smallest_panel = 1e-10;  ///< radians; below it rounding of the
 constexpr double pi = std::numbers::pi;
 
 template <int dim>
-Separation bound_over_panels(const PairFrame& frame, double enough, double tightness)
+Separation bound_over_panels(const PairFrame& frame, double clearance, double enough, double tightness)
 {
   const Probe<dim> probe(frame);
+  const double shift = probe.offset + clearance;
   Separation s;
   s.lower = s.upper = std::numeric_limits<double>::infinity();
   std::vector<Panel> stack;
@@ -30,12 +31,12 @@ Separation bound_over_panels(const PairFrame& frame, double enough, double tight
     stack.pop_back();
     const PanelBound b = panel_bound(probe, panel);
     ++s.evaluations;
-    s.upper = std::min(s.upper, b.value - probe.offset);
+    s.upper = std::min(s.upper, b.value - shift);
     if (s.upper <= 0.0) {
       s.lower = s.upper;
       return s;
     }
-    const double lower = b.bound - probe.offset;
+    const double lower = b.bound - shift;
     if (lower >= std::min(enough, tightness * s.upper) || panel.hu < smallest_panel) {
       s.lower = std::min(s.lower, lower);
       continue;
@@ -50,18 +51,18 @@ Separation bound_over_panels(const PairFrame& frame, double enough, double tight
 
 }  // namespace
 
-Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double enough,
-                      double tightness)
+Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance,
+                      double enough, double tightness)
 {
   // Spheres about the centres first: most pairs end here.
   const Vec3 ca = pose_a.position + pose_a.rotation * A.center;
   const Vec3 cb = pose_b.position + pose_b.rotation * B.center;
-  const double coarse = (ca - cb).norm() - A.bound - B.bound;
+  const double coarse = (ca - cb).norm() - A.bound - B.bound - clearance;
   if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
 
-  if (A.is_tube()) return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), enough, tightness);
-  if (B.is_tube()) return bound_over_panels<1>(PairFrame(B, pose_b, A, pose_a), enough, tightness);
-  return bound_over_panels<2>(PairFrame(A, pose_a, B, pose_b), enough, tightness);
+  if (A.is_tube()) return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
+  if (B.is_tube()) return bound_over_panels<1>(PairFrame(B, pose_b, A, pose_a), clearance, enough, tightness);
+  return bound_over_panels<2>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
 }
 
 int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)

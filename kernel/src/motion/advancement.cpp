@@ -202,9 +202,9 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         const double motion = approach + ti.w.norm() * A.reach + tj.w.norm() * B.reach;
-        const Separation now = separation(A, pi, B, pj, m.clearance + 2.0 * motion);
+        const Separation now = separation(A, pi, B, pj, m.clearance, 2.0 * motion);
         out.evaluations += now.evaluations;
-        const double gap = now.lower - m.clearance;
+        const double gap = now.lower;
         if (gap - out.alpha * motion >= keep * gap && gap > 0.0) continue;
         if (gap <= 0.0) {
           out.alpha = 0.0;

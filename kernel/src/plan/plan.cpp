@@ -91,7 +91,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
         k.distance = reduction(A, B);
         ++k.pairs;
         const double far = 1.0;
-        const Separation s = separation(A, pi, B, pj, far, 0.999);
+        const Separation s = separation(A, pi, B, pj, 0.0, far, 0.999);
         if (s.lower >= far) continue;
         TightPair t;
         t.elements = {pair.i, pair.j};

@@ -5,40 +5,41 @@
 namespace hauberk {
 namespace {
 
-Field positive(const char* name, const char* default_json, const char* doc, double maximum)
+Field field(std::string name, Field::Kind kind, std::string default_json, std::string doc)
 {
-  Field field;
-  field.name = name;
-  field.kind = Field::Kind::number;
-  field.doc = doc;
-  field.unit = "1";
-  field.default_json = default_json;
-  field.minimum = 0.0;
-  field.exclusive_minimum = true;
-  field.maximum = maximum;
-  return field;
+  Field result;
+  result.name = std::move(name);
+  result.kind = kind;
+  result.default_json = std::move(default_json);
+  result.doc = std::move(doc);
+  result.minimum = 0.0;
+  return result;
+}
+
+/// A number in (0, 1].
+Field fraction(std::string name, std::string default_json, std::string doc)
+{
+  Field result = field(std::move(name), Field::Kind::number, std::move(default_json), std::move(doc));
+  result.exclusive_minimum = true;
+  result.maximum = 1.0;
+  return result;
 }
 
 }  // namespace
 
 void sqp_fields(std::vector<Field>& out)
 {
-  Field iterations;
-  iterations.name = "max_iterations";
-  iterations.kind = Field::Kind::integer;
-  iterations.doc = "Accepted steps after which to stop; 0 only evaluates the start.";
-  iterations.default_json = "100";
-  iterations.minimum = 0.0;
+  Field iterations = field("max_iterations", Field::Kind::integer, "100",
+                           "Accepted steps after which to stop; 0 only evaluates the start.");
   iterations.maximum = 1e6;
   out.push_back(std::move(iterations));
-  out.push_back(positive("tolerance", "1e-6",
-                         "Decrease and optimality below which to stop, relative to the objective.", 1.0));
+  out.push_back(fraction("tolerance", "1e-6",
+                         "Decrease and optimality below which to stop, relative to the objective."));
+  out.push_back(fraction("constraint_tolerance", "1e-8", "Violation of a constraint that counts as none."));
+  out.push_back(fraction("initial_step", "0.05", "Longest first step, as part of a variable's range."));
+  out.push_back(fraction("max_step", "0.5", "Longest step, as part of a variable's range."));
   out.push_back(
-      positive("constraint_tolerance", "1e-8", "Violation of a constraint that counts as none.", 1.0));
-  out.push_back(positive("initial_step", "0.05", "Longest first step, as part of a variable's range.", 1.0));
-  out.push_back(positive("max_step", "0.5", "Longest step, as part of a variable's range.", 1.0));
-  out.push_back(
-      positive("min_step", "1e-7", "Shortest step worth an evaluation, as part of a variable's range.", 1.0));
+      fraction("min_step", "1e-7", "Shortest step worth an evaluation, as part of a variable's range."));
 }
 
 std::unique_ptr<Optimizer> make_sqp(const Node& section, Problems& problems)

@@ -152,31 +152,30 @@ class Reader {
   std::vector<Torus> tori_;
 };
 
-Field named(const char* name, Field::Kind kind, const char* doc)
+Field named(std::string name, Field::Kind kind, std::string doc, std::string unit = {})
 {
   Field field;
-  field.name = name;
+  field.name = std::move(name);
   field.kind = kind;
-  field.doc = doc;
+  field.doc = std::move(doc);
+  field.unit = std::move(unit);
   return field;
 }
 
-Field three_numbers(const char* doc, const char* unit)
+Field three_numbers(std::string doc, std::string unit)
 {
-  Field field = named("", Field::Kind::numbers, doc);
-  field.unit = unit;
+  Field field = named("", Field::Kind::numbers, std::move(doc), std::move(unit));
   field.min_items = field.max_items = 3;
   return field;
 }
 
 Field position_field()
 {
-  Field angle = named("direction_deg", Field::Kind::number, "Angle from the element's x, counter-clockwise.");
-  angle.unit = "degree";
+  Field angle =
+      named("direction_deg", Field::Kind::number, "Angle from the element's x, counter-clockwise.", "degree");
   angle.required = true;
 
-  Field number = named("", Field::Kind::number, "A length.");
-  number.unit = "length";
+  const Field number = named("", Field::Kind::number, "A length.", "length");
   Field term = named("", Field::Kind::any_of, "A length, or the name of a parameter of this element.");
   term.children = {number, named("", Field::Kind::string, "Name of a parameter, for instance centre.R.")};
   Field distance = named("distance", Field::Kind::list, "Terms whose sum is the distance from the origin.");

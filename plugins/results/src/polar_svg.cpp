@@ -29,7 +29,7 @@ std::vector<ProfilePoint> profile_of(const std::vector<LimitResult>& limits)
     auto it = std::find_if(out.begin(), out.end(), same);
     if (it == out.end()) it = out.insert(out.end(), ProfilePoint{limit.direction_deg, {}, {}, {}});
     auto& slot = limit.sense == "stretch" || limit.sense == "up" ? it->e_s : it->e_c;
-    if (!slot) slot = limit.value;
+    if (!slot && limit.status == LimitStatus::locked) slot = limit.value;
   }
   for (ProfilePoint& p : out)
     if (p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);

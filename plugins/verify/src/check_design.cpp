@@ -16,11 +16,12 @@ namespace json = boost::json;
 /// A target counts as met within this share of it.
 constexpr double met_share = 0.05;
 
+/// What a profile may rest on: only a locked state is a limit.
 std::optional<double> value_of(const std::vector<Limit>& limits, double direction_deg,
                                const std::string& sense)
 {
   const Limit* limit = find_limit(limits, direction_deg, sense);
-  return limit ? limit->value : std::nullopt;
+  return limit && limit->status == "locked" ? limit->value : std::nullopt;
 }
 
 /// The designed quantity in a direction.

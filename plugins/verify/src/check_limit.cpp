@@ -59,7 +59,7 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
   if (limit.contact == "arc") {
     double gap = 0.0;
     for (const Contact& contact : limit.contacts) gap = std::max(gap, contact.gap);
-    allowed += tolerances.arc_gaps * std::sqrt(gap / scene.length);
+    allowed += tolerances.arc_balance * gap / scene.length;
   }
   if (limit.status == "locked" && !(found <= allowed))
     problems.push_back(fmt::format("forces miss the load by {:.3g}, {:.3g} allowed", found, allowed));

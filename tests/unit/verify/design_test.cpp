@@ -71,6 +71,15 @@ TEST(Design, WhatDoesNotFollowIsCaught)
   EXPECT_TRUE(has(tampered("/design/initial/limits/0/value", 0.4), "FAIL /design/initial/limits/0"));
 }
 
+TEST(Profiles, OnlyLockedLimitsCount)
+{
+  json::value document = chain_document();
+  document.at_pointer("/limits/0/status") = "stalled";
+  EXPECT_NE(report(document).find("e_s: 0.4333333333 reported, null from the limits"), std::string::npos);
+  document.at_pointer("/profiles/0/e_s") = nullptr;
+  EXPECT_TRUE(verify(document).ok) << report(document);
+}
+
 TEST(Profiles, EtaFollowsFromBothSenses)
 {
   json::value document = chain_document();

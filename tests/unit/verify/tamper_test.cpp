@@ -72,6 +72,15 @@ TEST(Tamper, ForceChangedByOnePercent)
     }
 }
 
+TEST(Tamper, ForceOfASpreadContactIsComparedWithTheReportedBalance)
+{
+  json::value document = chain_document(Chain{.gap = 1e-3});
+  document.at_pointer("/limits/0/contact") = "arc";
+  EXPECT_TRUE(verify(document).ok) << verify(document).text();
+  add(document, "/limits/0/contacts/0/force", 0.01 / test::rest_period);
+  expect_caught(document, "force_balance 0 reported, 0.005 found");
+}
+
 TEST(Tamper, LinkUndone)
 {
   // B moved out of A, past its right side: nothing intersects, but two links are lost.

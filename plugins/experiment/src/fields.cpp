@@ -50,7 +50,7 @@ Field patch_field()
                           at_least(integer("hexagon", "Rings of cells around the middle one."), 0),
                           integers("rectangle", "Cells along both vectors.", 2, 1)});
   return object(
-      "patch", "A finite patch instead of vectors and repeat.",
+      "patch", "A finite patch instead of vectors and repeat. Not supported yet by this version.",
       {required(vectors_field("vectors", "The two vectors that the patch is laid out with.")),
        required(std::move(outline)),
        with_default(integers("tile", "Period, in cells, with which element parameters repeat.", 2, 1),

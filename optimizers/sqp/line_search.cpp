@@ -12,6 +12,9 @@ using Eigen::VectorXd;
 
 /// Part of the predicted decrease that a step must bring (Armijo).
 constexpr double sufficient = 1e-4;
+/// Parts of the full step above (below) which the shift of a Gauss-Newton Hessian falls (rises).
+constexpr double long_step = 0.9;
+constexpr double short_step = 0.3;
 /// Trial points of one search; each costs an evaluation.
 constexpr int max_trials = 12;
 /// A shorter step is this much shorter, at least and at most; and after an evaluation that failed.
@@ -43,7 +46,7 @@ void Minimizer::raise_penalty(const Step& step)
   // It may come down again, slowly: a penalty that stays too large follows the constraints in tiny steps.
   penalty_ = std::max(target, 0.5 * (penalty_ + target));
   const double removed = total_violation(at_.c) - step.model_violation;
-  const double increase = at_.gradient.dot(step.d) + 0.5 * step.d.dot(hessian_.matrix() * step.d);
+  const double increase = at_.gradient.dot(step.d) + 0.5 * step.d.dot(curvature() * step.d);
   if (removed > 0.0) penalty_ = std::max(penalty_, increase / (usable * removed));
 }
 
@@ -69,6 +72,7 @@ bool Minimizer::line_search(const Step& step)
     const double rise = merit(found.value, c) - before;
     if (rise <= sufficient * alpha * slope) {
       slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
+      damping_ = std::clamp(damping_ * (alpha > long_step ? 0.4 : alpha < short_step ? 4.0 : 1.0), 1e-6, 1e6);
       move_to(x, found, d, step);
       return true;
     }
@@ -87,7 +91,7 @@ bool Minimizer::correct(const Step& step, VectorXd& d, VectorXd& c)
   curved.c = c - at_.J * d;
   const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
   const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
-  const Step corrected = propose_step(hessian_.matrix(), curved, lower, upper, penalty_);
+  const Step corrected = propose_step(curvature(), curved, lower, upper, penalty_);
   if (!corrected.ok || corrected.elastic) return false;
   if ((corrected.d - d).norm() > correction_length * d.norm()) return false;
   if (problem_.largest_safe_step(x_, corrected.d) < 1.0) return false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hauberk {
@@ -14,6 +15,9 @@ constexpr int slow_limit = 3;
 /// A restart paid off when the objective or the violation fell by these parts since.
 constexpr double worthwhile_value = 1e-2;
 constexpr double worthwhile_violation = 0.5;
+/// Shift of a Gauss-Newton Hessian: raised by this when no step was found, so many times in a row at most.
+constexpr double raise = 30.0;
+constexpr int most_raises = 3;
 /// Violation that the relaxed model must be able to remove, or the iterate is a minimum of the violation.
 constexpr double removable = 1e-6;
 
@@ -74,14 +78,29 @@ bool Minimizer::begin(std::string& why)
   }
   remember();
   reset_hessian(settings_.initial_step);
+  refresh_squares();
   return true;
+}
+
+void Minimizer::refresh_squares()
+{
+  if (!settings_.gauss_newton || !problem_.gauss_newton(x_, squares_)) squares_.resize(0, 0);
+}
+
+Eigen::MatrixXd Minimizer::curvature() const
+{
+  if (squares_.size() == 0) return hessian_.matrix();
+  const double largest = std::max(squares_.diagonal().maxCoeff(), std::numeric_limits<double>::min());
+  Eigen::MatrixXd B = squares_;
+  B.diagonal().array() += damping_ * largest;
+  return B;
 }
 
 Step Minimizer::propose() const
 {
   const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
   const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
-  return propose_step(hessian_.matrix(), at_, lower, upper, penalty_);
+  return propose_step(curvature(), at_, lower, upper, penalty_);
 }
 
 double Minimizer::optimality(const Step& step) const
@@ -111,7 +130,7 @@ bool Minimizer::converged(const Step& step) const
   // A gradient g promises g^2/(2 H); with H of the objective's size in scaled variables, the square root
   // makes both conditions ask for the same.
   const double scale = objective_scale();
-  const double decrease = -at_.gradient.dot(step.d) - 0.5 * step.d.dot(hessian_.matrix() * step.d);
+  const double decrease = -at_.gradient.dot(step.d) - 0.5 * step.d.dot(curvature() * step.d);
   const bool no_step = step.d.size() == 0 || step.d.cwiseAbs().maxCoeff() < settings_.min_step;
   return (decrease <= settings_.tolerance * scale || no_step) &&
          optimality(step) <= std::sqrt(settings_.tolerance) * scale;
@@ -146,6 +165,13 @@ void Minimizer::reset_hessian(double radius)
 
 bool Minimizer::restart()
 {
+  if (squares_.size() > 0) {
+    if (raised_ >= most_raises) return false;
+    ++raised_;
+    slow_steps_ = 0;
+    damping_ *= raise;
+    return true;
+  }
   if (hessian_.fresh()) return false;  // the same step again
   if (restarted_) {
     const bool better = value_ < restart_value_ - worthwhile_value * std::abs(restart_value_);
@@ -172,6 +198,8 @@ void Minimizer::move_to(const VectorXd& x, const Trial& trial, const VectorXd& s
   at_ = std::move(next);
   x_ = x;
   value_ = trial.value;
+  raised_ = 0;
+  refresh_squares();
   step_length_ = s.size() == 0 ? 0.0 : s.cwiseAbs().maxCoeff();
   reported_ = false;
   remember();

@@ -20,6 +20,7 @@ struct SqpSettings {
   double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
   double initial_step = 0.05;          ///< longest first step, part of a variable's range
   double max_step = 0.5;               ///< longest step, part of a variable's range
+  bool gauss_newton = true;            ///< use the problem's Gauss-Newton Hessian where it has one
   double min_step = 1e-7;              ///< shortest step worth an evaluation, part of a variable's range
 };
 
@@ -41,6 +42,9 @@ class Minimizer {
   };
 
   bool begin(std::string& why);
+  /// Curvature of the quadratic model.
+  Eigen::MatrixXd curvature() const;
+  void refresh_squares();
   Step propose() const;
   double optimality(const Step& step) const;
   bool converged(const Step& step) const;
@@ -67,6 +71,9 @@ class Minimizer {
   double first_value_ = 0.0;
   Linearisation at_;
   DampedBfgs hessian_;
+  Eigen::MatrixXd squares_;  ///< Gauss-Newton Hessian at the iterate; empty: BFGS is used
+  double damping_ = 1e-2;    ///< Levenberg-Marquardt shift of it, relative to its largest diagonal entry
+  int raised_ = 0;           ///< times the shift was raised without an accepted step
   double penalty_ = 0.0;  ///< of the l1 merit function
   Best best_;
 

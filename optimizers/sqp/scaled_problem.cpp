@@ -69,6 +69,14 @@ void ScaledProblem::linearise(const VectorXd& x, Linearisation& at)
   at.J = J * scale_.asDiagonal();
 }
 
+bool ScaledProblem::gauss_newton(const VectorXd& x, Eigen::MatrixXd& hessian)
+{
+  hessian.resize(x.size(), x.size());
+  if (!problem_.gauss_newton(view(x), {hessian.data(), static_cast<std::size_t>(hessian.size())})) return false;
+  hessian = (scale_.asDiagonal() * hessian * scale_.asDiagonal()).eval();
+  return hessian.allFinite();
+}
+
 double ScaledProblem::largest_safe_step(const VectorXd& x, const VectorXd& d)
 {
   const VectorXd unscaled = scale_.cwiseProduct(d);

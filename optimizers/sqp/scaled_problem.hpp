@@ -39,6 +39,8 @@ class ScaledProblem {
   Eigen::VectorXd constraints(const Eigen::VectorXd& x);
   /// Fills c and J.
   void linearise(const Eigen::VectorXd& x, Linearisation& at);
+  /// Gauss-Newton Hessian at an evaluated point, when the problem has one.
+  bool gauss_newton(const Eigen::VectorXd& x, Eigen::MatrixXd& hessian);
   /// In [0, 1].
   double largest_safe_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d);
   void accept(const Eigen::VectorXd& x);

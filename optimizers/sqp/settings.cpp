@@ -33,6 +33,11 @@ void sqp_fields(std::vector<Field>& out)
                            "Accepted steps after which to stop; 0 only evaluates the start.");
   iterations.maximum = 1e6;
   out.push_back(std::move(iterations));
+  Field hessian =
+      field("hessian", Field::Kind::choice, "\"gauss_newton\"",
+            "Curvature of the model: Gauss-Newton where the problem is a sum of squares, or damped BFGS always.");
+  hessian.choices = {"gauss_newton", "bfgs"};
+  out.push_back(std::move(hessian));
   out.push_back(fraction("tolerance", "1e-6",
                          "Decrease and optimality below which to stop, relative to the objective."));
   out.push_back(fraction("constraint_tolerance", "1e-8", "Violation of a constraint that counts as none."));
@@ -46,6 +51,7 @@ std::unique_ptr<Optimizer> make_sqp(const Node& section, Problems& problems)
 {
   SqpSettings settings;
   settings.max_iterations = static_cast<int>(section.at("max_iterations").number);
+  settings.gauss_newton = section.at("hessian").string == "gauss_newton";
   settings.tolerance = section.at("tolerance").number;
   settings.constraint_tolerance = section.at("constraint_tolerance").number;
   settings.initial_step = section.at("initial_step").number;

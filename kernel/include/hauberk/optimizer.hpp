@@ -28,6 +28,16 @@ class OptimizationProblem {
   /// Objective, and its gradient when wanted.
   virtual Evaluation evaluate(std::span<const double> x, bool want_gradient) = 0;
 
+  /// Gauss-Newton Hessian J^T J (row-major, size of x squared) where the objective is half a sum of squares;
+  /// false where it is not, or x was not evaluated. Optimizers may use it instead of an approximation of
+  /// their own.
+  virtual bool gauss_newton(std::span<const double> x, std::span<double> hessian)
+  {
+    static_cast<void>(x);
+    static_cast<void>(hessian);
+    return false;
+  }
+
   /// Inequality constraints c (size constraint_count) and their Jacobian, row-major count x size of x;
   /// an empty span means not wanted.
   virtual void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) = 0;

@@ -17,6 +17,11 @@ constexpr double constrained_range = 0.3;
 /// Gaps within this of the required clearance respond together when parameters change (L).
 constexpr double response_range = 0.03;
 constexpr double smallest_share = 1e-3;
+/// Starting designs: moves towards the random goal, each on newly linearised constraints.
+constexpr int most_start_moves = 8;
+constexpr int projection_sweeps = 200;
+constexpr int most_halvings = 6;
+constexpr double start_violation = 1e-4;  ///< L; the optimizer mends it
 
 std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()}; }
 
@@ -190,6 +195,17 @@ OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> 
   return e;
 }
 
+bool DesignProblem::gauss_newton(std::span<const double> x, std::span<double> hessian)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  if (!p->evaluated) return false;
+  Vector weights(static_cast<int>(design_.targets.size()));
+  for (std::size_t i = 0; i < design_.targets.size(); ++i) weights[static_cast<int>(i)] = design_.targets[i].weight;
+  const Matrix H = p->value_gradients.transpose() * weights.asDiagonal() * p->value_gradients;
+  std::copy(H.data(), H.data() + H.size(), hessian.begin());  // symmetric: either order
+  return true;
+}
+
 void DesignProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
 {
   const std::shared_ptr<DesignPoint> p = make_point(x);
@@ -272,21 +288,43 @@ void DesignProblem::accept(std::span<const double> x) { current_ = make_point(x)
 
 std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
 {
-  const std::vector<double> x0 = current_->x;
-  double share = 1.0;
-  for (int k = 0; k < 12; ++k, share *= 0.6) {
-    std::vector<double> x(x0.size());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x0[i] + share * d[i], lower_[i], upper_[i]);
-    std::vector<double> c(static_cast<std::size_t>(constraint_count()));
-    const auto p = make_point(x);
-    if (!p->why.empty()) continue;
-    constraints(x, c, {});
-    if (std::all_of(c.begin(), c.end(), [](double v) { return v >= -1e-6; })) {
-      current_ = p;
-      return x;
+  std::vector<double> goal(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) goal[i] = std::clamp(current_->x[i] + d[i], lower_[i], upper_[i]);
+  std::vector<double> c(static_cast<std::size_t>(constraint_count()));
+  std::vector<double> jacobian(c.size() * d.size());
+  for (int move = 0; move < most_start_moves; ++move) {
+    // The nearest point to the goal that satisfies the linearised constraints, by cyclic projections.
+    constraints(current_->x, c, jacobian);
+    const std::vector<double> x0 = current_->x;
+    std::vector<double> x = goal;
+    for (int sweep = 0; sweep < projection_sweeps; ++sweep) {
+      for (std::size_t r = 0; r < c.size(); ++r) {
+        const double* row = jacobian.data() + r * x.size();
+        double value = c[r], norm = 0.0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          value += row[i] * (x[i] - x0[i]);
+          norm += row[i] * row[i];
+        }
+        if (value >= 0.0 || norm == 0.0) continue;
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] -= value / norm * row[i];
+      }
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], lower_[i], upper_[i]);
     }
+    bool moved = false;
+    double share = 1.0;
+    for (int k = 0; k < most_halvings && !moved; ++k, share *= 0.5) {
+      std::vector<double> y(x.size());
+      for (std::size_t i = 0; i < x.size(); ++i) y[i] = x0[i] + share * (x[i] - x0[i]);
+      const auto p = make_point(y);
+      if (!p->why.empty()) continue;
+      constraints(y, c, {});
+      if (*std::min_element(c.begin(), c.end()) < -start_violation) continue;
+      current_ = p;
+      moved = true;
+    }
+    if (!moved || share > 0.6) break;  // blocked, or all the way
   }
-  return x0;
+  return current_->x;
 }
 
 double DesignProblem::rest_distance() const

@@ -18,6 +18,7 @@ class DesignProblem final : public OptimizationProblem {
   std::span<const double> upper() const override { return upper_; }
   int constraint_count() const override { return static_cast<int>(holes_.size() + pairs_.size()); }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override;
+  bool gauss_newton(std::span<const double> x, std::span<double> hessian) override;
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override;
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
   void accept(std::span<const double> x) override;

@@ -122,7 +122,9 @@ void write_indented(std::string& out, const json::value& v, std::size_t indent, 
     out += '{';
     for (const auto& [key, item] : v.get_object()) {
       const std::string label = json::serialize(key) + ": ";
-      out += std::exchange(separator, ",\n") + margin + label;
+      out += std::exchange(separator, ",\n");
+      out += margin;
+      out += label;
       write_indented(out, item, indent + 2, indent + 2 + label.size());
     }
     out += '\n' + std::string(indent, ' ') + '}';

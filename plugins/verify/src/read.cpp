@@ -121,10 +121,10 @@ const json::array& array(const json::value& v, const std::string& where)
   return v.get_array();
 }
 
-Scene read_scene(const json::value& v, const std::string& where)
+Scene read_scene(const json::value& scene, const std::string& where)
 {
   Scene out;
-  for (const json::value& vector : array(member(v, "cell_vectors", where), where + "/cell_vectors")) {
+  for (const json::value& vector : array(member(scene, "cell_vectors", where), where + "/cell_vectors")) {
     const json::array& a = array(vector, where + "/cell_vectors");
     if (a.size() < 2) throw Malformed(where + "/cell_vectors: two numbers expected");
     out.cell.emplace_back(number(a[0], where + "/cell_vectors"), number(a[1], where + "/cell_vectors"), 0.0);
@@ -132,7 +132,7 @@ Scene read_scene(const json::value& v, const std::string& where)
   if (out.cell.size() != 2 || std::abs(out.cell[0].cross(out.cell[1]).z()) == 0.0)
     throw Malformed(where + "/cell_vectors: two independent vectors expected");
   std::size_t k = 0;
-  for (const json::value& e : array(member(v, "elements", where), where + "/elements")) {
+  for (const json::value& e : array(member(scene, "elements", where), where + "/elements")) {
     const std::string at = where + "/elements/" + std::to_string(k++);
     Element element;
     element.rest = read_place(member(e, "rest", at), at + "/rest");
@@ -144,35 +144,35 @@ Scene read_scene(const json::value& v, const std::string& where)
     }
     out.elements.push_back(std::move(element));
   }
-  out.length = number(member(v, "length", where), where + "/length");
+  out.length = number(member(scene, "length", where), where + "/length");
   return out;
 }
 
-Limit read_limit(const json::value& v, const std::string& where)
+Limit read_limit(const json::value& limit, const std::string& where)
 {
   Limit out;
-  out.direction_deg = number(member(v, "direction_deg", where), where + "/direction_deg");
-  out.sense = text(member(v, "sense", where), where + "/sense");
-  out.measure = text(member(v, "measure", where), where + "/measure");
-  out.status = text(member(v, "status", where), where + "/status");
-  out.contact = text(member(v, "contact", where), where + "/contact");
-  out.value = optional_number(v, "value", where);
-  out.line_stretch = optional_number(v, "line_stretch", where);
-  out.min_gap = optional_number(v, "min_gap", where);
-  out.force_balance = optional_number(v, "force_balance", where);
-  const json::value& kept = member(v, "links_kept", where);
+  out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");
+  out.sense = text(member(limit, "sense", where), where + "/sense");
+  out.measure = text(member(limit, "measure", where), where + "/measure");
+  out.status = text(member(limit, "status", where), where + "/status");
+  out.contact = text(member(limit, "contact", where), where + "/contact");
+  out.value = optional_number(limit, "value", where);
+  out.line_stretch = optional_number(limit, "line_stretch", where);
+  out.min_gap = optional_number(limit, "min_gap", where);
+  out.force_balance = optional_number(limit, "force_balance", where);
+  const json::value& kept = member(limit, "links_kept", where);
   if (!kept.is_bool()) throw Malformed(where + "/links_kept: true or false expected");
   out.links_kept = kept.get_bool();
-  if (const json::value& macro = member(v, "macro", where); !macro.is_null())
+  if (const json::value& macro = member(limit, "macro", where); !macro.is_null())
     out.macro = read_strain(macro, where + "/macro");
-  for (const json::value& s : array(member(v, "starts", where), where + "/starts")) {
+  for (const json::value& s : array(member(limit, "starts", where), where + "/starts")) {
     const std::string at = where + "/starts/" + std::to_string(out.starts.size());
     out.starts.push_back(
         {number(member(s, "value", at), at + "/value"), read_strain(member(s, "macro", at), at + "/macro")});
   }
-  for (const json::value& p : array(member(v, "poses", where), where + "/poses"))
+  for (const json::value& p : array(member(limit, "poses", where), where + "/poses"))
     out.poses.push_back(read_place(p, where + "/poses/" + std::to_string(out.poses.size())));
-  for (const json::value& c : array(member(v, "contacts", where), where + "/contacts"))
+  for (const json::value& c : array(member(limit, "contacts", where), where + "/contacts"))
     out.contacts.push_back(read_contact(c, where + "/contacts/" + std::to_string(out.contacts.size())));
   return out;
 }

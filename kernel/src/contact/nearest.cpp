@@ -91,9 +91,7 @@ class Search {
     const Local l = local_at(probe_, s.u, s.v);
     ++evaluations_;
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
-    if (l.f.m.phi - d > threshold_) return;
-    const PanelBound b = panel_bound(probe_, s);
-    if (b.bound > threshold_) return;
+    if (taylor_bound(probe_, s, l.f.m.phi, l.f.rho, l.gu, l.gv) > threshold_) return;
     // Largest curvature of the field on the panel.
     const double rho = l.f.rho - d, r = rf_ + l.f.m.phi - d;
     if (rho > 0.0 && r > 0.0) {

@@ -99,6 +99,21 @@ struct PanelBound {
 };
 
 template <int dim>
+double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double rho, double gu, double gv)
+{
+  const double d = probe.Lu * s.hu + probe.Lv * s.hv;
+  const double rho_min = rho - d;
+  if (!(rho_min > 0.0 && phi > d)) return phi - d;
+  double slope = std::abs(gu) * s.hu;
+  double second = probe.Lu * s.hu * s.hu;
+  if constexpr (dim == 2) {
+    slope += std::abs(gv) * s.hv;
+    second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
+  }
+  return phi - std::min(d, slope + 0.5 * (d * d / rho_min + second));
+}
+
+template <int dim>
 PanelBound panel_bound(const Probe<dim>& probe, const Panel& s)
 {
   const ProbePoint q = probe.at(s.u, s.v);
@@ -106,19 +121,8 @@ PanelBound panel_bound(const Probe<dim>& probe, const Panel& s)
   PanelBound r{};
   r.value = f.m.phi;
   r.gu = f.n.dot(q.pu);
-  const double d = probe.Lu * s.hu + probe.Lv * s.hv;
-  r.bound = r.value - d;
-  double slope = std::abs(r.gu) * s.hu;
-  double second = probe.Lu * s.hu * s.hu;
-  if constexpr (dim == 2) {
-    r.gv = f.n.dot(q.pv);
-    slope += std::abs(r.gv) * s.hv;
-    second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
-  }
-  const double rho_min = f.rho - d;
-  if (rho_min > 0.0 && r.value > d) {
-    r.bound = std::max(r.bound, r.value - slope - 0.5 * (d * d / rho_min + second));
-  }
+  if constexpr (dim == 2) r.gv = f.n.dot(q.pv);
+  r.bound = taylor_bound(probe, s, r.value, f.rho, r.gu, r.gv);
   return r;
 }
 

@@ -2,26 +2,26 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/fields.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/host/factories.hpp>
-
-#include <algorithm>
 
 namespace hauberk {
 
 namespace {
 
-/// Plugins are promised a checked section: true when nothing is missing in it and nothing that the plugin
-/// declared is wrong. (A wrong value has been removed, and would look absent.)
-bool is_intact(const Node& section, const PluginTable& table, const Problems& problems)
+/// Plugins are promised a checked section. What was wrong has been removed from it and was replaced by a
+/// default where there is one; true when nothing that the plugin requires is missing now.
+bool is_intact(const Node& section, const PluginTable& table)
 {
-  const std::vector<Field> fields = plugin_fields(table);
-  return std::none_of(problems.list().begin(), problems.list().end(), [&](const Problem& problem) {
-    if (problem.pointer == section.pointer) return true;
-    return std::any_of(fields.begin(), fields.end(), [&](const Field& field) {
-      return pointer_within(problem.pointer, section.pointer + "/" + pointer_token(field.name));
-    });
-  });
+  Field own;
+  own.kind = Field::Kind::object;
+  own.children = plugin_fields(table);
+  const ExtraFieldsOf common_keys = [&](const Field&, const Node& object, Problems&) {
+    return ExtraFields{{}, object.pointer == section.pointer};
+  };
+  Node copy = section;
+  Problems missing;
+  check_fields(copy, own, missing, common_keys);
+  return missing.empty();
 }
 
 /// Calls a factory; what it throws is reported at the section.
@@ -31,7 +31,7 @@ auto make_guarded(const Node& section, const PluginTable* table, Problems& probl
 {
   if (table == nullptr) return nullptr;
   try {
-    if (is_intact(section, *table, problems)) return factory();
+    if (is_intact(section, *table)) return factory();
   } catch (const InputError& error) {
     problems.add(section, error.what());
   } catch (const PluginError& error) {

@@ -49,6 +49,18 @@ TEST(Meaning, Elements)
             "and '.', found '3/x'");
 }
 
+TEST(Meaning, AMistakeInAShapeHidesNoOther)
+{
+  const std::string text = with(valid_text(), "\"name\": \"ring\"", "\"name\": \"ring\", \"colour\": 1");
+  EXPECT_EQ(problems_of(with(text, "\"ring.r\": 0.7", "\"ring.r\": -0.7")),
+            "t.json:4: /elements/link/rings/0/colour: unknown key 'colour'; the nearest known key is 'name'\n"
+            "t.json:5: /elements/link/parameters/ring.r: expected a number in [0, 1000000], found -0.7");
+  // Without its rings nothing can be said about the shape's parameters.
+  const std::string broken = with(valid_text(), "\"name\": \"ring\"", "\"name\": 3");
+  EXPECT_EQ(problems_of(with(broken, "\"ring.r\": 0.7", "\"ring.r\": -0.7")),
+            "t.json:4: /elements/link/rings/0/name: expected a string, found 3");
+}
+
 TEST(Meaning, Placement)
 {
   EXPECT_EQ(after("\"position\": [0, 0, 0]", "\"position\": [0, 0, 0], \"parameters\": { \"ring.x\": 1 }"),

@@ -1,0 +1,21 @@
+#include "dispatch.hpp"
+#include "loading.hpp"
+
+#include <fmt/format.h>
+
+namespace hauberk::command {
+
+int check_command(const std::vector<std::string>& words)
+{
+  Options options("check EXPERIMENT.json [options]", "Says everything that is wrong with an experiment.",
+                  "EXPERIMENT.json");
+  options.add_experiment_options();
+  options.parse(words);
+  const Loaded loaded = load(options);
+  fmt::print("{}: no problems; {} elements, {} limits{}\n", options.positional(), loaded.plan.elements,
+             loaded.tasks.size(),
+             loaded.design ? fmt::format(", {} design variables", loaded.design->variables.size()) : "");
+  return exit_done;
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,232 @@
+#include "design_run.hpp"
+#include "interrupt.hpp"
+#include "limits_run.hpp"
+#include "tapped_optimizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hauberk::command {
+namespace {
+
+/// Iterates that violate constraints by more than this (L) are not offered as the best so far.
+constexpr double acceptable_violation = 1e-6;
+
+DesignSpec resumed_spec(DesignSpec design)
+{
+  design.starts = 1;
+  design.perturbation = 0.0;
+  return design;
+}
+
+double initial_value(const Loaded& loaded, const DesignVariable& v)
+{
+  const auto& [element, parameter] = v.entries.front();
+  return loaded.scene.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)];
+}
+
+class DesignRun {
+ public:
+  DesignRun(const Loaded& loaded, unsigned threads, const std::optional<ResumedDesign>& resumed, Progress& progress,
+            Output& output, RunResult& run)
+      : loaded_(loaded), experiment_(loaded.experiment), threads_(threads), resumed_(resumed), progress_(progress),
+        output_(output), run_(run), spec_(resumed ? resumed_spec(*loaded.design) : *loaded.design)
+  {
+  }
+
+  void go()
+  {
+    start_partial();
+    DesignResult& design = *run_.design;
+    design.initial_limits = limits("limits before", loaded_.design_scene, target_tasks(spec_),
+                                   [&](const std::vector<LimitResult>& so_far) {
+                                     design.initial_limits = so_far;
+                                     output_.write_sometimes(run_);
+                                   });
+    enter_initial();
+    output_.write(run_);
+    if (interrupted()) return;
+    search();
+    if (interrupted()) return;
+    finish();
+  }
+
+ private:
+  std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene, std::vector<LimitTask> tasks,
+                                  const LimitsObserver& observer)
+  {
+    const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
+    LimitsJob job{&model, &scene, std::move(tasks), loaded_.settings, experiment_.load_case_plugin, threads_, label, {}};
+    std::vector<LimitResult> out = run_limits(job, progress_, observer);
+    progress_.clear();
+    return out;
+  }
+
+  /// A design result that is whole at any time, as partial results hold it.
+  void start_partial()
+  {
+    run_.scene = loaded_.design_scene;
+    DesignResult& d = run_.design.emplace();
+    d.quantity = spec_.quantity_name;
+    d.status = "interrupted";
+    d.message = "partial results: the run was not finished";
+    d.objective = d.objective_initial = std::numeric_limits<double>::quiet_NaN();
+    d.initial_scene = loaded_.design_scene;
+    for (const DesignVariable& v : spec_.variables) {
+      const double x = initial_value(loaded_, v);
+      d.variables.push_back({v.name, x, x, v.lower, v.upper});
+    }
+    for (const DesignTarget& t : spec_.targets) {
+      DesignTargetResult r;
+      r.direction_deg = t.direction_deg;
+      r.target = t.value;
+      r.weight = t.weight;
+      d.targets.push_back(r);
+    }
+    if (resumed_) {
+      run_.scene = resumed_->scene;
+      d.history = resumed_->history;
+      for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].final = resumed_->variables[v];
+    }
+  }
+
+  void enter_initial()
+  {
+    DesignResult& d = *run_.design;
+    const auto values = target_values(spec_, d.initial_limits);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      d.targets[i].initial = values[i];
+      const double r = values[i].value_or(std::numeric_limits<double>::quiet_NaN()) - spec_.targets[i].value;
+      sum += 0.5 * spec_.targets[i].weight * r * r;
+    }
+    d.objective_initial = sum;
+  }
+
+  /// Called with every iterate and its design, before `observe`.
+  void see(const OptimizerIterate& iterate, const DesignPoint& point)
+  {
+    variables_.assign(iterate.x.begin(), iterate.x.end());
+    improves_ = iterate.value < best_ && iterate.constraint_violation <= acceptable_violation;
+    if (!improves_) return;
+    best_ = iterate.value;
+    run_.scene = with_rest(point.spec, point.model, point.rest);
+    DesignResult& d = *run_.design;
+    for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].final = variables_[v];
+    for (std::size_t i = 0; i < d.targets.size() && i < point.values.size(); ++i)
+      d.targets[i].provisional = point.values[i];
+  }
+
+  bool observe(const DesignProgress& p)
+  {
+    progress_.design(p, spec_);
+    if (p.start != start_) history_ = resumed_ ? resumed_->history : std::vector<DesignIterate>{};
+    start_ = p.start;
+    history_.push_back(renumbered(*p.iterate));
+    DesignResult& d = *run_.design;
+    if (improves_) {
+      d.history = history_;
+      d.start = p.start;
+      d.iterations = p.iterate->iteration;
+    }
+    output_.write_sometimes(run_);
+    targets_met_ = experiment_.design->tolerance && all_met(*p.iterate);
+    return !interrupted() && !targets_met_;
+  }
+
+  DesignIterate renumbered(DesignIterate it) const
+  {
+    if (resumed_ && !resumed_->history.empty()) it.iteration += resumed_->history.back().iteration + 1;
+    return it;
+  }
+
+  bool all_met(const DesignIterate& it) const
+  {
+    for (std::size_t k = 0; k < it.values.size(); ++k) {
+      const double target = spec_.targets[k].value;
+      if (std::abs(it.values[k] - target) > *experiment_.design->tolerance * std::abs(target)) return false;
+    }
+    return !it.values.empty();
+  }
+
+  void search()
+  {
+    const TappedOptimizer optimizer(*experiment_.design->optimizer, experiment_.design->max_iterations,
+                                    [this](const OptimizerIterate& i, const DesignPoint& p) { see(i, p); });
+    Designed designed = run_design(resumed_ ? resumed_->scene : loaded_.scene, *experiment_.load_case,
+                                   experiment_.solver.clearance, loaded_.settings, spec_, optimizer, threads_,
+                                   [this](const DesignProgress& p) { return observe(p); });
+    progress_.clear();
+    const DesignResult partial = *run_.design;
+    DesignResult& d = run_.design.emplace(std::move(designed.result));
+    run_.scene = std::move(designed.scene);
+    d.initial_scene = loaded_.design_scene;
+    d.initial_limits = partial.initial_limits;
+    d.objective_initial = partial.objective_initial;
+    for (std::size_t i = 0; i < d.targets.size(); ++i) d.targets[i].initial = partial.targets[i].initial;
+    for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].initial = partial.variables[v].initial;
+    if (resumed_) {
+      std::vector<DesignIterate> history = resumed_->history;
+      for (const DesignIterate& it : d.history) history.push_back(renumbered(it));
+      d.history = std::move(history);
+    }
+    if (interrupted()) {
+      d.status = "interrupted";
+      d.message = partial.message;
+    } else if (targets_met_) {
+      d.status = "targets_met";
+      d.message = "every target is met to within design.tolerance";
+    }
+    if (resumed_) d.message += "; resumed from the best design of an interrupted run";
+    d.objective = std::numeric_limits<double>::quiet_NaN();  // until limits are recomputed
+    output_.write(run_);
+  }
+
+  /// Limits of the design from its rest state, with all stages and starts.
+  void finish()
+  {
+    DesignResult& d = *run_.design;
+    const std::string status = d.status, message = d.message;
+    d.status = "interrupted";
+    d.message = "the search was done (" + status + "), its limits were not yet recomputed";
+    // Opens gaps that touch, as for any other scene: with rest_clearance = clearance the search closes them.
+    run_.scene = prepare_rest(run_.scene, *experiment_.load_case, experiment_.solver.clearance).scene;
+    run_.limits = limits("limits after", run_.scene, loaded_.tasks, [&](const std::vector<LimitResult>& so_far) {
+      run_.limits = so_far;
+      output_.write_sometimes(run_);
+    });
+    const auto names = experiment_.load_case->sense_names();
+    run_.profiles = profiles(run_.limits, names.first, names.second);
+    if (interrupted()) return;
+    d.status = status;
+    d.message = message;
+    finish_design(d, spec_, d.initial_limits, run_.limits);
+  }
+
+  const Loaded& loaded_;
+  const Experiment& experiment_;
+  unsigned threads_;
+  const std::optional<ResumedDesign>& resumed_;
+  Progress& progress_;
+  Output& output_;
+  RunResult& run_;
+  DesignSpec spec_;
+
+  std::vector<double> variables_;
+  std::vector<DesignIterate> history_;
+  int start_ = -1;
+  double best_ = std::numeric_limits<double>::infinity();
+  bool improves_ = false;
+  bool targets_met_ = false;
+};
+
+}  // namespace
+
+void run_design_task(const Loaded& loaded, unsigned threads, const std::optional<ResumedDesign>& start,
+                     Progress& progress, Output& output, RunResult& run)
+{
+  DesignRun(loaded, threads, start, progress, output, run).go();
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,167 @@
+#include "loading.hpp"
+#include "presets.hpp"
+#include "tasks.hpp"
+
+#include <hauberk/design/design_problem.hpp>
+#include <hauberk/experiment/jsonc.hpp>
+#include <hauberk/host/search_path.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace hauberk::command {
+namespace {
+
+std::string kind_word(PluginKind kind)
+{
+  switch (kind) {
+    case PluginKind::shape: return "shape";
+    case PluginKind::load_case: return "load_case";
+    case PluginKind::optimizer: return "optimizer";
+  }
+  return "plugin";
+}
+
+/// Looks plugins up and notes those that are used.
+PluginLookup recording_lookup(const Registry& registry, std::vector<Provenance::Plugin>& used)
+{
+  return [&registry, &used](PluginKind kind, const std::string& id, std::string& error) -> const PluginTable* {
+    try {
+      const PluginTable& table = registry.find(kind, id);
+      const bool known = std::any_of(used.begin(), used.end(), [&id](const auto& p) { return p.id == id; });
+      if (!known) used.push_back({id, kind_word(kind), table.version});
+      return &table;
+    } catch (const InputError& problem) {
+      error = problem.what();
+      return nullptr;
+    }
+  };
+}
+
+/// The node at `pointer`, or the closest one above it.
+const Node& nearest_node(const Node& root, std::string_view pointer)
+{
+  const Node* node = &root;
+  while (!pointer.empty()) {
+    pointer.remove_prefix(1);
+    const std::size_t end = std::min(pointer.find('/'), pointer.size());
+    const std::string key = pointer_key(pointer.substr(0, end));
+    pointer.remove_prefix(end);
+    const Node* next = node->find(key);
+    if (node->is(Node::Type::array)) {
+      const std::size_t index = std::stoul(key);
+      next = index < node->items.size() ? &node->items[index] : nullptr;
+    }
+    if (next == nullptr) break;
+    node = next;
+  }
+  return *node;
+}
+
+/// Runs `step`; what it says about bad input becomes a problem at `pointer`.
+template <class Step>
+bool attempt(Diagnostics& diagnostics, const Experiment& experiment, const char* pointer, Step&& step)
+{
+  try {
+    step();
+    return true;
+  } catch (const InputError& error) {
+    diagnostics.problems.add(nearest_node(experiment.resolved, pointer), error.what());
+    return false;
+  }
+}
+
+/// Rest state as used; problems of the cell otherwise.
+bool prepare_scene(Loaded& loaded, Diagnostics& diagnostics)
+{
+  const Experiment& e = loaded.experiment;
+  return attempt(diagnostics, e, "/cell", [&] {
+    const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
+    const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
+    for (const std::string& problem : wrong)
+      diagnostics.problems.add(nearest_node(e.resolved, "/cell"), problem);
+    if (!wrong.empty()) return;
+    PreparedScene prepared = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
+    loaded.scene = std::move(prepared.scene);
+    loaded.moved = prepared.moved;
+  }) && diagnostics.empty();
+}
+
+/// A target in a direction that links leave free can never be met.
+void check_targets(const Loaded& loaded, Diagnostics& diagnostics)
+{
+  const std::size_t per = loaded.design->quantity == DesignQuantity::eta ? 2 : 1;
+  const auto names = loaded.experiment.load_case->sense_names();
+  for (std::size_t k = 0; k < per * loaded.design->targets.size(); ++k) {
+    const auto& [task, bounded] = loaded.plan.bounded[k];
+    if (bounded == "attained") continue;
+    const std::string pointer = fmt::format("/design/targets/{}", k / per);
+    diagnostics.problems.add(nearest_node(loaded.experiment.resolved, pointer),
+                             fmt::format("{} at {:g} degrees is {}: links set no limit that a design could change",
+                                         task.sense == Sense::positive ? names.first : names.second,
+                                         task.direction_deg, bounded));
+  }
+}
+
+void prepare_design(Loaded& loaded, Diagnostics& diagnostics)
+{
+  const Experiment& e = loaded.experiment;
+  check_targets(loaded, diagnostics);
+  attempt(diagnostics, e, "/design", [&] {
+    const DesignProblem problem(loaded.scene, *e.load_case, e.solver.clearance, loaded.settings, *loaded.design, 1,
+                                [] { return true; });
+    loaded.design_scene = with_rest(problem.current().spec, problem.current().model, problem.current().rest);
+  });
+}
+
+}  // namespace
+
+SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest)
+{
+  SceneSpec scene = spec;
+  const std::vector<Pose> at = poses(model, rest);
+  for (std::size_t k = 0; k < at.size(); ++k)
+    scene.elements[k].rest = {at[k].position * model.length, at[k].rotation};
+  return scene;
+}
+
+std::shared_ptr<const Registry> open_registry(const Options& options)
+{
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& folder : options.list("plugin-path")) folders.emplace_back(folder);
+  return std::make_shared<Registry>(plugin_search_path(folders));
+}
+
+Loaded load(const Options& options)
+{
+  Loaded loaded;
+  loaded.registry = open_registry(options);
+  Diagnostics diagnostics;
+  const std::string& file = options.positional();
+  std::optional<Experiment> experiment = read_experiment({file, read_text_file(file), options.list("set")},
+                                                         recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+  const auto stop_on_problems = [&diagnostics] {
+    if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
+  };
+  stop_on_problems();
+  loaded.experiment = std::move(experiment.value());
+  const Experiment& e = loaded.experiment;
+  if (const std::string problem = preset_problem(e.solver.preset); !problem.empty())
+    diagnostics.problems.add(nearest_node(e.resolved, "/solver/preset"), problem);
+  if (!prepare_scene(loaded, diagnostics)) stop_on_problems();
+
+  loaded.settings = limit_settings(e.solver);
+  loaded.tasks = profile_tasks(e);
+  if (e.task == Task::design) {
+    loaded.design = design_spec(e);
+    loaded.tasks = design_tasks(*loaded.design, loaded.tasks);
+  }
+  loaded.plan = make_plan(make_model(loaded.scene, *e.load_case, e.solver.clearance), loaded.tasks, loaded.settings);
+  if (loaded.design) prepare_design(loaded, diagnostics);
+  stop_on_problems();
+  return loaded;
+}
+
+}  // namespace hauberk::command

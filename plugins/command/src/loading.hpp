@@ -1,0 +1,43 @@
+#pragma once
+/// From a file to everything that a computation needs, with every problem of the file reported at once.
+
+#include "options.hpp"
+
+#include <hauberk/design/design.hpp>
+#include <hauberk/experiment/experiment.hpp>
+#include <hauberk/host/registry.hpp>
+#include <hauberk/plan/plan.hpp>
+#include <hauberk/results/document.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk::command {
+
+/// An experiment that passed every check.
+struct Loaded {
+  std::shared_ptr<const Registry> registry;
+  std::vector<Provenance::Plugin> plugins;  ///< used, in the order of first use
+  Experiment experiment;
+  SceneSpec scene;     ///< rest as used: relaxed where elements touched
+  double moved = 0.0;  ///< farthest that relaxation moved an element, file units
+  LimitSettings settings;
+  std::vector<LimitTask> tasks;      ///< those of the results; of a design: targets first
+  std::optional<DesignSpec> design;  ///< task design only
+  SceneSpec design_scene;            ///< rest with the design's clearance; task design only
+  Plan plan;
+};
+
+/// Reads and checks the experiment that `options` name, up to a rest state that can be loaded. Throws
+/// ReportedProblems with a line per problem, InputError when the file cannot be read.
+Loaded load(const Options& options);
+
+/// The registry for --plugin-path, HAUBERK_PLUGIN_PATH and this program's place.
+std::shared_ptr<const Registry> open_registry(const Options& options);
+
+/// Relaxed rest state of a scene by the model's state in it.
+SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest);
+
+}  // namespace hauberk::command

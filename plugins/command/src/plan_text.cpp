@@ -1,0 +1,103 @@
+#include "plan_text.hpp"
+
+#include <boost/json/array.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+
+namespace hauberk::command {
+namespace {
+
+namespace json = boost::json;
+
+std::string sense_name(const Loaded& loaded, Sense sense)
+{
+  const auto names = loaded.experiment.load_case->sense_names();
+  return sense == Sense::positive ? names.first : names.second;
+}
+
+/// "4 each", or "0: 4, 1: 2, ...".
+std::string links_text(const std::vector<int>& links)
+{
+  bool equal = true;
+  for (const int n : links) equal = equal && n == links.front();
+  if (equal && !links.empty()) return fmt::format("{} each", links.front());
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < links.size(); ++k) parts.push_back(fmt::format("{}: {}", k, links[k]));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Directions by sense and by what the links say about them.
+std::string bounded_text(const Loaded& loaded)
+{
+  std::map<std::pair<std::string, std::string>, std::vector<double>> groups;
+  for (const auto& [task, what] : loaded.plan.bounded)
+    groups[{sense_name(loaded, task.sense), what}].push_back(task.direction_deg);
+  std::string text;
+  for (const auto& [key, directions] : groups)
+    text += fmt::format("  {} {}: {} degrees\n", key.first, key.second, fmt::join(directions, ", "));
+  return text;
+}
+
+}  // namespace
+
+json::object plan_json(const Loaded& loaded)
+{
+  const Plan& p = loaded.plan;
+  json::object out;
+  out["length"] = p.length;
+  out["elements"] = p.elements;
+  out["primitives"] = p.primitives;
+  out["unknowns"] = p.unknowns;
+  out["inert"] = p.inert;
+  out["linear_solver"] = p.linear_solver;
+  json::array& pairs = out["pairs"].emplace_array();
+  for (const PairPlan& k : p.pairs) pairs.push_back({{"kinds", k.kinds}, {"distance", k.distance}, {"pairs", k.pairs}});
+  out["image_pairs"] = p.image_pairs;
+  out["farthest_image"] = {p.farthest_image[0], p.farthest_image[1]};
+  out["links_per_element"] = json::array(p.links_per_element.begin(), p.links_per_element.end());
+  json::array& tightest = out["tightest"].emplace_array();
+  for (const TightPair& t : p.tightest)
+    tightest.push_back({{"elements", {t.elements[0], t.elements[1]}},
+                        {"primitives", {t.primitives[0], t.primitives[1]}},
+                        {"image", {t.image[0], t.image[1]}},
+                        {"distance", t.distance},
+                        {"linked", t.linked}});
+  json::array& decisions = out["decisions"].emplace_array();
+  for (const std::string& d : p.decisions) decisions.push_back(json::string(d));
+  json::array& bounded = out["bounded"].emplace_array();
+  for (const auto& [task, what] : p.bounded)
+    bounded.push_back(
+        {{"direction_deg", task.direction_deg}, {"sense", sense_name(loaded, task.sense)}, {"bounded", what}});
+  out["rest_moved"] = loaded.moved;
+  return out;
+}
+
+std::string plan_text(const Loaded& loaded)
+{
+  const Plan& p = loaded.plan;
+  const std::string& unit = loaded.experiment.length_unit;
+  std::string text = fmt::format("{}\n\nModel\n", loaded.experiment.name);
+  text += fmt::format("  {} elements of {} primitives in the cell; characteristic length L = {:.6g} {}\n", p.elements,
+                      p.primitives, p.length, unit);
+  text += fmt::format("  {} unknowns; {} of them inert; linear solver: {}\n", p.unknowns, p.inert, p.linear_solver);
+  text += fmt::format("  {} pairs of elements within reach at rest; farthest image [{}, {}]\n", p.image_pairs,
+                      p.farthest_image[0], p.farthest_image[1]);
+  for (const PairPlan& k : p.pairs) text += fmt::format("  {} pairs {}: {}\n", k.pairs, k.kinds, k.distance);
+  for (const std::string& d : p.decisions) text += fmt::format("  {}\n", d);
+  text += "\nLimits, as far as links decide\n" + bounded_text(loaded);
+
+  text += "\nRest state\n";
+  text += loaded.moved > 0.0 ? fmt::format("  relaxed: elements moved by up to {:.3g} {}\n", loaded.moved, unit)
+                             : "  as given: nothing touches\n";
+  text += fmt::format("  links per element: {}\n", links_text(p.links_per_element));
+  if (!p.tightest.empty()) text += "  tightest pairs (element.primitive):\n";
+  for (const TightPair& t : p.tightest)
+    text += fmt::format("    {}.{} - {}.{} of image [{}, {}]: {:.6g} {}{}\n", t.elements[0], t.primitives[0],
+                        t.elements[1], t.primitives[1], t.image[0], t.image[1], t.distance, unit,
+                        t.linked ? ", linked" : "");
+  return text;
+}
+
+}  // namespace hauberk::command

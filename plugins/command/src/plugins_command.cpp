@@ -1,0 +1,89 @@
+#include "dispatch.hpp"
+#include "loading.hpp"
+
+#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/experiment/schema.hpp>
+#include <hauberk/host/factories.hpp>
+
+#include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
+
+namespace hauberk::command {
+namespace {
+
+std::string kind_text(PluginKind kind)
+{
+  const std::string text = with_article(kind);
+  return text.substr(text.find(' ') + 1);
+}
+
+/// Where a section of this kind stands in an experiment.
+std::string section_place(PluginKind kind)
+{
+  switch (kind) {
+    case PluginKind::shape: return "/elements/NAME";
+    case PluginKind::load_case: return "/load_case";
+    case PluginKind::optimizer: return "/design/optimizer";
+  }
+  return "";
+}
+
+/// Broken plugins are said so and make the exit code 1.
+int list(const Registry& registry)
+{
+  bool broken = false;
+  for (const PluginEntry& entry : registry.list()) {
+    if (entry.table != nullptr) {
+      fmt::print("{:<20} {:<10} {:<8} {}\n", entry.id, kind_text(entry.table->kind), entry.table->version,
+                 entry.table->summary);
+    } else if (entry.shadowed_by) {
+      fmt::print("{:<20} not used: {} is found before {}\n", entry.id, entry.shadowed_by->string(), entry.file.string());
+    } else {
+      fmt::print("{:<20} cannot be used: {}\n", entry.id, entry.problem);
+      broken = true;
+    }
+  }
+  return broken ? exit_failed : exit_done;
+}
+
+int describe(const Registry& registry, const std::string& id)
+{
+  std::vector<std::string> known, searched;
+  for (const PluginEntry& entry : registry.list()) {
+    if (entry.table == nullptr) {
+      if (entry.id == id && !entry.problem.empty()) throw InputError(entry.problem);
+      continue;
+    }
+    known.push_back(entry.id);
+    if (entry.id != id) continue;
+    const PluginTable& table = *entry.table;
+    fmt::print("{} {}: {}\n{}\n\n", id, table.version, kind_text(table.kind), table.summary);
+    fmt::print("source: {}\nfile:   {}\n\n", table.citation, entry.file.string());
+    fmt::print("{}", fields_reference(plugin_fields(table), section_place(table.kind)));
+    return exit_done;
+  }
+  for (const auto& folder : registry.directories()) searched.push_back(folder.string());
+  throw InputError(fmt::format("no plugin '{}'{} (searched: {})", id, nearest_hint("plugin", id, known),
+                               fmt::join(searched, ", ")));
+}
+
+}  // namespace
+
+int plugins_command(const std::vector<std::string>& words)
+{
+  namespace po = boost::program_options;
+  Options options("plugins [list | describe ID] [--plugin-path DIR]",
+                  "Lists the plugins that are found, or explains one with all its fields.", "");
+  options.add().add_options()("plugin-path", po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
+                              "folder that is searched for plugins first; may be repeated");
+  options.parse(words);
+  const std::vector<std::string> what = options.list("positional");
+  const auto registry = open_registry(options);
+  if (what.empty() || (what.size() == 1 && what[0] == "list")) return list(*registry);
+  if (what.size() == 2 && what[0] == "describe") return describe(*registry, what[1]);
+  if (what[0] == "describe") throw UsageError("describe: expected the id of one plugin", options.usage());
+  if (what[0] == "list") throw UsageError("list: expected nothing after it", options.usage());
+  throw UsageError(fmt::format("plugins: expected list or describe, found '{}'", what[0]), options.usage());
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,169 @@
+#include "output.hpp"
+#include "resume.hpp"
+
+#include <hauberk/design/design_point.hpp>
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/results/json_text.hpp>
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+
+namespace hauberk::command {
+namespace {
+
+namespace json = boost::json;
+
+double number(const json::value& v) { return v.is_null() ? 0.0 : v.to_number<double>(); }
+
+std::optional<double> optional_number(const json::value& v)
+{
+  return v.is_null() ? std::nullopt : std::optional(v.to_number<double>());
+}
+
+std::string text(const json::value& v) { return std::string(v.as_string()); }
+
+std::optional<LimitStatus> status_of(const std::string& name)
+{
+  for (const LimitStatus s : {LimitStatus::locked, LimitStatus::unbounded, LimitStatus::not_attained,
+                              LimitStatus::stalled, LimitStatus::failed}) {
+    if (to_string(s) == name) return s;
+  }
+  return std::nullopt;
+}
+
+/// What tables, plots and profiles need; poses and forces stay in the entry, which is kept as it is.
+std::optional<LimitResult> read_limit(const json::object& entry, const std::vector<std::string>& companions)
+{
+  LimitResult r;
+  const auto status = status_of(text(entry.at("status")));
+  if (!status) return std::nullopt;
+  r.status = *status;
+  r.load_case = text(entry.at("load_case"));
+  r.direction_deg = number(entry.at("direction_deg"));
+  r.sense = text(entry.at("sense"));
+  r.measure = text(entry.at("measure"));
+  r.message = text(entry.at("message"));
+  r.value = optional_number(entry.at("value"));
+  for (const std::string& name : companions) {
+    if (entry.contains(name)) r.companions.emplace_back(name, number(entry.at(name)));
+  }
+  if (const json::object* macro = entry.at("macro").if_object()) {
+    for (const auto& [name, value] : *macro) r.macro.emplace_back(std::string(name), number(value));
+  }
+  r.iterations = static_cast<int>(number(entry.at("iterations")));
+  r.evaluations = static_cast<long>(number(entry.at("evaluations")));
+  r.seconds = number(entry.at("seconds"));
+  r.min_gap = optional_number(entry.at("min_gap"));
+  r.error_estimate = optional_number(entry.at("error_estimate"));
+  r.links_kept = entry.at("links_kept").as_bool();
+  r.z_range = number(entry.at("z_range"));
+  r.better_state = entry.at("better_state").as_bool();
+  r.force_balance = optional_number(entry.at("force_balance"));
+  r.starts.resize(entry.at("starts").as_array().size());
+  r.contacts.resize(entry.at("contacts").as_array().size());
+  return r;
+}
+
+void read_limits(const json::value& document, const Loaded& loaded, Resumed& out)
+{
+  const LoadCase& load = *loaded.experiment.load_case;
+  const std::vector<double> rest(static_cast<std::size_t>(load.macro_count()), 0.0);
+  std::vector<std::string> companions;
+  for (const auto& [name, value] : load.companions(0.0, rest)) companions.push_back(name);
+  const auto names = load.sense_names();
+  out.complete = true;
+  for (const LimitTask& task : loaded.tasks) {
+    out.limits.emplace_back();
+    out.entries.emplace_back(nullptr);
+    for (const json::value& entry : document.at("limits").as_array()) {
+      const json::object& o = entry.as_object();
+      const std::string& sense = task.sense == Sense::positive ? names.first : names.second;
+      if (number(o.at("direction_deg")) != task.direction_deg || text(o.at("sense")) != sense) continue;
+      out.limits.back() = read_limit(o, companions);
+      if (out.limits.back()) out.entries.back() = entry;
+    }
+    out.complete = out.complete && out.limits.back();
+  }
+}
+
+std::vector<DesignIterate> read_history(const json::array& list)
+{
+  std::vector<DesignIterate> history;
+  for (const json::value& item : list) {
+    DesignIterate it;
+    it.iteration = static_cast<int>(number(item.at("iteration")));
+    it.objective = number(item.at("objective"));
+    it.step = number(item.at("step"));
+    it.optimality = number(item.at("optimality"));
+    it.constraint_violation = number(item.at("constraint_violation"));
+    it.min_gap = number(item.at("min_gap"));
+    it.links_kept = item.at("links_kept").as_bool();
+    it.seconds = number(item.at("seconds"));
+    for (const json::value& v : item.at("values").as_array()) it.values.push_back(number(v));
+    history.push_back(std::move(it));
+  }
+  return history;
+}
+
+void read_design(const json::value& document, const Loaded& loaded, Resumed& out)
+{
+  const json::value& design = document.at("design");
+  out.complete = out.complete && !design.is_null() && text(design.at("status")) != "interrupted";
+  if (design.is_null()) return;
+  ResumedDesign resumed;
+  for (const json::value& v : design.at("variables").as_array()) resumed.variables.push_back(number(v.at("final")));
+  if (resumed.variables.size() != loaded.design->variables.size()) throw InputError("its variables are not complete");
+  resumed.scene = with_variables(loaded.scene, loaded.design->variables, resumed.variables);
+  const json::array& elements = document.at("scene").at("elements").as_array();
+  for (std::size_t k = 0; k < resumed.scene.elements.size(); ++k) {
+    const json::value& rest = elements.at(k).at("rest");
+    const json::array& x = rest.at("position").as_array();
+    const json::array& q = rest.at("quaternion").as_array();
+    const Eigen::Quaterniond rotation(number(q.at(0)), number(q.at(1)), number(q.at(2)), number(q.at(3)));
+    resumed.scene.elements[k].rest = {{number(x.at(0)), number(x.at(1)), number(x.at(2))},
+                                      rotation.normalized().toRotationMatrix()};
+  }
+  resumed.history = read_history(design.at("history").as_array());
+  // Nothing to go on from when the search had not begun.
+  if (!resumed.history.empty()) out.design = std::move(resumed);
+}
+
+void check_origin(const json::value& document, const Loaded& loaded)
+{
+  const Provenance now = provenance(loaded, 1);
+  const json::value experiment = parse_json(write_json(loaded.experiment.resolved), "experiment");
+  if (document.at("experiment") != experiment)
+    throw InputError("it was computed from another experiment; give the same file and --set, or start anew with --force");
+  const json::value& then = document.at("provenance");
+  if (text(then.at("version")) != now.version || text(then.at("build").at("type")) != now.build_type)
+    throw InputError(fmt::format("it was computed by version {} ({}), this is {} ({}); start anew with --force",
+                                 text(then.at("version")), text(then.at("build").at("type")), now.version,
+                                 now.build_type));
+}
+
+}  // namespace
+
+std::optional<Resumed> read_resumed(const std::filesystem::path& directory, const Loaded& loaded)
+{
+  const std::filesystem::path file = directory / results_file;
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  Resumed out;
+  try {
+    json::value document = read_json_file(file.string());
+    check_origin(document, loaded);
+    read_limits(document, loaded, out);
+    if (loaded.design) read_design(document, loaded, out);
+    if (out.complete) out.document = std::move(document);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: cannot be resumed: {}", file.string(), error.what()));
+  } catch (const std::exception& error) {  // a key that is missing, a value of another type
+    throw InputError(fmt::format("{}: cannot be resumed: not a results file of this program ({})", file.string(),
+                                 error.what()));
+  }
+  return out;
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,35 @@
+#pragma once
+/// What an interrupted run left, to go on from.
+
+#include "loading.hpp"
+
+#include <boost/json/value.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace hauberk::command {
+
+/// The best design of an interrupted design.
+struct ResumedDesign {
+  std::vector<double> variables;
+  SceneSpec scene;  ///< with these variables, at its relaxed rest state
+  std::vector<DesignIterate> history;
+};
+
+struct Resumed {
+  /// Finished limits by task, and their entries of results.json (null where not finished).
+  std::vector<std::optional<LimitResult>> limits;
+  std::vector<boost::json::value> entries;
+  std::optional<ResumedDesign> design;
+  bool complete = false;         ///< nothing is left to be done
+  boost::json::value document;  ///< of a complete run
+};
+
+/// Reads `directory`/results.json; nothing when it is not there. Throws InputError when it cannot be read, or was
+/// computed from another experiment or by another version of the program: results of both in one file would not
+/// say where they come from.
+std::optional<Resumed> read_resumed(const std::filesystem::path& directory, const Loaded& loaded);
+
+}  // namespace hauberk::command

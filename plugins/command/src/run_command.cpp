@@ -1,0 +1,172 @@
+#include "design_run.hpp"
+#include "dispatch.hpp"
+#include "interrupt.hpp"
+#include "limits_run.hpp"
+#include "plan_text.hpp"
+#include "summary.hpp"
+
+#include <hauberk/experiment/expect.hpp>
+#include <hauberk/results/atomic_file.hpp>
+#include <hauberk/results/json_text.hpp>
+
+#include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <thread>
+
+namespace hauberk::command {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr int most_threads = 4096;
+
+Options run_options()
+{
+  Options options("run EXPERIMENT.json [options]", "Computes what the experiment asks for and writes it to a folder.",
+                  "EXPERIMENT.json");
+  auto add = options.add().add_options();
+  add("output,o", po::value<std::string>()->value_name("DIR"), "folder for the results; default: out/NAME-OF-THE-FILE");
+  add("force", "replace results that the folder holds");
+  add("resume", "go on from the partial results of the same experiment in the folder");
+  add("threads", po::value<int>()->value_name("N"), "threads to use; default: all of the machine");
+  add("quiet", "show no progress");
+  options.add_experiment_options();
+  return options;
+}
+
+unsigned thread_count(const Options& options)
+{
+  if (!options.has("threads")) return std::max(1U, std::thread::hardware_concurrency());
+  const int n = options.get<int>("threads");
+  if (n < 1 || n > most_threads)
+    throw UsageError(fmt::format("--threads: expected a number from 1 to {}, found {}", most_threads, n),
+                     options.usage());
+  return static_cast<unsigned>(n);
+}
+
+std::filesystem::path output_folder(const Options& options)
+{
+  if (options.has("output")) {
+    if (options.get<std::string>("output").empty()) throw UsageError("--output: expected a folder", options.usage());
+    return options.get<std::string>("output");
+  }
+  return std::filesystem::path("out") / std::filesystem::path(options.positional()).stem();
+}
+
+void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress, Output& output,
+                     RunResult& run)
+{
+  const Experiment& e = loaded.experiment;
+  const auto names = e.load_case->sense_names();
+  const Model model = make_model(loaded.scene, *e.load_case, e.solver.clearance);
+  const LimitsJob job{&model,  &loaded.scene, loaded.tasks,  loaded.settings, e.load_case_plugin,
+                      threads, "limits",      resumed.limits};
+  output.keep(resumed.entries);
+  run.limits = run_limits(job, progress, [&](const std::vector<LimitResult>& so_far) {
+    run.limits = so_far;
+    run.profiles = profiles(run.limits, names.first, names.second);
+    output.write_sometimes(run);
+  });
+  run.profiles = profiles(run.limits, names.first, names.second);
+}
+
+/// Prints expectations that fail; true if there are any.
+bool report_expectations(const Experiment& experiment, const boost::json::value& document)
+{
+  const std::vector<ExpectationFailure> failures = evaluate_expectations(experiment.expect, document);
+  for (const ExpectationFailure& failure : failures) fmt::print("expected result missed: {}\n", failure.text());
+  if (failures.empty() && !experiment.expect.empty())
+    fmt::print("all {} expected results are met\n", experiment.expect.size());
+  return !failures.empty();
+}
+
+void print_files(const Output& output, const RunResult& run)
+{
+  std::string names = results_file;
+  for (const auto& [what, name] : result_files(run)) names += ", " + name;
+  fmt::print("results in {}: {}\n", output.directory().string(), names);
+}
+
+/// Everything after the first file was written: from here on nothing is bad input.
+void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress, Output& output,
+             RunResult& run)
+try {
+  if (loaded.design)
+    run_design_task(loaded, threads, resumed.design, progress, output, run);
+  else
+    run_limits_task(loaded, threads, resumed, progress, output, run);
+} catch (const ComputationError& error) {
+  output.write(run);
+  throw ComputationError(fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
+} catch (const InputError& error) {
+  output.write(run);
+  throw ComputationError(fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
+}
+
+int finish(const Loaded& loaded, const Output& output, const RunResult& run, double seconds)
+{
+  fmt::print("{}", summary(loaded, run));
+  fmt::print("{:.2f} s\n", seconds);
+  if (interrupted()) {
+    print_files(output, run);
+    fmt::print("interrupted: these results are partial; go on with --resume\n");
+    return exit_interrupted;
+  }
+  const bool missed = report_expectations(loaded.experiment, output.document());
+  print_files(output, run);
+  return missed || any_failed(run) ? exit_failed : exit_done;
+}
+
+/// Of a run that has nothing left to do.
+int already_complete(const Loaded& loaded, const Resumed& resumed, const std::filesystem::path& folder)
+{
+  fmt::print("{}: complete already\n", (folder / results_file).string());
+  bool failed = report_expectations(loaded.experiment, resumed.document);
+  for (const auto& limit : resumed.limits)
+    failed = failed || limit->status == LimitStatus::failed || limit->status == LimitStatus::stalled;
+  return failed ? exit_failed : exit_done;
+}
+
+}  // namespace
+
+int run_command(const std::vector<std::string>& words)
+{
+  catch_interrupts();
+  const auto begin = std::chrono::steady_clock::now();
+  Options options = run_options();
+  options.parse(words);
+  const unsigned threads = thread_count(options);
+  const std::filesystem::path folder = output_folder(options);
+  const Loaded loaded = load(options);
+  Resumed resumed;
+  bool resuming = false;
+  if (options.has("resume")) {
+    if (std::optional<Resumed> found = read_resumed(folder, loaded)) {
+      resumed = std::move(*found);
+      resuming = true;
+    }
+  }
+  if (resumed.complete) return already_complete(loaded, resumed, folder);
+  prepare_output_directory(folder, options.has("force") || resuming);
+
+  Progress progress(Progress::detect(options.has("quiet")));
+  if (options.has("resume")) {
+    progress.note(!resuming                       ? "nothing to resume: starting anew"
+                  : loaded.design && resumed.design ? "resuming from the best design so far; other starts are not repeated"
+                  : loaded.design                   ? "the search had not begun: starting anew"
+                                                    : "resuming: finished limits are kept");
+  }
+  Output output(folder, loaded, threads);
+  RunResult run;
+  run.plan_json = write_json(boost::json::value(plan_json(loaded)));
+  run.scene = loaded.scene;
+  compute(loaded, threads, resumed, progress, output, run);
+  progress.clear();
+  output.write(run);
+  return finish(loaded, output, run,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+}  // namespace hauberk::command

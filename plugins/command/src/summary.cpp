@@ -1,0 +1,98 @@
+#include "summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk::command {
+namespace {
+
+bool answered(const LimitResult& limit)
+{
+  return limit.status == LimitStatus::locked || limit.status == LimitStatus::unbounded ||
+         limit.status == LimitStatus::not_attained;
+}
+
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6f}", *value) : "-"; }
+
+/// The value, or why there is none; what is not an answer is marked.
+std::string limit_cell(const std::vector<LimitResult>& limits, double direction, const std::string& sense)
+{
+  for (const LimitResult& l : limits) {
+    if (l.direction_deg != direction || l.sense != sense) continue;
+    if (l.status == LimitStatus::locked && l.value) return fmt::format("{:.8f}", *l.value) + (l.better_state ? "*" : "");
+    return to_string(l.status);
+  }
+  return "-";
+}
+
+std::string limits_table(const Loaded& loaded, const RunResult& run)
+{
+  const auto names = loaded.experiment.load_case->sense_names();
+  const bool strain = loaded.experiment.load_case->value_length_power() == 0;
+  std::string text = fmt::format("{:>10} {:>15} {:>15}", "direction", names.first, names.second);
+  text += strain ? fmt::format(" {:>10}\n", "eta") : "\n";
+  bool better = false;
+  for (const ProfilePoint& p : run.profiles) {
+    text += fmt::format("{:>10g} {:>15} {:>15}", p.direction_deg, limit_cell(run.limits, p.direction_deg, names.first),
+                        limit_cell(run.limits, p.direction_deg, names.second));
+    text += strain ? fmt::format(" {:>10}\n", cell(p.eta)) : "\n";
+  }
+  for (const LimitResult& l : run.limits) better = better || l.better_state;
+  if (better) text += "* a further start went further than the one from rest\n";
+  return text;
+}
+
+std::string design_table(const DesignResult& d)
+{
+  std::string text = fmt::format("Design of {}: {}", d.quantity, d.status);
+  if (!d.message.empty()) text += " (" + d.message + ")";
+  text += fmt::format("\nobjective {:.4e} -> {:.4e}, {} iterations, {:.1f} s, start {} of {}\n", d.objective_initial,
+                      d.objective, d.iterations, d.seconds, d.start + 1, std::max<std::size_t>(1, d.starts.size()));
+  text += fmt::format("{:>10} {:>10} {:>10} {:>12} {:>11}  {}\n", "direction", "target", "initial", "provisional",
+                      "recomputed", "met");
+  std::size_t met = 0;
+  for (const DesignTargetResult& t : d.targets) {
+    const std::string verdict = t.met ? "yes" : t.better_state ? "no (better state known)" : "no";
+    text += fmt::format("{:>10g} {:>10.6g} {:>10} {:>12} {:>11}  {}\n", t.direction_deg, t.target, cell(t.initial),
+                        cell(t.provisional), cell(t.recomputed), verdict);
+    met += t.met ? 1 : 0;
+  }
+  return text + fmt::format("{} of {} targets met\n", met, d.targets.size());
+}
+
+/// A line for each limit that is not an answer.
+std::string remarks(const RunResult& run)
+{
+  std::string text;
+  for (const LimitResult& l : run.limits) {
+    if (answered(l)) continue;
+    text += fmt::format("{} at {:g} degrees: {}{}{}\n", l.sense, l.direction_deg, to_string(l.status),
+                        l.message.empty() ? "" : ": ", l.message);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary(const Loaded& loaded, const RunResult& run)
+{
+  std::string text = loaded.experiment.name + "\n\n";
+  if (loaded.moved > 0.0)
+    text += fmt::format("The rest state touches itself and was relaxed: elements moved by up to {:.3g} {}.\n\n",
+                        loaded.moved, loaded.experiment.length_unit);
+  if (run.design) text += design_table(*run.design) + "\n";
+  if (!run.profiles.empty()) text += limits_table(loaded, run);
+  return text + remarks(run);
+}
+
+bool any_failed(const RunResult& run)
+{
+  const bool design = run.design && (run.design->status == "failed" || run.design->status == "interrupted" ||
+                                     std::any_of(run.design->initial_limits.begin(), run.design->initial_limits.end(),
+                                                 [](const LimitResult& l) { return !answered(l); }));
+  return design || !std::all_of(run.limits.begin(), run.limits.end(), answered);
+}
+
+}  // namespace hauberk::command

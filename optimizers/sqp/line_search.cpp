@@ -15,6 +15,10 @@ constexpr double sufficient = 1e-4;
 /// Parts of the full step above (below) which the shift of a Gauss-Newton Hessian falls (rises).
 constexpr double long_step = 0.9;
 constexpr double short_step = 0.3;
+constexpr double shift_fall = 0.4;
+constexpr double shift_rise = 4.0;
+constexpr double least_shift = 1e-6;
+constexpr double largest_shift = 1e6;
 /// Trial points of one search; each costs an evaluation.
 constexpr int max_trials = 12;
 /// A shorter step is this much shorter, at least and at most; and after an evaluation that failed.
@@ -72,7 +76,8 @@ bool Minimizer::line_search(const Step& step)
     const double rise = merit(found.value, c) - before;
     if (rise <= sufficient * alpha * slope) {
       slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
-      damping_ = std::clamp(damping_ * (alpha > long_step ? 0.4 : alpha < short_step ? 4.0 : 1.0), 1e-6, 1e6);
+      if (alpha > long_step) damping_ = std::max(shift_fall * damping_, least_shift);
+      if (alpha < short_step) damping_ = std::min(shift_rise * damping_, largest_shift);
       move_to(x, found, d, step);
       return true;
     }

@@ -165,14 +165,14 @@ void Minimizer::reset_hessian(double radius)
 
 bool Minimizer::restart()
 {
-  if (squares_.size() > 0) {
+  const bool squares = squares_.size() > 0;
+  if (squares && slow_steps_ < slow_limit) {  // no step was found: a shorter one, closer to the gradient
     if (raised_ >= most_raises) return false;
     ++raised_;
-    slow_steps_ = 0;
     damping_ *= raise;
     return true;
   }
-  if (hessian_.fresh()) return false;  // the same step again
+  if (!squares && hessian_.fresh()) return false;  // the same step again
   if (restarted_) {
     const bool better = value_ < restart_value_ - worthwhile_value * std::abs(restart_value_);
     const bool more_feasible = total_violation(at_.c) < worthwhile_violation * restart_violation_;
@@ -182,6 +182,7 @@ bool Minimizer::restart()
   restart_value_ = value_;
   restart_violation_ = total_violation(at_.c);
   slow_steps_ = 0;
+  if (squares) damping_ *= raise;
   reset_hessian(std::clamp(step_length_, 10.0 * settings_.min_step, settings_.initial_step));
   return true;
 }

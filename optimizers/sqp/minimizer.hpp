@@ -74,7 +74,7 @@ class Minimizer {
   Eigen::MatrixXd squares_;  ///< Gauss-Newton Hessian at the iterate; empty: BFGS is used
   double damping_ = 1e-2;    ///< Levenberg-Marquardt shift of it, relative to its largest diagonal entry
   int raised_ = 0;           ///< times the shift was raised without an accepted step
-  double penalty_ = 0.0;  ///< of the l1 merit function
+  double penalty_ = 0.0;     ///< of the l1 merit function
   Best best_;
 
   int iteration_ = 0;

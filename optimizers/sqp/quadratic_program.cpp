@@ -171,7 +171,8 @@ QuadraticSolution solve(const QuadraticProgram& program)
   }
   const auto L = llt.matrixL();
   // Constraints without a normal say 0 >= b: true and left out, or infeasible.
-  MatrixXd normals = L.solve(program.A.transpose());
+  MatrixXd normals = program.A.transpose();
+  if (normals.cols() > 0) L.solveInPlace(normals);  // Eigen's triangular solver refers to the first column
   VectorXd offsets = program.b;
   VectorXd norms = normals.colwise().norm();
   for (Index i = 0; i < norms.size(); ++i) {

@@ -72,7 +72,8 @@ void ScaledProblem::linearise(const VectorXd& x, Linearisation& at)
 bool ScaledProblem::gauss_newton(const VectorXd& x, Eigen::MatrixXd& hessian)
 {
   hessian.resize(x.size(), x.size());
-  if (!problem_.gauss_newton(view(x), {hessian.data(), static_cast<std::size_t>(hessian.size())})) return false;
+  if (!problem_.gauss_newton(view(x), {hessian.data(), static_cast<std::size_t>(hessian.size())}))
+    return false;
   hessian = (scale_.asDiagonal() * hessian * scale_.asDiagonal()).eval();
   return hessian.allFinite();
 }

@@ -33,9 +33,9 @@ void sqp_fields(std::vector<Field>& out)
                            "Accepted steps after which to stop; 0 only evaluates the start.");
   iterations.maximum = 1e6;
   out.push_back(std::move(iterations));
-  Field hessian =
-      field("hessian", Field::Kind::choice, "\"gauss_newton\"",
-            "Curvature of the model: Gauss-Newton where the problem is a sum of squares, or damped BFGS always.");
+  Field hessian = field(
+      "hessian", Field::Kind::choice, "\"gauss_newton\"",
+      "Curvature of the model: Gauss-Newton where the problem is a sum of squares, or damped BFGS always.");
   hessian.choices = {"gauss_newton", "bfgs"};
   out.push_back(std::move(hessian));
   out.push_back(fraction("tolerance", "1e-6",

@@ -202,34 +202,78 @@ TEST(SqpConvergence, FixedAndUnboundedVariables)
   EXPECT_NEAR(r.x[1], 1.0, 1e-5);
 }
 
-TEST(SqpConvergence, ManyLeastSquaresVariables)
+/// Eight residuals of 24 variables, as designs are; all vanish at one point. Fills the rows of J.
+double residuals(const VectorXd& x, VectorXd& g, RowMajor& J)
 {
-  // 24 variables, a few residuals, as designs are: far fewer evaluations than variables squared.
+  double value = 0.0;
+  g.setZero();
+  J.resize(8, 24);
+  for (int k = 0; k < 8; ++k) {
+    double residual = 0.0;
+    for (int i = 0; i < 24; ++i) {
+      const double weight = 0.1 * (0.5 + 0.5 * std::cos(1.0 + k * (i + 1.3)));
+      const double target = 0.3 + 0.025 * ((5 * i) % 24);
+      residual += weight * (x[i] - target + 0.3 * (x[i] * x[i] - target * target));
+      J(k, i) = weight * (1.0 + 0.6 * x[i]);
+    }
+    value += 0.5 * residual * residual;
+    g += residual * J.row(k).transpose();
+  }
+  return value;
+}
+
+FunctionProblem least_squares()
+{
   FunctionProblem problem = box(24, 0.0, 1.0);
   problem.objective = [](const VectorXd& x, VectorXd& g) {
-    double value = 0.0;
-    g.setZero();
-    for (int k = 0; k < 8; ++k) {
-      double residual = 0.0;
-      VectorXd row(24);
-      for (int i = 0; i < 24; ++i) {
-        row[i] = 0.5 + 0.5 * std::cos(1.0 + k * (i + 1.3));
-        const double target = 0.3 + 0.025 * ((5 * i) % 24);
-        residual += 0.1 * row[i] * (x[i] - target + 0.3 * (x[i] * x[i] - target * target));
-        row[i] *= 0.1 * (1.0 + 0.6 * x[i]);
-      }
-      value += 0.5 * residual * residual;
-      g += residual * row;
-    }
-    return value;
+    RowMajor J;
+    return residuals(x, g, J);
   };
+  return problem;
+}
+
+TEST(SqpConvergence, ManyLeastSquaresVariables)
+{
+  // Far fewer evaluations than variables squared.
+  FunctionProblem problem = least_squares();
   Recorder recorder;
-  SqpSettings settings;
-  settings.tolerance = 1e-6;
-  const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, settings);
+  const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, SqpSettings{});
   EXPECT_EQ(r.status, "converged") << r.message;
   EXPECT_LT(r.value, 1e-4 * recorder.iterates.front().value);
   EXPECT_LT(r.evaluations, 60);
+}
+
+TEST(SqpConvergence, GaussNewtonNeedsFewerEvaluations)
+{
+  FunctionProblem problem = least_squares();
+  problem.squares = [](const VectorXd& x, RowMajor& H) {
+    VectorXd g(24);
+    RowMajor J;
+    residuals(x, g, J);
+    H = J.transpose() * J;
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, SqpSettings{});
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_LT(r.value, 1e-4 * recorder.iterates.front().value);
+  EXPECT_LT(r.evaluations, 15);
+}
+
+TEST(SqpConvergence, UselessGaussNewtonHessianEnds)
+{
+  // A Hessian that is nought, and a hundred times too small: steps are shortened, and the run ends.
+  for (const double factor : {0.0, 1e-2}) {
+    FunctionProblem problem = rosenbrock(-2.0, 2.0);
+    problem.squares = [factor](const VectorXd& x, RowMajor& H) {
+      H << 400.0 * x[0] * x[0] + 1.0, -200.0 * x[0], -200.0 * x[0], 200.0;
+      H *= factor;
+    };
+    Recorder recorder;
+    const OptimizerResult r = minimise(problem, {-1.2, 1.0}, recorder, SqpSettings{});
+    EXPECT_LT(r.value, 24.2);
+    EXPECT_LE(r.iterations, 100);
+    EXPECT_LT(r.evaluations, 400);
+  }
 }
 
 }  // namespace

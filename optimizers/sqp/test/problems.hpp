@@ -21,6 +21,7 @@ class FunctionProblem : public OptimizationProblem {
   std::function<double(const VectorXd&, VectorXd&)> objective;  ///< value; fills the gradient
   int constraint_number = 0;
   std::function<void(const VectorXd&, VectorXd&, RowMajor&)> constraint_functions;
+  std::function<void(const VectorXd&, RowMajor&)> squares;  ///< Gauss-Newton Hessian; empty: there is none
   std::function<double(const VectorXd&, const VectorXd&)> safe = [](const auto&, const auto&) { return 1.0; };
   std::function<bool(const VectorXd&)> fails = [](const auto&) { return false; };
 
@@ -59,6 +60,17 @@ class FunctionProblem : public OptimizationProblem {
     constraint_functions(v, values, J);
     std::copy(values.begin(), values.end(), c.begin());
     if (!jacobian.empty()) std::copy(J.data(), J.data() + J.size(), jacobian.begin());
+  }
+
+  bool gauss_newton(std::span<const double> x, std::span<double> hessian) override
+  {
+    const VectorXd v = vector(x);
+    if (!squares) return false;
+    if (evaluated.empty() || v != evaluated.back()) ++broken_protocol;
+    RowMajor H(v.size(), v.size());
+    squares(v, H);
+    std::copy(H.data(), H.data() + H.size(), hessian.begin());
+    return true;
   }
 
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override

@@ -137,7 +137,7 @@ class PairAdvance {
     // Relative velocity of the material point: v + w_P x (p - o_P) - w_F x (p - o_F).
     const double rate = f.n.dot(v_ + wp_.cross(q.p - frame_.o) - wf_.cross(q.p - of_));
     const double time = std::max(0.0, -rate) * tau + 0.5 * acceleration_ * tau * tau;
-    if (rho > 0.0 && f.m.phi > d + travel) {
+    if (rho > 0.0) {
       const double mixed = angular_ * d * tau;
       const double bend = 0.5 * (d + travel) * (d + travel) / rho;
       if (g - space - 0.5 * second - time - mixed - bend >= target) return true;

@@ -86,9 +86,9 @@ struct Panel {
 
 /// Lower bound of the field over a panel from its value and gradient at the centre.
 ///
-/// Outside a body whose profile is convex the Hessian of its distance is bounded below by -1/rho (rho:
-/// distance from its axis), because its meridian curvature is not negative and its azimuthal one is
-/// n_rho/rho. So along p(u, v), with displacement d = |p_u| hu + |p_v| hv,
+/// The signed distance of a body whose profile is convex is a convex function of (rho, z), inside as well as
+/// outside, and its slope in rho is at most 1; rho itself curves by at most 1/rho along a line. So the
+/// Hessian of the field is nowhere below -1/rho (rho: distance from the body's axis), and along p(u, v), with displacement d = |p_u| hu + |p_v| hv,
 ///   phi >= phi_mid - |phi_u| hu - |phi_v| hv
 ///          - 1/2 (d^2/rho_min + |p_uu| hu^2 + |p_vv| hv^2 + 2 |p_uv| hu hv),   rho_min = rho_mid - d,
 /// and in any case phi >= phi_mid - d (Lipschitz constant 1).
@@ -103,7 +103,7 @@ double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double 
 {
   const double d = probe.Lu * s.hu + probe.Lv * s.hv;
   const double rho_min = rho - d;
-  if (!(rho_min > 0.0 && phi > d)) return phi - d;
+  if (!(rho_min > 0.0)) return phi - d;
   double slope = std::abs(gu) * s.hu;
   double second = probe.Lu * s.hu * s.hu;
   if constexpr (dim == 2) {

@@ -10,7 +10,7 @@ namespace hauberk {
 struct ElfSummary {
   bool elf = false;                   ///< has the header of a shared ELF library or program
   bool this_machine = false;          ///< same class, byte order and processor as this program
-  bool damaged = false;       ///< the file ends before what its header announces
+  bool damaged = false;               ///< the file ends before what its header announces
   bool tables = false;                ///< the lists below could be read
   std::vector<std::string> needed;    ///< names of libraries it needs
   std::vector<std::string> exported;  ///< names of dynamic symbols it defines

@@ -22,7 +22,7 @@ SqpSettings accurate()
 OptimizerResult minimise(FunctionProblem& problem, const std::vector<double>& start, Recorder& recorder,
                          const SqpSettings& settings = accurate())
 {
-  const OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
+  OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
   EXPECT_EQ(problem.broken_protocol, 0);
   EXPECT_EQ(result.evaluations, static_cast<int>(problem.evaluated.size()));
   EXPECT_EQ(recorder.iterates.size(), static_cast<std::size_t>(result.iterations) + 1);

@@ -17,7 +17,7 @@ using namespace testing_problems;
 OptimizerResult minimise(FunctionProblem& problem, const std::vector<double>& start, Recorder& recorder,
                          const SqpSettings& settings = {})
 {
-  const OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
+  OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
   EXPECT_EQ(problem.broken_protocol, 0);
   return result;
 }

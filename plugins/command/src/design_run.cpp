@@ -23,15 +23,22 @@ DesignSpec resumed_spec(DesignSpec design)
 double initial_value(const Loaded& loaded, const DesignVariable& v)
 {
   const auto& [element, parameter] = v.entries.front();
-  return loaded.scene.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)];
+  return loaded.scene.elements[static_cast<std::size_t>(element)]
+      .parameters[static_cast<std::size_t>(parameter)];
 }
 
 class DesignRun {
  public:
-  DesignRun(const Loaded& loaded, unsigned threads, const std::optional<ResumedDesign>& resumed, Progress& progress,
-            Output& output, RunResult& run)
-      : loaded_(loaded), experiment_(loaded.experiment), threads_(threads), resumed_(resumed), progress_(progress),
-        output_(output), run_(run), spec_(resumed ? resumed_spec(*loaded.design) : *loaded.design)
+  DesignRun(const Loaded& loaded, unsigned threads, const std::optional<ResumedDesign>& resumed,
+            Progress& progress, Output& output, RunResult& run)
+      : loaded_(loaded),
+        experiment_(loaded.experiment),
+        threads_(threads),
+        resumed_(resumed),
+        progress_(progress),
+        output_(output),
+        run_(run),
+        spec_(resumed ? resumed_spec(*loaded.design) : *loaded.design)
   {
   }
 
@@ -39,7 +46,8 @@ class DesignRun {
   {
     start_partial();
     DesignResult& design = *run_.design;
-    design.initial_limits = limits("limits before", loaded_.design_scene, target_tasks(spec_),
+    // The profile's directions too, so that plots compare before and after everywhere.
+    design.initial_limits = limits("limits before", loaded_.design_scene, loaded_.tasks,
                                    [&](const std::vector<LimitResult>& so_far) {
                                      design.initial_limits = so_far;
                                      output_.write_sometimes(run_);
@@ -53,11 +61,12 @@ class DesignRun {
   }
 
  private:
-  std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene, std::vector<LimitTask> tasks,
-                                  const LimitsObserver& observer)
+  std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene,
+                                  std::vector<LimitTask> tasks, const LimitsObserver& observer)
   {
     const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
-    LimitsJob job{&model, &scene, std::move(tasks), loaded_.settings, experiment_.load_case_plugin, threads_, label, {}};
+    LimitsJob job{&model, &scene, std::move(tasks), loaded_.settings, experiment_.load_case_plugin, threads_,
+                  label,  {}};
     std::vector<LimitResult> out = run_limits(job, progress_, observer);
     progress_.clear();
     return out;
@@ -165,7 +174,8 @@ class DesignRun {
     d.initial_limits = partial.initial_limits;
     d.objective_initial = partial.objective_initial;
     for (std::size_t i = 0; i < d.targets.size(); ++i) d.targets[i].initial = partial.targets[i].initial;
-    for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].initial = partial.variables[v].initial;
+    for (std::size_t v = 0; v < d.variables.size(); ++v)
+      d.variables[v].initial = partial.variables[v].initial;
     if (resumed_) {
       std::vector<DesignIterate> history = resumed_->history;
       for (const DesignIterate& it : d.history) history.push_back(renumbered(it));
@@ -192,10 +202,11 @@ class DesignRun {
     d.message = "the search was done (" + status + "), its limits were not yet recomputed";
     // Opens gaps that touch, as for any other scene: with rest_clearance = clearance the search closes them.
     run_.scene = prepare_rest(run_.scene, *experiment_.load_case, experiment_.solver.clearance).scene;
-    run_.limits = limits("limits after", run_.scene, loaded_.tasks, [&](const std::vector<LimitResult>& so_far) {
-      run_.limits = so_far;
-      output_.write_sometimes(run_);
-    });
+    run_.limits =
+        limits("limits after", run_.scene, loaded_.tasks, [&](const std::vector<LimitResult>& so_far) {
+          run_.limits = so_far;
+          output_.write_sometimes(run_);
+        });
     const auto names = experiment_.load_case->sense_names();
     run_.profiles = profiles(run_.limits, names.first, names.second);
     if (interrupted()) return;

@@ -24,7 +24,8 @@ struct SubCommand {
 constexpr std::array sub_commands{
     SubCommand{"run", "EXPERIMENT.json [-o DIR] [--force] [--threads N] [--set path=value ...]",
                "compute what the experiment asks for", run_command},
-    SubCommand{"check", "EXPERIMENT.json", "every problem in the file at once, with its place", check_command},
+    SubCommand{"check", "EXPERIMENT.json", "every problem in the file at once, with its place",
+               check_command},
     SubCommand{"plan", "EXPERIMENT.json", "what will be modelled, and why; the rest state", plan_command},
     SubCommand{"verify", "RESULTS.json", "recheck a result from its file alone", verify_command},
     SubCommand{"plugins", "[list | describe ID]", "shapes, load cases and optimizers that are found",
@@ -35,9 +36,11 @@ std::string help()
 {
   std::string text =
       "Deformation limits of discrete interlocking materials: how far a fabric of linked rigid elements\n"
-      "stretches and compresses before contact locks it, and element shapes that have the limits you want.\n\n"
+      "stretches and compresses before contact locks it, and element shapes that have the limits you "
+      "want.\n\n"
       "Usage:\n";
-  for (const SubCommand& c : sub_commands) text += fmt::format("  hauberk {} {}\n      {}\n", c.name, c.usage, c.summary);
+  for (const SubCommand& c : sub_commands)
+    text += fmt::format("  hauberk {} {}\n      {}\n", c.name, c.usage, c.summary);
   text +=
       "  hauberk --version\n"
       "  hauberk --help; hauberk COMMAND --help for the options of a command\n\n"

@@ -7,13 +7,13 @@
 namespace hauberk::command {
 
 /// Exit codes of the program.
-inline constexpr int exit_done = 0;         ///< done
-inline constexpr int exit_failed = 1;       ///< the computation failed; what was computed is on disk
-inline constexpr int exit_bad_input = 2;    ///< bad input; nothing was written
+inline constexpr int exit_done = 0;           ///< done
+inline constexpr int exit_failed = 1;         ///< the computation failed; what was computed is on disk
+inline constexpr int exit_bad_input = 2;      ///< bad input; nothing was written
 inline constexpr int exit_interrupted = 130;  ///< interrupted; partial results are on disk
 
-/// Runs the sub-command that `words` (without the program's name) ask for and returns the exit code. Writes to
-/// stdout and stderr. Never throws.
+/// Runs the sub-command that `words` (without the program's name) ask for and returns the exit code. Writes
+/// to stdout and stderr. Never throws.
 int dispatch(const std::vector<std::string>& words) noexcept;
 
 // The sub-commands; `words` are what follows their name. They throw InputError for bad input.

@@ -1,5 +1,5 @@
-#include "interrupt.hpp"
 #include "limits_run.hpp"
+#include "interrupt.hpp"
 
 #include <hauberk/parallel.hpp>
 
@@ -20,11 +20,15 @@ struct Attempt {
 class LimitsRun {
  public:
   LimitsRun(const LimitsJob& job, Progress& progress, const LimitsObserver& observer)
-      : job_(job), progress_(progress), observer_(observer),
+      : job_(job),
+        progress_(progress),
+        observer_(observer),
         starts_(static_cast<std::size_t>(std::max(1, job.settings.starts))),
-        attempts_(job.tasks.size() * starts_), missing_(job.tasks.size(), starts_)
+        attempts_(job.tasks.size() * starts_),
+        missing_(job.tasks.size(), starts_)
   {
-    for (std::size_t k = 0; k < job.tasks.size(); ++k) results_.push_back(header(k, LimitStatus::interrupted));
+    for (std::size_t k = 0; k < job.tasks.size(); ++k)
+      results_.push_back(header(k, LimitStatus::interrupted));
   }
 
   std::vector<LimitResult> run()
@@ -107,7 +111,8 @@ class LimitsRun {
     }
     LimitResult result = header(task, LimitStatus::failed);
     try {
-      if (!locked.empty()) result = summarize(*job_.model, *job_.scene, job_.tasks[task], job_.settings, locked);
+      if (!locked.empty())
+        result = summarize(*job_.model, *job_.scene, job_.tasks[task], job_.settings, locked);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -126,7 +131,8 @@ class LimitsRun {
     if (missing_[task] == 0 || missing_[task] == starts_) return;
     LimitResult result = result_of(task);
     result.status = LimitStatus::interrupted;
-    result.message = std::to_string(starts_ - missing_[task]) + " of " + std::to_string(starts_) + " starts were done";
+    result.message =
+        std::to_string(starts_ - missing_[task]) + " of " + std::to_string(starts_) + " starts were done";
     results_[task] = std::move(result);
   }
 

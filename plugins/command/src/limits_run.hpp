@@ -21,7 +21,7 @@ struct LimitsJob {
   LimitSettings settings;
   std::string load_case;  ///< id of the plugin, entered into every result
   unsigned threads = 1;
-  std::string label;      ///< for the progress display
+  std::string label;  ///< for the progress display
   /// Results that are known already, by task; empty: none.
   std::vector<std::optional<LimitResult>> known;
 };
@@ -29,9 +29,9 @@ struct LimitsJob {
 /// All limits so far; those not finished have status interrupted.
 using LimitsObserver = std::function<void(const std::vector<LimitResult>&)>;
 
-/// Computes all tasks, every start an item of its own for the threads, until done or interrupted. Results do not
-/// depend on `threads`. `observer` is called after every finished limit, one call at a time. Errors of one limit
-/// are its result (status failed) and do not stop the others.
+/// Computes all tasks, every start an item of its own for the threads, until done or interrupted. Results do
+/// not depend on `threads`. `observer` is called after every finished limit, one call at a time. Errors of
+/// one limit are its result (status failed) and do not stop the others.
 std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsObserver& observer);
 
 }  // namespace hauberk::command

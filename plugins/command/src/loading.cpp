@@ -14,12 +14,18 @@
 namespace hauberk::command {
 namespace {
 
+/// Of distances, L: what counts as touching at rest.
+constexpr double rounding = 1e-9;
+
 std::string kind_word(PluginKind kind)
 {
   switch (kind) {
-    case PluginKind::shape: return "shape";
-    case PluginKind::load_case: return "load_case";
-    case PluginKind::optimizer: return "optimizer";
+    case PluginKind::shape:
+      return "shape";
+    case PluginKind::load_case:
+      return "load_case";
+    case PluginKind::optimizer:
+      return "optimizer";
   }
   return "plugin";
 }
@@ -27,7 +33,8 @@ std::string kind_word(PluginKind kind)
 /// Looks plugins up and notes those that are used.
 PluginLookup recording_lookup(const Registry& registry, std::vector<Provenance::Plugin>& used)
 {
-  return [&registry, &used](PluginKind kind, const std::string& id, std::string& error) -> const PluginTable* {
+  return [&registry, &used](PluginKind kind, const std::string& id,
+                            std::string& error) -> const PluginTable* {
     try {
       const PluginTable& table = registry.find(kind, id);
       const bool known = std::any_of(used.begin(), used.end(), [&id](const auto& p) { return p.id == id; });
@@ -77,16 +84,35 @@ bool attempt(Diagnostics& diagnostics, const Experiment& experiment, const char*
 bool prepare_scene(Loaded& loaded, Diagnostics& diagnostics)
 {
   const Experiment& e = loaded.experiment;
-  return attempt(diagnostics, e, "/cell", [&] {
-    const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
-    const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
-    for (const std::string& problem : wrong)
-      diagnostics.problems.add(nearest_node(e.resolved, "/cell"), problem);
-    if (!wrong.empty()) return;
-    PreparedScene prepared = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
-    loaded.scene = std::move(prepared.scene);
-    loaded.moved = prepared.moved;
-  }) && diagnostics.empty();
+  return attempt(diagnostics, e, "/cell",
+                 [&] {
+                   const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
+                   const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
+                   for (const std::string& problem : wrong)
+                     diagnostics.problems.add(nearest_node(e.resolved, "/cell"), problem);
+                   if (!wrong.empty()) return;
+                   PreparedScene prepared = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
+                   loaded.scene = std::move(prepared.scene);
+                   loaded.moved = prepared.moved;
+                 }) &&
+         diagnostics.empty();
+}
+
+/// Overlaps that a search for local minima of the distance cannot see: where core circles cross there is
+/// none. The plan's distances are bounds over panels, so they have no such exception.
+void check_crossings(const Loaded& loaded, Diagnostics& diagnostics)
+{
+  const double least = loaded.experiment.solver.clearance - rounding * loaded.plan.length;
+  for (const TightPair& t : loaded.plan.tightest) {
+    if (t.distance >= least) continue;
+    diagnostics.problems.add(
+        nearest_node(loaded.experiment.resolved, "/cell"),
+        fmt::format("element {} (primitive {}) and element {} (primitive {}){} overlap at rest, their core "
+                    "circles cross "
+                    "or nearly so; move them apart",
+                    t.elements[0], t.primitives[0], t.elements[1], t.primitives[1],
+                    t.image == Image{0, 0} ? "" : fmt::format(" of image [{}, {}]", t.image[0], t.image[1])));
+  }
 }
 
 /// A target in a direction that links leave free can never be met.
@@ -98,10 +124,10 @@ void check_targets(const Loaded& loaded, Diagnostics& diagnostics)
     const auto& [task, bounded] = loaded.plan.bounded[k];
     if (bounded == "attained") continue;
     const std::string pointer = fmt::format("/design/targets/{}", k / per);
-    diagnostics.problems.add(nearest_node(loaded.experiment.resolved, pointer),
-                             fmt::format("{} at {:g} degrees is {}: links set no limit that a design could change",
-                                         task.sense == Sense::positive ? names.first : names.second,
-                                         task.direction_deg, bounded));
+    diagnostics.problems.add(
+        nearest_node(loaded.experiment.resolved, pointer),
+        fmt::format("{} at {:g} degrees is {}: links set no limit that a design could change",
+                    task.sense == Sense::positive ? names.first : names.second, task.direction_deg, bounded));
   }
 }
 
@@ -110,8 +136,8 @@ void prepare_design(Loaded& loaded, Diagnostics& diagnostics)
   const Experiment& e = loaded.experiment;
   check_targets(loaded, diagnostics);
   attempt(diagnostics, e, "/design", [&] {
-    const DesignProblem problem(loaded.scene, *e.load_case, e.solver.clearance, loaded.settings, *loaded.design, 1,
-                                [] { return true; });
+    const DesignProblem problem(loaded.scene, *e.load_case, e.solver.clearance, loaded.settings,
+                                *loaded.design, 1, [] { return true; });
     loaded.design_scene = with_rest(problem.current().spec, problem.current().model, problem.current().rest);
   });
 }
@@ -140,8 +166,9 @@ Loaded load(const Options& options)
   loaded.registry = open_registry(options);
   Diagnostics diagnostics;
   const std::string& file = options.positional();
-  std::optional<Experiment> experiment = read_experiment({file, read_text_file(file), options.list("set")},
-                                                         recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+  std::optional<Experiment> experiment =
+      read_experiment({file, read_text_file(file), options.list("set")},
+                      recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
   const auto stop_on_problems = [&diagnostics] {
     if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
   };
@@ -158,7 +185,10 @@ Loaded load(const Options& options)
     loaded.design = design_spec(e);
     loaded.tasks = design_tasks(*loaded.design, loaded.tasks);
   }
-  loaded.plan = make_plan(make_model(loaded.scene, *e.load_case, e.solver.clearance), loaded.tasks, loaded.settings);
+  loaded.plan =
+      make_plan(make_model(loaded.scene, *e.load_case, e.solver.clearance), loaded.tasks, loaded.settings);
+  check_crossings(loaded, diagnostics);
+  stop_on_problems();
   if (loaded.design) prepare_design(loaded, diagnostics);
   stop_on_problems();
   return loaded;

@@ -20,7 +20,9 @@ constexpr unsigned help_width = 110;
 }  // namespace
 
 Options::Options(std::string synopsis, std::string summary, std::string positional)
-    : synopsis_(std::move(synopsis)), summary_(std::move(summary)), name_(std::move(positional)),
+    : synopsis_(std::move(synopsis)),
+      summary_(std::move(summary)),
+      name_(std::move(positional)),
       shown_("Options", help_width)
 {
   shown_.add_options()("help,h", "show this and exit");

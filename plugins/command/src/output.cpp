@@ -3,9 +3,9 @@
 #include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/version.hpp>
 
-#include <boost/version.hpp>
 #include <cholmod.h>
 #include <fmt/format.h>
+#include <boost/version.hpp>
 
 namespace hauberk::command {
 namespace {
@@ -16,9 +16,12 @@ constexpr std::chrono::seconds write_interval{2};
 std::string unit_of(const Loaded& loaded)
 {
   switch (loaded.experiment.load_case->value_length_power()) {
-    case 0: return "strain";
-    case -1: return "1/" + loaded.experiment.length_unit;
-    default: return "value";
+    case 0:
+      return "strain";
+    case -1:
+      return "1/" + loaded.experiment.length_unit;
+    default:
+      return "value";
   }
 }
 
@@ -32,9 +35,11 @@ Provenance provenance(const Loaded& loaded, unsigned threads)
   p.compiler = HAUBERK_COMPILER " (" __VERSION__ "), " HAUBERK_STDLIB;
   p.libraries = {
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-      {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
+      {"Boost",
+       fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-      {"CHOLMOD", fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)}};
+      {"CHOLMOD",
+       fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)}};
   p.plugins = loaded.plugins;
   p.seed = loaded.experiment.seed;
   p.threads = static_cast<int>(threads);
@@ -42,15 +47,16 @@ Provenance provenance(const Loaded& loaded, unsigned threads)
 }
 
 Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned threads)
-    : directory_(std::move(directory)), experiment_json_(write_json(loaded.experiment.resolved)),
+    : directory_(std::move(directory)),
+      experiment_json_(write_json(loaded.experiment.resolved)),
       provenance_(provenance(loaded, threads))
 {
   const Experiment& e = loaded.experiment;
   names_.macro.clear();
   for (const MacroInfo& macro : e.load_case->macros()) names_.macro.push_back(macro.name);
   labels_.title = e.name;
-  labels_.subtitle = fmt::format("{}, measure {}, clearance {:g} {}", e.load_case_plugin, e.load_case->measure(),
-                                 e.solver.clearance, e.length_unit);
+  labels_.subtitle = fmt::format("{}, measure {}, clearance {:g} {}", e.load_case_plugin,
+                                 e.load_case->measure(), e.solver.clearance, e.length_unit);
   std::tie(labels_.positive, labels_.negative) = e.load_case->sense_names();
   labels_.unit = unit_of(loaded);
 }

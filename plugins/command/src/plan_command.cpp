@@ -16,7 +16,8 @@ int plan_command(const std::vector<std::string>& words)
   options.add_experiment_options();
   options.parse(words);
   const Loaded loaded = load(options);
-  fmt::print("{}", options.has("json") ? write_json(boost::json::value(plan_json(loaded))) : plan_text(loaded));
+  fmt::print("{}",
+             options.has("json") ? write_json(boost::json::value(plan_json(loaded))) : plan_text(loaded));
   return exit_done;
 }
 

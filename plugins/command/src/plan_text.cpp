@@ -1,8 +1,8 @@
 #include "plan_text.hpp"
 
-#include <boost/json/array.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/json/array.hpp>
 
 #include <map>
 
@@ -53,7 +53,8 @@ json::object plan_json(const Loaded& loaded)
   out["inert"] = p.inert;
   out["linear_solver"] = p.linear_solver;
   json::array& pairs = out["pairs"].emplace_array();
-  for (const PairPlan& k : p.pairs) pairs.push_back({{"kinds", k.kinds}, {"distance", k.distance}, {"pairs", k.pairs}});
+  for (const PairPlan& k : p.pairs)
+    pairs.push_back({{"kinds", k.kinds}, {"distance", k.distance}, {"pairs", k.pairs}});
   out["image_pairs"] = p.image_pairs;
   out["farthest_image"] = {p.farthest_image[0], p.farthest_image[1]};
   out["links_per_element"] = json::array(p.links_per_element.begin(), p.links_per_element.end());
@@ -68,8 +69,9 @@ json::object plan_json(const Loaded& loaded)
   for (const std::string& d : p.decisions) decisions.push_back(json::string(d));
   json::array& bounded = out["bounded"].emplace_array();
   for (const auto& [task, what] : p.bounded)
-    bounded.push_back(
-        {{"direction_deg", task.direction_deg}, {"sense", sense_name(loaded, task.sense)}, {"bounded", what}});
+    bounded.push_back({{"direction_deg", task.direction_deg},
+                       {"sense", sense_name(loaded, task.sense)},
+                       {"bounded", what}});
   out["rest_moved"] = loaded.moved;
   return out;
 }
@@ -79,9 +81,10 @@ std::string plan_text(const Loaded& loaded)
   const Plan& p = loaded.plan;
   const std::string& unit = loaded.experiment.length_unit;
   std::string text = fmt::format("{}\n\nModel\n", loaded.experiment.name);
-  text += fmt::format("  {} elements of {} primitives in the cell; characteristic length L = {:.6g} {}\n", p.elements,
-                      p.primitives, p.length, unit);
-  text += fmt::format("  {} unknowns; {} of them inert; linear solver: {}\n", p.unknowns, p.inert, p.linear_solver);
+  text += fmt::format("  {} elements of {} primitives in the cell; characteristic length L = {:.6g} {}\n",
+                      p.elements, p.primitives, p.length, unit);
+  text += fmt::format("  {} unknowns; {} of them inert; linear solver: {}\n", p.unknowns, p.inert,
+                      p.linear_solver);
   text += fmt::format("  {} pairs of elements within reach at rest; farthest image [{}, {}]\n", p.image_pairs,
                       p.farthest_image[0], p.farthest_image[1]);
   for (const PairPlan& k : p.pairs) text += fmt::format("  {} pairs {}: {}\n", k.pairs, k.kinds, k.distance);
@@ -89,8 +92,9 @@ std::string plan_text(const Loaded& loaded)
   text += "\nLimits, as far as links decide\n" + bounded_text(loaded);
 
   text += "\nRest state\n";
-  text += loaded.moved > 0.0 ? fmt::format("  relaxed: elements moved by up to {:.3g} {}\n", loaded.moved, unit)
-                             : "  as given: nothing touches\n";
+  text += loaded.moved > 0.0
+              ? fmt::format("  relaxed: elements moved by up to {:.3g} {}\n", loaded.moved, unit)
+              : "  as given: nothing touches\n";
   text += fmt::format("  links per element: {}\n", links_text(p.links_per_element));
   if (!p.tightest.empty()) text += "  tightest pairs (element.primitive):\n";
   for (const TightPair& t : p.tightest)

@@ -5,8 +5,8 @@
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
 
-#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
+#include <boost/program_options/value_semantic.hpp>
 
 namespace hauberk::command {
 namespace {
@@ -21,9 +21,12 @@ std::string kind_text(PluginKind kind)
 std::string section_place(PluginKind kind)
 {
   switch (kind) {
-    case PluginKind::shape: return "/elements/NAME";
-    case PluginKind::load_case: return "/load_case";
-    case PluginKind::optimizer: return "/design/optimizer";
+    case PluginKind::shape:
+      return "/elements/NAME";
+    case PluginKind::load_case:
+      return "/load_case";
+    case PluginKind::optimizer:
+      return "/design/optimizer";
   }
   return "";
 }
@@ -37,7 +40,8 @@ int list(const Registry& registry)
       fmt::print("{:<20} {:<10} {:<8} {}\n", entry.id, kind_text(entry.table->kind), entry.table->version,
                  entry.table->summary);
     } else if (entry.shadowed_by) {
-      fmt::print("{:<20} not used: {} is found before {}\n", entry.id, entry.shadowed_by->string(), entry.file.string());
+      fmt::print("{:<20} not used: {} is found before {}\n", entry.id, entry.shadowed_by->string(),
+                 entry.file.string());
     } else {
       fmt::print("{:<20} cannot be used: {}\n", entry.id, entry.problem);
       broken = true;
@@ -74,7 +78,8 @@ int plugins_command(const std::vector<std::string>& words)
   namespace po = boost::program_options;
   Options options("plugins [list | describe ID] [--plugin-path DIR]",
                   "Lists the plugins that are found, or explains one with all its fields.", "");
-  options.add().add_options()("plugin-path", po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
+  options.add().add_options()("plugin-path",
+                              po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
                               "folder that is searched for plugins first; may be repeated");
   options.parse(words);
   const std::vector<std::string> what = options.list("positional");

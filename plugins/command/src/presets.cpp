@@ -30,7 +30,8 @@ ContactChoice contact_choice(const std::string& name)
 std::string preset_problem(const std::string& preset)
 {
   if (preset == "paper")
-    return "preset 'paper' is not available in this version; use fast or accurate (measure 'paper' in load_case is "
+    return "preset 'paper' is not available in this version; use fast or accurate (measure 'paper' in "
+           "load_case is "
            "available with both)";
   return {};
 }
@@ -41,10 +42,12 @@ LimitSettings limit_settings(const ExperimentSolver& solver)
   settings.contact = contact_choice(solver.contact);
   settings.schedule = preset_schedule(solver.preset);
   Schedule& schedule = settings.schedule;
-  // Gaps at equilibrium are about a tenth of the activation distance, so 1 + value is as exact as the last one.
+  // Gaps at equilibrium are about a tenth of the activation distance, so 1 + value is as exact as the last
+  // one.
   if (solver.tolerance) schedule.last = std::clamp(*solver.tolerance, least_last, schedule.first);
   if (solver.max_stages)
-    schedule.last = std::max(schedule.last, schedule.first * std::pow(schedule.ratio, *solver.max_stages - 1));
+    schedule.last =
+        std::max(schedule.last, schedule.first * std::pow(schedule.ratio, *solver.max_stages - 1));
   if (solver.max_iterations) schedule.most_iterations = *solver.max_iterations;
   settings.starts = solver.starts;
   settings.perturbation = solver.perturbation;

@@ -93,14 +93,13 @@ void Progress::design(const DesignProgress& progress, const DesignSpec& design)
   if (mode_ == Mode::quiet) return;
   const DesignIterate& it = *progress.iterate;
   const std::lock_guard lock(mutex_);
-  const std::string head =
-      fmt::format("design: start {}/{}, iteration {}, objective {:.4e}", progress.start + 1, progress.starts,
-                  it.iteration, it.objective);
+  const std::string head = fmt::format("design: start {}/{}, iteration {}, objective {:.4e}",
+                                       progress.start + 1, progress.starts, it.iteration, it.objective);
   if (mode_ == Mode::plain) {
     std::vector<std::string> values;
     for (const double v : it.values) values.push_back(fmt::format("{:.4f}", v));
-    put(fmt::format("{}, step {:.2g}, smallest distance at rest {:.4g}, {}: {} ({:.1f} s)\n", head, it.step, it.min_gap,
-                    design.quantity_name, fmt::join(values, " "), seconds()));
+    put(fmt::format("{}, step {:.2g}, smallest distance at rest {:.4g}, {}: {} ({:.1f} s)\n", head, it.step,
+                    it.min_gap, design.quantity_name, fmt::join(values, " "), seconds()));
     return;
   }
   std::vector<std::string> lines{
@@ -110,7 +109,8 @@ void Progress::design(const DesignProgress& progress, const DesignSpec& design)
   for (std::size_t k = 0; k < it.values.size() && k < design.targets.size(); ++k) {
     const DesignTarget& t = design.targets[k];
     const double off = t.value != 0.0 ? 100.0 * (it.values[k] - t.value) / std::abs(t.value) : 0.0;
-    lines.push_back(fmt::format("  {:>10g} {:>10.4f} {:>10.4f} {:>7.1f} %", t.direction_deg, t.value, it.values[k], off));
+    lines.push_back(
+        fmt::format("  {:>10g} {:>10.4f} {:>10.4f} {:>7.1f} %", t.direction_deg, t.value, it.values[k], off));
   }
   draw(lines);
 }

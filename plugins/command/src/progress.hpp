@@ -1,5 +1,6 @@
 #pragma once
-/// What a running computation shows: a block that is redrawn on a terminal, plain lines elsewhere, or nothing.
+/// What a running computation shows: a block that is redrawn on a terminal, plain lines elsewhere, or
+/// nothing.
 
 #include <hauberk/design/design.hpp>
 

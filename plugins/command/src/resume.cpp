@@ -1,5 +1,5 @@
-#include "output.hpp"
 #include "resume.hpp"
+#include "output.hpp"
 
 #include <hauberk/design/design_point.hpp>
 #include <hauberk/experiment/json_writer.hpp>
@@ -114,8 +114,10 @@ void read_design(const json::value& document, const Loaded& loaded, Resumed& out
   out.complete = out.complete && !design.is_null() && text(design.at("status")) != "interrupted";
   if (design.is_null()) return;
   ResumedDesign resumed;
-  for (const json::value& v : design.at("variables").as_array()) resumed.variables.push_back(number(v.at("final")));
-  if (resumed.variables.size() != loaded.design->variables.size()) throw InputError("its variables are not complete");
+  for (const json::value& v : design.at("variables").as_array())
+    resumed.variables.push_back(number(v.at("final")));
+  if (resumed.variables.size() != loaded.design->variables.size())
+    throw InputError("its variables are not complete");
   resumed.scene = with_variables(loaded.scene, loaded.design->variables, resumed.variables);
   const json::array& elements = document.at("scene").at("elements").as_array();
   for (std::size_t k = 0; k < resumed.scene.elements.size(); ++k) {
@@ -136,12 +138,13 @@ void check_origin(const json::value& document, const Loaded& loaded)
   const Provenance now = provenance(loaded, 1);
   const json::value experiment = parse_json(write_json(loaded.experiment.resolved), "experiment");
   if (document.at("experiment") != experiment)
-    throw InputError("it was computed from another experiment; give the same file and --set, or start anew with --force");
+    throw InputError(
+        "it was computed from another experiment; give the same file and --set, or start anew with --force");
   const json::value& then = document.at("provenance");
   if (text(then.at("version")) != now.version || text(then.at("build").at("type")) != now.build_type)
-    throw InputError(fmt::format("it was computed by version {} ({}), this is {} ({}); start anew with --force",
-                                 text(then.at("version")), text(then.at("build").at("type")), now.version,
-                                 now.build_type));
+    throw InputError(fmt::format(
+        "it was computed by version {} ({}), this is {} ({}); start anew with --force",
+        text(then.at("version")), text(then.at("build").at("type")), now.version, now.build_type));
 }
 
 }  // namespace
@@ -160,8 +163,8 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: cannot be resumed: {}", file.string(), error.what()));
   } catch (const std::exception& error) {  // a key that is missing, a value of another type
-    throw InputError(fmt::format("{}: cannot be resumed: not a results file of this program ({})", file.string(),
-                                 error.what()));
+    throw InputError(fmt::format("{}: cannot be resumed: not a results file of this program ({})",
+                                 file.string(), error.what()));
   }
   return out;
 }

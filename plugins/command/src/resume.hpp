@@ -23,13 +23,13 @@ struct Resumed {
   std::vector<std::optional<LimitResult>> limits;
   std::vector<boost::json::value> entries;
   std::optional<ResumedDesign> design;
-  bool complete = false;         ///< nothing is left to be done
+  bool complete = false;        ///< nothing is left to be done
   boost::json::value document;  ///< of a complete run
 };
 
-/// Reads `directory`/results.json; nothing when it is not there. Throws InputError when it cannot be read, or was
-/// computed from another experiment or by another version of the program: results of both in one file would not
-/// say where they come from.
+/// Reads `directory`/results.json; nothing when it is not there. Throws InputError when it cannot be read, or
+/// was computed from another experiment or by another version of the program: results of both in one file
+/// would not say where they come from.
 std::optional<Resumed> read_resumed(const std::filesystem::path& directory, const Loaded& loaded);
 
 }  // namespace hauberk::command

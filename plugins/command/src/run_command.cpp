@@ -9,8 +9,8 @@
 #include <hauberk/results/atomic_file.hpp>
 #include <hauberk/results/json_text.hpp>
 
-#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
+#include <boost/program_options/value_semantic.hpp>
 
 #include <cstdio>
 #include <thread>
@@ -24,10 +24,11 @@ constexpr int most_threads = 4096;
 
 Options run_options()
 {
-  Options options("run EXPERIMENT.json [options]", "Computes what the experiment asks for and writes it to a folder.",
-                  "EXPERIMENT.json");
+  Options options("run EXPERIMENT.json [options]",
+                  "Computes what the experiment asks for and writes it to a folder.", "EXPERIMENT.json");
   auto add = options.add().add_options();
-  add("output,o", po::value<std::string>()->value_name("DIR"), "folder for the results; default: out/NAME-OF-THE-FILE");
+  add("output,o", po::value<std::string>()->value_name("DIR"),
+      "folder for the results; default: out/NAME-OF-THE-FILE");
   add("force", "replace results that the folder holds");
   add("resume", "go on from the partial results of the same experiment in the folder");
   add("threads", po::value<int>()->value_name("N"), "threads to use; default: all of the machine");
@@ -49,14 +50,15 @@ unsigned thread_count(const Options& options)
 std::filesystem::path output_folder(const Options& options)
 {
   if (options.has("output")) {
-    if (options.get<std::string>("output").empty()) throw UsageError("--output: expected a folder", options.usage());
+    if (options.get<std::string>("output").empty())
+      throw UsageError("--output: expected a folder", options.usage());
     return options.get<std::string>("output");
   }
   return std::filesystem::path("out") / std::filesystem::path(options.positional()).stem();
 }
 
-void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress, Output& output,
-                     RunResult& run)
+void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress,
+                     Output& output, RunResult& run)
 {
   const Experiment& e = loaded.experiment;
   const auto names = e.load_case->sense_names();
@@ -76,7 +78,8 @@ void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resu
 bool report_expectations(const Experiment& experiment, const boost::json::value& document)
 {
   const std::vector<ExpectationFailure> failures = evaluate_expectations(experiment.expect, document);
-  for (const ExpectationFailure& failure : failures) fmt::print("expected result missed: {}\n", failure.text());
+  for (const ExpectationFailure& failure : failures)
+    fmt::print("expected result missed: {}\n", failure.text());
   if (failures.empty() && !experiment.expect.empty())
     fmt::print("all {} expected results are met\n", experiment.expect.size());
   return !failures.empty();
@@ -90,8 +93,8 @@ void print_files(const Output& output, const RunResult& run)
 }
 
 /// Everything after the first file was written: from here on nothing is bad input.
-void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress, Output& output,
-             RunResult& run)
+void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress,
+             Output& output, RunResult& run)
 try {
   if (loaded.design)
     run_design_task(loaded, threads, resumed.design, progress, output, run);
@@ -99,10 +102,12 @@ try {
     run_limits_task(loaded, threads, resumed, progress, output, run);
 } catch (const ComputationError& error) {
   output.write(run);
-  throw ComputationError(fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
+  throw ComputationError(
+      fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
 } catch (const InputError& error) {
   output.write(run);
-  throw ComputationError(fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
+  throw ComputationError(
+      fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
 }
 
 int finish(const Loaded& loaded, const Output& output, const RunResult& run, double seconds)
@@ -153,10 +158,11 @@ int run_command(const std::vector<std::string>& words)
 
   Progress progress(Progress::detect(options.has("quiet")));
   if (options.has("resume")) {
-    progress.note(!resuming                       ? "nothing to resume: starting anew"
-                  : loaded.design && resumed.design ? "resuming from the best design so far; other starts are not repeated"
-                  : loaded.design                   ? "the search had not begun: starting anew"
-                                                    : "resuming: finished limits are kept");
+    progress.note(!resuming ? "nothing to resume: starting anew"
+                  : loaded.design && resumed.design
+                      ? "resuming from the best design so far; other starts are not repeated"
+                  : loaded.design ? "the search had not begun: starting anew"
+                                  : "resuming: finished limits are kept");
   }
   Output output(folder, loaded, threads);
   RunResult run;

@@ -21,7 +21,8 @@ std::string limit_cell(const std::vector<LimitResult>& limits, double direction,
 {
   for (const LimitResult& l : limits) {
     if (l.direction_deg != direction || l.sense != sense) continue;
-    if (l.status == LimitStatus::locked && l.value) return fmt::format("{:.8f}", *l.value) + (l.better_state ? "*" : "");
+    if (l.status == LimitStatus::locked && l.value)
+      return fmt::format("{:.8f}", *l.value) + (l.better_state ? "*" : "");
     return to_string(l.status);
   }
   return "-";
@@ -35,7 +36,8 @@ std::string limits_table(const Loaded& loaded, const RunResult& run)
   text += strain ? fmt::format(" {:>10}\n", "eta") : "\n";
   bool better = false;
   for (const ProfilePoint& p : run.profiles) {
-    text += fmt::format("{:>10g} {:>15} {:>15}", p.direction_deg, limit_cell(run.limits, p.direction_deg, names.first),
+    text += fmt::format("{:>10g} {:>15} {:>15}", p.direction_deg,
+                        limit_cell(run.limits, p.direction_deg, names.first),
                         limit_cell(run.limits, p.direction_deg, names.second));
     text += strain ? fmt::format(" {:>10}\n", cell(p.eta)) : "\n";
   }
@@ -48,15 +50,16 @@ std::string design_table(const DesignResult& d)
 {
   std::string text = fmt::format("Design of {}: {}", d.quantity, d.status);
   if (!d.message.empty()) text += " (" + d.message + ")";
-  text += fmt::format("\nobjective {:.4e} -> {:.4e}, {} iterations, {:.1f} s, start {} of {}\n", d.objective_initial,
-                      d.objective, d.iterations, d.seconds, d.start + 1, std::max<std::size_t>(1, d.starts.size()));
-  text += fmt::format("{:>10} {:>10} {:>10} {:>12} {:>11}  {}\n", "direction", "target", "initial", "provisional",
-                      "recomputed", "met");
+  text += fmt::format("\nobjective {:.4e} -> {:.4e}, {} iterations, {:.1f} s, start {} of {}\n",
+                      d.objective_initial, d.objective, d.iterations, d.seconds, d.start + 1,
+                      std::max<std::size_t>(1, d.starts.size()));
+  text += fmt::format("{:>10} {:>10} {:>10} {:>12} {:>11}  {}\n", "direction", "target", "initial",
+                      "provisional", "recomputed", "met");
   std::size_t met = 0;
   for (const DesignTargetResult& t : d.targets) {
     const std::string verdict = t.met ? "yes" : t.better_state ? "no (better state known)" : "no";
-    text += fmt::format("{:>10g} {:>10.6g} {:>10} {:>12} {:>11}  {}\n", t.direction_deg, t.target, cell(t.initial),
-                        cell(t.provisional), cell(t.recomputed), verdict);
+    text += fmt::format("{:>10g} {:>10.6g} {:>10} {:>12} {:>11}  {}\n", t.direction_deg, t.target,
+                        cell(t.initial), cell(t.provisional), cell(t.recomputed), verdict);
     met += t.met ? 1 : 0;
   }
   return text + fmt::format("{} of {} targets met\n", met, d.targets.size());
@@ -80,8 +83,9 @@ std::string summary(const Loaded& loaded, const RunResult& run)
 {
   std::string text = loaded.experiment.name + "\n\n";
   if (loaded.moved > 0.0)
-    text += fmt::format("The rest state touches itself and was relaxed: elements moved by up to {:.3g} {}.\n\n",
-                        loaded.moved, loaded.experiment.length_unit);
+    text +=
+        fmt::format("The rest state touches itself and was relaxed: elements moved by up to {:.3g} {}.\n\n",
+                    loaded.moved, loaded.experiment.length_unit);
   if (run.design) text += design_table(*run.design) + "\n";
   if (!run.profiles.empty()) text += limits_table(loaded, run);
   return text + remarks(run);
@@ -89,9 +93,10 @@ std::string summary(const Loaded& loaded, const RunResult& run)
 
 bool any_failed(const RunResult& run)
 {
-  const bool design = run.design && (run.design->status == "failed" || run.design->status == "interrupted" ||
-                                     std::any_of(run.design->initial_limits.begin(), run.design->initial_limits.end(),
-                                                 [](const LimitResult& l) { return !answered(l); }));
+  const bool design =
+      run.design && (run.design->status == "failed" || run.design->status == "interrupted" ||
+                     std::any_of(run.design->initial_limits.begin(), run.design->initial_limits.end(),
+                                 [](const LimitResult& l) { return !answered(l); }));
   return design || !std::all_of(run.limits.begin(), run.limits.end(), answered);
 }
 

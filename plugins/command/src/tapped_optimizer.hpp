@@ -9,8 +9,9 @@
 
 namespace hauberk::command {
 
-/// Forwards to another optimizer. Before the observer hears of an iterate, `seen` is called with it and with the
-/// design it belongs to; `most_iterations` ends each minimisation early. Not thread safe: for one design at a time.
+/// Forwards to another optimizer. Before the observer hears of an iterate, `seen` is called with it and with
+/// the design it belongs to; `most_iterations` ends each minimisation early. Not thread safe: for one design
+/// at a time.
 class TappedOptimizer final : public Optimizer {
  public:
   using Seen = std::function<void(const OptimizerIterate&, const DesignPoint&)>;

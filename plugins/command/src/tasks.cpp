@@ -1,5 +1,5 @@
-#include "presets.hpp"
 #include "tasks.hpp"
+#include "presets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@ constexpr double same_direction = 1e-9;  ///< degrees
 
 bool same(const LimitTask& a, const LimitTask& b)
 {
-  return a.sense == b.sense && std::abs(std::remainder(a.direction_deg - b.direction_deg, 180.0)) < same_direction;
+  return a.sense == b.sense &&
+         std::abs(std::remainder(a.direction_deg - b.direction_deg, 180.0)) < same_direction;
 }
 
 DesignQuantity quantity_of(const std::string& name)
@@ -42,7 +43,8 @@ DesignSpec design_spec(const Experiment& experiment)
     for (const ParameterRef& p : v.parameters) variable.entries.emplace_back(p.element, p.parameter);
     design.variables.push_back(std::move(variable));
   }
-  for (const ExperimentTarget& t : from.targets) design.targets.push_back({t.direction_deg, t.value, t.weight});
+  for (const ExperimentTarget& t : from.targets)
+    design.targets.push_back({t.direction_deg, t.value, t.weight});
   design.hole_clearance = from.hole_clearance;
   design.rest_clearance = from.rest_clearance;
   design.starts = from.starts;
@@ -56,7 +58,8 @@ std::vector<LimitTask> design_tasks(const DesignSpec& design, const std::vector<
 {
   std::vector<LimitTask> tasks = target_tasks(design);
   for (const LimitTask& t : profile) {
-    const bool known = std::any_of(tasks.begin(), tasks.end(), [&t](const LimitTask& k) { return same(k, t); });
+    const bool known =
+        std::any_of(tasks.begin(), tasks.end(), [&t](const LimitTask& k) { return same(k, t); });
     if (!known) tasks.push_back(t);
   }
   return tasks;

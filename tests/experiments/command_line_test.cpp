@@ -1,0 +1,100 @@
+/// The command line itself.
+
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+namespace hauberk::test {
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// Wrong command lines say what is wrong, then how it should look.
+void expect_usage(const std::vector<std::string>& arguments, const std::string& message,
+                  const std::string& usage)
+{
+  const Outcome o = run_program(arguments);
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(first_line(o.err), "hauberk: " + message);
+  EXPECT_NE(o.err.find(usage), std::string::npos) << o.err;
+  EXPECT_EQ(o.out, "");
+}
+
+TEST(CommandLine, WrongCommands)
+{
+  expect_usage({}, "no command given", "Usage:\n  hauberk run ");
+  expect_usage({"rnu"}, "unknown command 'rnu'; the nearest known command is 'run'",
+               "Usage:\n  hauberk run ");
+  expect_usage({"plugins", "remove"}, "plugins: expected list or describe, found 'remove'",
+               "Usage: hauberk plugins ");
+  expect_usage({"plugins", "describe"}, "describe: expected the id of one plugin", "Usage: hauberk plugins ");
+}
+
+TEST(CommandLine, WrongOptions)
+{
+  expect_usage({"run"}, "EXPERIMENT.json is missing", "Usage: hauberk run ");
+  expect_usage({"run", "a", "b"}, "one EXPERIMENT.json expected, found also 'b'", "Usage: hauberk run ");
+  expect_usage({"run", "a", "--forc"}, "unrecognised option '--forc'", "Usage: hauberk run ");
+  expect_usage({"run", "a", "--threads", "many"}, "the argument ('many') for option '--threads' is invalid",
+               "Usage: hauberk run ");
+  expect_usage({"run", "a", "--threads", "0"}, "--threads: expected a number from 1 to 4096, found 0",
+               "Usage: hauberk run ");
+  expect_usage({"verify"}, "RESULTS.json is missing", "Usage: hauberk verify ");
+}
+
+TEST(CommandLine, HelpAndVersion)
+{
+  for (const char* command : {"run", "check", "plan", "verify", "plugins"}) {
+    const Outcome o = run_program({command, "--help"});
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.out.find(std::string("Usage: hauberk ") + command), 0U) << o.out;
+  }
+  EXPECT_NE(run_program({"--help"}).out.find("Exit codes: 0 done; 1 "), std::string::npos);
+  EXPECT_EQ(run_program({"--version"}).out.find("hauberk 0."), 0U);
+}
+
+TEST(CommandLine, Check)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  const Outcome o = run_program({"check", file});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out, file + ": no problems; 2 elements, 1 limits\n");
+}
+
+TEST(CommandLine, PlanAsJsonIsThatOfTheResults)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  const Outcome text = run_program({"plan", file});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_NE(text.out.find("links per element: 2 each\n"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("stretch attained: 0 degrees\n"), std::string::npos) << text.out;
+  const Outcome json = run_program({"plan", file, "--json"});
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
+  EXPECT_EQ(parse_json(json.out, "plan"), read_results(folder / "out").at("plan"));
+}
+
+TEST(CommandLine, Plugins)
+{
+  const Outcome list = run_program({"plugins", "list"});
+  EXPECT_EQ(list.code, 0);
+  for (const char* id : {"torus_union ", "in_plane_periodic ", "sqp "})
+    EXPECT_NE(list.out.find(id), std::string::npos) << list.out;
+  EXPECT_EQ(run_program({"plugins"}).out, list.out);
+  const Outcome one = run_program({"plugins", "describe", "sqp"});
+  EXPECT_EQ(one.code, 0);
+  EXPECT_NE(one.out.find("max_iterations"), std::string::npos) << one.out;
+  const Outcome none = run_program({"plugins", "describe", "spq"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.err.find("hauberk: no plugin 'spq'; the nearest known plugin is 'sqp' (searched: "), 0U)
+      << none.err;
+}
+
+}  // namespace
+}  // namespace hauberk::test

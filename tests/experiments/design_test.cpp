@@ -1,0 +1,116 @@
+/// Task design through the program.
+
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+namespace hauberk::test {
+namespace {
+
+namespace fs = std::filesystem;
+namespace json = boost::json;
+
+TEST(Design, MovesTheLimitToItsTarget)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", design_text());
+  const std::string out = folder / "out";
+  const Outcome o = run_program({"run", file, "-o", out});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const json::value r = read_results(out);
+  const json::value& d = r.at("design");
+  EXPECT_LT(number_at(d, "/objective"), 0.5 * number_at(d, "/objective_initial"));
+  EXPECT_TRUE(d.at_pointer("/targets/0/met").as_bool());
+  // Targets first, then the directions of the profile that are not among them.
+  EXPECT_EQ(number_at(d, "/targets/0/recomputed"), number_at(r, "/limits/0/value"));
+  EXPECT_EQ(number_at(d, "/targets/0/initial"), number_at(r, "/design/initial/limits/0/value"));
+  EXPECT_EQ(r.at("limits").as_array().size(), 6U);
+  EXPECT_EQ(d.at_pointer("/initial/limits").as_array().size(), 6U);
+  // The scene has the variables' values.
+  EXPECT_EQ(number_at(r, "/scene/elements/2/parameters/ring.R"), number_at(d, "/variables/0/final"));
+  EXPECT_EQ(number_at(d, "/variables/0/initial"), 4.9);
+  EXPECT_GE(d.at("history").as_array().size(), 2U);
+  EXPECT_NE(o.out.find("Design of stretch: "), std::string::npos) << o.out;
+  EXPECT_EQ(run_program({"verify", out + "/results.json"}).code, 0);
+
+  // The designed scene is an experiment that gives the same limits.
+  const Outcome again = run_program({"run", out + "/designed.json", "-o", folder / "again"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NEAR(number_at(read_results(folder / "again"), "/limits/0/value"), number_at(r, "/limits/0/value"),
+              1e-3);
+}
+
+TEST(Design, SameResultsForAnyNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", design_text());
+  std::string first;
+  for (const char* n : {"1", "2", "5"}) {
+    const std::string out = folder / (std::string("out") + n);
+    ASSERT_EQ(run_program({"run", file, "-o", out, "--threads", n}).code, 0);
+    const std::string text = write_json(timeless(read_results(out)));
+    if (first.empty()) first = text;
+    EXPECT_EQ(text, first);
+  }
+}
+
+TEST(Design, ResumesFromTheBestSoFar)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", design_text());
+  const std::string out = folder / "out";
+  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
+  json::value partial = read_results(out);
+  const double objective = number_at(partial, "/design/objective");
+  const std::size_t iterates = partial.at_pointer("/design/history").as_array().size();
+  partial.at_pointer("/design/status") = "interrupted";
+  partial.at("limits").as_array().clear();
+  std::ofstream(out + "/results.json") << write_json(partial);
+
+  const Outcome o = run_program({"run", file, "-o", out, "--resume"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_NE(o.err.find("resuming from the best design so far; other starts are not repeated\n"),
+            std::string::npos);
+  const json::value r = read_results(out);
+  EXPECT_LE(number_at(r, "/design/objective"), objective + 1e-6);
+  EXPECT_EQ(number_at(r, "/design/variables/0/initial"),
+            4.9);  // of the experiment, not of the resumed design
+  EXPECT_GT(r.at_pointer("/design/history").as_array().size(), iterates);
+  EXPECT_EQ(number_at(r, "/design/history/" + std::to_string(iterates) + "/iteration"),
+            static_cast<double>(iterates));
+  EXPECT_EQ(run_program({"verify", out + "/results.json"}).code, 0);
+}
+
+TEST(Design, AnInterruptLeavesTheBestSoFar)
+{
+  const TemporaryFolder folder;
+  // So many starts that it cannot end before the signal.
+  const std::string text =
+      with(design_text(), R"("perturbation": 0,)", R"("starts": 100000, "perturbation": 0.1,)");
+  Process process({"run", folder.write("mail.json", text), "-o", folder / "out", "--threads", "1"}, folder);
+  const fs::path progress = folder.path() / "stderr";
+  for (int k = 0; k < 2400 && read_text(progress).find("iteration 1,") == std::string::npos; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  process.signal(SIGINT);
+  const Outcome o = process.wait();
+  EXPECT_EQ(o.code, 130) << o.err;
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(r.at_pointer("/design/status").as_string(), "interrupted");
+  EXPECT_FALSE(r.at_pointer("/design/history").as_array().empty());
+  EXPECT_NE(number_at(r, "/design/variables/0/final"), 4.9);
+  EXPECT_EQ(number_at(r, "/scene/elements/0/parameters/ring.R"), number_at(r, "/design/variables/0/final"));
+  EXPECT_TRUE(fs::exists(folder.path() / "out" / "designed.json"));
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -1,0 +1,167 @@
+/// Bad input through the program: the exact words, exit code 2, and nothing written.
+
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hauberk::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs an experiment that must be refused with `problems`, each a line after "FILE:".
+void expect_refused(const std::string& text, const std::vector<std::string>& problems)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("bad.json", text);
+  std::string expected;
+  for (const std::string& p : problems) expected += file + ":" + p + "\n";
+  const Outcome o = run_program({"run", file, "-o", folder / "out"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, expected);
+  EXPECT_EQ(o.out, "");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  // `check` says the same.
+  const Outcome check = run_program({"check", file});
+  EXPECT_EQ(check.code, 2);
+  EXPECT_EQ(check.err, expected);
+}
+
+void expect_refused(const std::string& from, const std::string& to, const std::string& problem)
+{
+  expect_refused(with(chain_text(), from, to), {problem});
+}
+
+const std::string way_out = "; move them apart, lower the clearance, or set cell.relax to true";
+
+TEST(BadInput, EveryProblemAtOnce)
+{
+  expect_refused(with(with(with(chain_text(), R"("preset")", R"("prest")"), R"("stretch")", R"("strech")"),
+                      R"("ring.R": 5.0)", R"("ring.R": "5")"),
+                 {"5: /elements/link/parameters/ring.R: expected a number, found \"5\"",
+                  "11: /load_case/senses/0: expected one of stretch, compress, found \"strech\"; the nearest "
+                  "known value "
+                  "is 'stretch'",
+                  "12: /solver/prest: unknown key 'prest'; the nearest known key is 'preset'"});
+}
+
+TEST(BadInput, Syntax)
+{
+  expect_refused(R"("solver": {)", R"("solver": )",
+                 "12: syntax error at column 22: expected ',' or '}', found ':'");
+  expect_refused(R"("name": "chain",)", R"("name": "chain", "name": "again",)",
+                 "2: /name: duplicate key 'name': first given on line 2");
+}
+
+TEST(BadInput, Numbers)
+{
+  expect_refused(
+      R"("ring.r0": 0.7)", R"("ring.r0": 1e999)",
+      "5: /elements/link/parameters/ring.r0: expected a finite number, found 1e999, which is beyond the "
+      "largest double (about 1.8e308)");
+  expect_refused(
+      R"("ring.R": 5.0)", R"("ring.R": -5.0)",
+      "5: /elements/link/parameters/ring.R: expected a number in [1e-12, 1000000000000], found -5");
+  expect_refused(R"("ring.r0": 0.7)", R"("ring.r0": 6)",
+                 "5: /elements/link/parameters: parameter 'ring.r0' = 6 must be smaller than 'ring.R' = 5: "
+                 "it closes the "
+                 "hole of torus 'ring'");
+}
+
+TEST(BadInput, OverlapAtRest)
+{
+  expect_refused("[6, 0, 0]", "[9.2, 0, 0]",
+                 "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) overlap at rest by 0.6; move "
+                 "them apart, "
+                 "make them thinner, or set cell.relax to true");
+}
+
+TEST(BadInput, CoresThatCrossExactly)
+{
+  expect_refused(
+      "[12, 0]", "[16, 0]",
+      "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) of image [-1, 0] overlap at rest, their "
+      "core circles cross or nearly so; move them apart");
+}
+
+TEST(BadInput, GapBelowTheClearance)
+{
+  const std::string less = " apart at rest, less than solver.clearance 2.7" + way_out;
+  expect_refused(
+      with(with(chain_text(), R"("preset": "accurate")", R"("clearance": 2.7)"), "[12, 0]", "[13, 0]"),
+      {"6: /cell: element 0 (primitive 0) and element 0 (primitive 0) of image [1, 0] are 1.6" + less,
+       "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) of image [-1, 0] are 1.6" + less,
+       "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) are 2.6" + less,
+       "6: /cell: element 1 (primitive 0) and element 1 (primitive 0) of image [1, 0] are 1.6" + less});
+}
+
+TEST(BadInput, NothingLinked)
+{
+  expect_refused(
+      "[6, 0, 0]", "[6, 0, 50]",
+      "6: /cell: nothing is linked: no ring passes through another, so no direction has a limit; check "
+      "positions, rotations and the cell's vectors");
+}
+
+TEST(BadInput, Plugins)
+{
+  expect_refused(R"("torus_union")", R"("torus_unoin")",
+                 "4: /elements/link/shape: no shape 'torus_unoin' found; did you mean 'torus_union'? "
+                 "(searched: " HAUBERK_BINARY_DIR "/lib/hauberk/plugins)");
+  expect_refused(R"("in_plane_periodic")", R"("torus_union")",
+                 "11: /load_case/plugin: 'torus_union' is a shape, not a load case");
+}
+
+TEST(BadInput, PresetsOfLaterVersions)
+{
+  expect_refused(
+      R"("accurate")", R"("paper")",
+      "12: /solver/preset: preset 'paper' is not available in this version; use fast or accurate (measure "
+      "'paper' in load_case is available with both)");
+}
+
+TEST(BadInput, DesignsThatCannotWork)
+{
+  const std::string design = R"("task": "design", "design": { "quantity": "stretch",
+    "variables": [ { "parameters": "ring.R", "lower": 4.5, "upper": 5.4 } ],
+    "targets": [ { "direction_deg": 90, "value": 0.1 } ] }, "expect")";
+  expect_refused(
+      R"("expect")", design,
+      "15: /design/targets/0: stretch at 90 degrees is unbounded: links set no limit that a design could "
+      "change");
+}
+
+TEST(BadInput, FilesThatCannotBeRead)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder / "none.json";
+  const Outcome o = run_program({"run", file, "-o", folder / "out"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, "hauberk: cannot read '" + file + "': No such file or directory\n");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(BadInput, ValuesOfTheCommandLineAreNamedAsSuch)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=fats"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err,
+            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; the "
+            "nearest known value "
+            "is 'fast'\n");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(BadInput, PluginFoldersThatDoNotExist)
+{
+  const TemporaryFolder folder;
+  const Outcome o =
+      run_program({"run", folder.write("c.json", chain_text()), "--plugin-path", folder / "none"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, "hauberk: --plugin-path: '" + (folder / "none") + "' is not a folder\n");
+}
+
+}  // namespace
+}  // namespace hauberk::test

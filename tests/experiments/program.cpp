@@ -1,0 +1,173 @@
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace hauberk::test {
+
+namespace fs = std::filesystem;
+namespace json = boost::json;
+
+TemporaryFolder::TemporaryFolder()
+{
+  std::string name = (fs::temp_directory_path() / "hauberk-experiments-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& text) const
+{
+  const std::string file = *this / name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+Process::Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder)
+    : out_(folder / "stdout"), err_(folder / "stderr")
+{
+  std::vector<char*> words{const_cast<char*>(HAUBERK_PROGRAM)};
+  for (const std::string& a : arguments) words.push_back(const_cast<char*>(a.c_str()));
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int error = posix_spawn(&pid_, HAUBERK_PROGRAM, &actions, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::runtime_error("the program cannot be started");
+}
+
+void Process::signal(int number) const { ::kill(pid_, number); }
+
+Outcome Process::wait()
+{
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  Outcome o;
+  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  o.out = read_text(out_);
+  o.err = read_text(err_);
+  return o;
+}
+
+Outcome run_program(const std::vector<std::string>& arguments)
+{
+  const TemporaryFolder folder;
+  return Process(arguments, folder).wait();
+}
+
+std::string read_text(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+json::value read_results(const fs::path& folder)
+{
+  return read_json_file((folder / "results.json").string());
+}
+
+double number_at(const json::value& document, const std::string& pointer)
+{
+  const json::value& v = document.at_pointer(pointer);
+  return v.is_null() ? std::numeric_limits<double>::quiet_NaN() : v.to_number<double>();
+}
+
+json::value timeless(const json::value& document)
+{
+  if (const json::object* o = document.if_object()) {
+    json::object out;
+    for (const auto& [key, value] : *o) {
+      if (key != "seconds" && key != "threads") out[key] = timeless(value);
+    }
+    return out;
+  }
+  if (const json::array* a = document.if_array()) {
+    json::array out;
+    for (const json::value& v : *a) out.push_back(timeless(v));
+    return out;
+  }
+  return document;
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << from << " twice";
+  return text.replace(at, from.size(), to);
+}
+
+std::string chain_text()
+{
+  return R"({
+  "name": "chain",
+  "elements": {
+    "link": { "shape": "torus_union", "tori": [ { "name": "ring" } ],
+      "parameters": { "ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7 } } },
+  "cell": {
+    "vectors": [[12, 0], [0, 100]],
+    "place": [
+      { "element": "link", "position": [0, 0, 0] },
+      { "element": "link", "position": [6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } } ] },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "solver": { "preset": "accurate" },
+  "expect": [ { "pointer": "/limits/0/value", "value": 0.43333333333333, "rel": 1e-8 } ]
+})";
+}
+
+std::string chainmail_text()
+{
+  return R"({
+  "name": "mail",
+  "elements": {
+    "ring": { "shape": "torus_union", "tori": [ { "name": "ring" } ],
+      "parameters": { "ring.R": 4.9, "ring.r0": 1.15, "ring.r1": 1.15 } } },
+  "cell": {
+    "vectors": [[12.2, 0], [0, 6]], "repeat": [2, 1],
+    "place": [
+      { "element": "ring", "position": [0, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": -36.5 } },
+      { "element": "ring", "position": [6.1, 3, 0], "rotation": { "axis": [1, 0, 0], "degrees": 36.5 } } ] },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0, 30, 90] },
+  "solver": { "preset": "fast", "starts": 2 }
+})";
+}
+
+std::string design_text()
+{
+  return with(with(chainmail_text(), R"("name": "mail",)", R"("name": "mail", "task": "design",)"),
+              R"("starts": 2 })",
+              R"("starts": 1 },
+  "design": { "optimizer": { "plugin": "sqp" }, "quantity": "stretch",
+    "variables": [ { "parameters": "ring.R", "per": "all", "lower": 4.5, "upper": 5.4 } ],
+    "targets": [ { "direction_deg": 0, "value": 0.066 } ],
+    "hole_clearance": 0.3, "rest_clearance": 0.05, "perturbation": 0, "max_iterations": 3 })");
+}
+
+}  // namespace hauberk::test

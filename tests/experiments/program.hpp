@@ -1,0 +1,72 @@
+#pragma once
+/// Runs the real program and looks at what it leaves.
+
+#include <boost/json/value.hpp>
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hauberk::test {
+
+/// What a run of the program did.
+struct Outcome {
+  int code = -1;  ///< exit code; 1000 + signal when killed by one
+  std::string out, err;
+};
+
+/// A folder that is removed at the end of a test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// Writes a file and returns its path.
+  std::string write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A running program.
+class Process {
+ public:
+  Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder);
+  void signal(int number) const;
+  Outcome wait();
+
+ private:
+  pid_t pid_ = -1;
+  std::string out_, err_;
+};
+
+/// Runs the program to its end.
+Outcome run_program(const std::vector<std::string>& arguments);
+
+std::string read_text(const std::filesystem::path& file);
+boost::json::value read_results(const std::filesystem::path& folder);
+
+/// The number at a JSON pointer.
+double number_at(const boost::json::value& document, const std::string& pointer);
+
+/// The document without `seconds` and `threads` at any depth: what must not depend on how it was computed.
+boost::json::value timeless(const boost::json::value& document);
+
+/// `text` with the only occurrence of `from` replaced.
+std::string with(std::string text, const std::string& from, const std::string& to);
+
+/// A chain of two rings (R 5, r 0.7; period 12, limit 17.2): strict JSON.
+std::string chain_text();
+
+/// A 4-in-1 chainmail of 2 x 1 cells, both senses in three directions, preset fast.
+std::string chainmail_text();
+
+/// A design of it: two targets, radii of all rings vary.
+std::string design_text();
+
+}  // namespace hauberk::test

@@ -1,0 +1,142 @@
+/// `hauberk run` from an experiment to files.
+
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+namespace hauberk::test {
+namespace {
+
+namespace fs = std::filesystem;
+namespace json = boost::json;
+
+TEST(Run, ChainLocksAtTheFormula)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("chain.json", chain_text()), "-o", folder / "out"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(r.at("format").as_string(), "hauberk-results/1");
+  // Period 2 (R_A + R_B - r_A - r_B) = 17.2 over 12.
+  EXPECT_NEAR(number_at(r, "/limits/0/value"), 17.2 / 12.0 - 1.0, 1e-8 * 17.2 / 12.0);
+  EXPECT_EQ(r.at_pointer("/limits/0/status").as_string(), "locked");
+  EXPECT_EQ(r.at_pointer("/limits/0/load_case").as_string(), "in_plane_periodic");
+  EXPECT_EQ(r.at_pointer("/experiment/solver/contact").as_string(), "auto");  // defaults are filled in
+  EXPECT_EQ(r.at_pointer("/plan/links_per_element").as_array(), json::array({2, 2}));
+  EXPECT_EQ(r.at_pointer("/provenance/plugins").as_array().size(), 2U);
+  EXPECT_EQ(number_at(r, "/profiles/0/e_s"), number_at(r, "/limits/0/value"));
+  for (const char* file : {"limits.csv", "profile.svg"})
+    EXPECT_GT(fs::file_size(folder.path() / "out" / file), 0U);
+  EXPECT_NE(o.out.find("0.43333333"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("all 1 expected results are met\n"), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("limits: 1/1"), std::string::npos) << o.err;
+}
+
+TEST(Run, QuietShowsNoProgress)
+{
+  const TemporaryFolder folder;
+  const Outcome o =
+      run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--quiet"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.err, "");
+}
+
+TEST(Run, SetReplacesValues)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--set",
+                                 "/solver/clearance=0.1", "--set", "/expect=[]"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  // Surfaces stop 0.1 apart at two contacts of each of two links.
+  EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 17.0 / 12.0 - 1.0, 1e-8);
+}
+
+TEST(Run, MissedExpectationsFailAfterWriting)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", with(chain_text(), "0.43333333333333", "0.4334"));
+  const Outcome o = run_program({"run", file, "-o", folder / "out"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(
+      o.out.find(
+          "expected result missed: /limits/0/value: expected 0.4334 within 1e-08 relative, found 0.43333"),
+      std::string::npos)
+      << o.out;
+  EXPECT_TRUE(fs::exists(folder / "out/results.json"));
+}
+
+TEST(Run, UnboundedAndNotAttainedAreAnswers)
+{
+  const TemporaryFolder folder;
+  const std::string text = with(with(chain_text(), R"(, "senses": ["stretch"])", ""),
+                                R"("directions_deg": [0])", R"("directions_deg": [0, 90])");
+  const Outcome o = run_program({"run", folder.write("c.json", text), "-o", folder / "out"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(r.at_pointer("/limits/1/sense").as_string(), "compress");
+  EXPECT_EQ(r.at_pointer("/limits/1/status").as_string(), "not_attained");
+  EXPECT_TRUE(r.at_pointer("/limits/1/value").is_null());
+  EXPECT_EQ(r.at_pointer("/limits/2/status").as_string(), "unbounded");
+}
+
+TEST(Run, UnfinishedLimitsFailTheRun)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--set",
+                                 "/solver/max_iterations=1", "--set", "/expect=[]"});
+  EXPECT_EQ(o.code, 1) << o.out;
+  EXPECT_EQ(read_results(folder / "out").at_pointer("/limits/0/status").as_string(), "stalled");
+  EXPECT_NE(o.out.find("stretch at 0 degrees: stalled"), std::string::npos) << o.out;
+}
+
+TEST(Run, SameResultsForAnyNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", chainmail_text());
+  std::vector<json::value> results;
+  for (const char* n : {"1", "2", "5"}) {
+    const std::string out = folder / (std::string("out") + n);
+    ASSERT_EQ(run_program({"run", file, "-o", out, "--threads", n}).code, 0);
+    const json::value r = read_results(out);
+    EXPECT_EQ(number_at(r, "/provenance/threads"), std::stod(n));
+    results.push_back(timeless(r));
+  }
+  ASSERT_EQ(results[0].at("limits").as_array().size(), 6U);
+  EXPECT_EQ(write_json(results[0]), write_json(results[1]));
+  EXPECT_EQ(write_json(results[0]), write_json(results[2]));
+}
+
+TEST(Run, FolderWithResultsIsRefusedWithoutForce)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
+  const std::string before = read_text(folder / "out/results.json");
+  const Outcome refused = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=fast"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err, "hauberk: " + (folder / "out") +
+                             ": holds results already; give another folder with -o, or --force\n");
+  EXPECT_EQ(read_text(folder / "out/results.json"), before);
+  EXPECT_EQ(run_program({"run", file, "-o", folder / "out", "--force", "--set", "/solver/preset=fast",
+                         "--set", "/expect=[]"})
+                .code,
+            0);
+  EXPECT_NE(read_text(folder / "out/results.json"), before);
+}
+
+TEST(Run, FolderThatCannotBeMade)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  const Outcome o = run_program({"run", file, "-o", file + "/out"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, "hauberk: " + file + "/out: this output folder cannot be made: Not a directory\n");
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -1,0 +1,140 @@
+/// Interrupting a run, and going on with it.
+
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+namespace hauberk::test {
+namespace {
+
+namespace fs = std::filesystem;
+namespace json = boost::json;
+
+/// Takes hours: a limit with very many starts. Its compression is decided by the links, at once.
+std::string endless_text()
+{
+  return with(with(chain_text(), R"(["stretch"])", R"(["compress", "stretch"])"), R"("preset": "accurate")",
+              R"("preset": "accurate", "starts": 200000)");
+}
+
+bool appears(const fs::path& file)
+{
+  for (int k = 0; k < 1200; ++k) {
+    if (fs::exists(file)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+class Stopping : public ::testing::TestWithParam<int> {};
+
+TEST_P(Stopping, LeavesPartialResults)
+{
+  const TemporaryFolder folder;
+  Process process({"run", folder.write("c.json", endless_text()), "-o", folder / "out", "--threads", "2"},
+                  folder);
+  ASSERT_TRUE(appears(folder.path() / "out" / "results.json"));
+  process.signal(GetParam());
+  const Outcome o = process.wait();
+  EXPECT_EQ(o.code, 130) << o.err;
+  EXPECT_NE(o.out.find("interrupted: these results are partial; go on with --resume\n"), std::string::npos)
+      << o.out;
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(r.at_pointer("/limits/0/status").as_string(), "not_attained");
+  EXPECT_EQ(r.at_pointer("/limits/1/status").as_string(), "interrupted");
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Stopping, ::testing::Values(SIGINT, SIGTERM));
+
+TEST(Stopping, AKillLosesNothingFinished)
+{
+  const TemporaryFolder folder;
+  Process process({"run", folder.write("c.json", endless_text()), "-o", folder / "out", "--threads", "2"},
+                  folder);
+  ASSERT_TRUE(appears(folder.path() / "out" / "results.json"));
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().code, 1000 + SIGKILL);
+  EXPECT_EQ(read_results(folder / "out").at_pointer("/limits/0/status").as_string(), "not_attained");
+}
+
+TEST(Resuming, GivesTheSameResultsAsOneRun)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", chainmail_text());
+  const std::string out = folder / "out";
+  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
+  const json::value whole = read_results(out);
+  // As an interrupt leaves it: two limits are not there yet.
+  json::value partial = whole;
+  for (const char* k : {"/limits/1", "/limits/4"}) {
+    partial.at_pointer(std::string(k) + "/status") = "interrupted";
+    partial.at_pointer(std::string(k) + "/value") = nullptr;
+    partial.at_pointer(std::string(k) + "/poses").as_array().clear();
+  }
+  // Marks a limit that must not be computed again.
+  partial.at_pointer("/limits/0/message") = "kept";
+  std::ofstream(out + "/results.json") << write_json(partial);
+
+  const Outcome o = run_program({"run", file, "-o", out, "--resume"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("resuming: finished limits are kept\n"), std::string::npos) << o.err;
+  json::value resumed = read_results(out);
+  EXPECT_EQ(resumed.at_pointer("/limits/0/message").as_string(), "kept");
+  resumed.at_pointer("/limits/0/message") = whole.at_pointer("/limits/0/message");
+  EXPECT_EQ(write_json(timeless(resumed)), write_json(timeless(whole)));
+
+  const Outcome again = run_program({"run", file, "-o", out, "--resume"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.out, out + "/results.json: complete already\n");
+}
+
+TEST(Resuming, StartsAnewWhereNothingIs)
+{
+  const TemporaryFolder folder;
+  const Outcome o =
+      run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--resume"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.err.find("nothing to resume: starting anew\n"), std::string::npos) << o.err;
+}
+
+TEST(Resuming, RefusesOtherExperiments)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
+  const std::string results = folder / "out/results.json", before = read_text(results);
+  const Outcome o =
+      run_program({"run", file, "-o", folder / "out", "--resume", "--set", "/solver/preset=fast"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(
+      o.err,
+      "hauberk: " + results +
+          ": cannot be resumed: it was computed from another experiment; give the same file and --set, or "
+          "start anew with --force\n");
+  EXPECT_EQ(read_text(results), before);
+}
+
+TEST(Resuming, RefusesFilesThatAreNoResults)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "out");
+  const std::string results = folder.write("out/results.json", "{\"experiment\": 1}");
+  const Outcome o =
+      run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--resume"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("hauberk: " + results + ": cannot be resumed: "), std::string::npos) << o.err;
+  EXPECT_EQ(read_text(results), "{\"experiment\": 1}");
+}
+
+}  // namespace
+}  // namespace hauberk::test

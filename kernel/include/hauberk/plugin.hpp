@@ -1,8 +1,8 @@
 #pragma once
 /// The one entry of a plugin library: a constant table, checked from the top before anything else is used.
 ///
-/// A plugin is a shared library that exports one constant, `hauberk_plugin`, made by HAUBERK_PLUGIN_TABLE
-/// (see shapes/torus_union for an example). It has no static constructors with effects, and is never unloaded.
+/// A plugin is a shared library that exports one constant, `hauberk_plugin` (see shapes/torus_union for an
+/// example). It has no static constructors with effects, and is never unloaded.
 
 #include <hauberk/load_case.hpp>
 #include <hauberk/optimizer.hpp>

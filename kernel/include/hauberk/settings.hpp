@@ -16,6 +16,14 @@ namespace hauberk {
 struct Node {
   enum class Type { null, boolean, number, string, array, object };
 
+  // Defined out of line: a vector of pairs that hold an incomplete Node cannot be copied in the class.
+  Node();
+  ~Node();
+  Node(const Node&);
+  Node(Node&&) noexcept;
+  Node& operator=(const Node&);
+  Node& operator=(Node&&) noexcept;
+
   Type type = Type::null;
   std::string pointer;  ///< RFC 6901 pointer from the root, "" for the root
   int line = 0;         ///< 1-based line in the file; 0: a default, or given on the command line

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <random>
 
 namespace hauberk {
@@ -109,66 +110,107 @@ std::vector<std::optional<double>> target_values(const DesignSpec& design, const
   return out;
 }
 
+namespace {
+
+/// One search and what came of it.
+struct Search {
+  OptimizerResult found;
+  std::vector<DesignIterate> history;
+  bool interrupted = false;
+};
+
+Search search(DesignProblem& problem, const Optimizer& optimizer, std::span<const double> x0, int start, int starts,
+              const DesignObserver& observer)
+{
+  Recorder recorder(problem, start, starts, observer);
+  Search s;
+  s.found = optimizer.minimize(problem, x0, recorder);
+  s.history = std::move(recorder.history);
+  s.interrupted = recorder.interrupted;
+  // The best point may not be the last accepted one.
+  if (!s.history.empty()) problem.accept(s.found.x);
+  return s;
+}
+
+void enter(DesignResult& out, const DesignProblem& problem, const DesignSpec& design, const Search& s)
+{
+  const DesignPoint& p = problem.current();
+  out.status = s.interrupted ? "interrupted" : s.found.status;
+  out.message = s.found.message;
+  out.objective = s.found.value;
+  const std::vector<double> initial = problem.scene_variables();
+  for (std::size_t v = 0; v < design.variables.size(); ++v) {
+    const DesignVariable& d = design.variables[v];
+    out.variables.push_back({d.name, initial[v], s.found.x[v], d.lower, d.upper});
+  }
+  for (std::size_t i = 0; i < design.targets.size(); ++i) {
+    DesignTargetResult t;
+    t.direction_deg = design.targets[i].direction_deg;
+    t.target = design.targets[i].value;
+    t.weight = design.targets[i].weight;
+    if (i < p.values.size()) t.provisional = p.values[i];
+    out.targets.push_back(t);
+  }
+}
+
+}  // namespace
+
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                     const DesignSpec& design, const Optimizer& optimizer, unsigned threads, const DesignObserver& observer)
 {
   const auto t0 = std::chrono::steady_clock::now();
   SceneSpec frozen = scene;
   frozen.length = characteristic_length(scene);
-  Designed best;
-  bool any = false, interrupted = false;
-  long evaluations = 0;
+  const KeepGoing always = [] { return true; };  // searches are interrupted between iterates
+  Schedule coarse = design.schedule;
+  coarse.last = std::max(coarse.last, design.coarse_last);
+
+  Designed out;
+  std::unique_ptr<DesignProblem> best_problem;
+  Search best;
   std::string failure;
-  std::vector<std::pair<int, double>> finals;
+  bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
-    std::atomic<bool> going{true};
-    DesignProblem problem(frozen, load, clearance, limits, design, threads, [&going] { return going.load(); });
-    if (start == 0) best.result.initial_scene = scene_of(problem.current());
-    const std::vector<double> x0 = problem.feasible_towards(random_move(design, start));
-    Recorder recorder(problem, start, design.starts, observer);
-    const OptimizerResult r = optimizer.minimize(problem, x0, recorder);
-    evaluations += problem.evaluations();
-    interrupted = recorder.interrupted;
-    if (recorder.history.empty()) {
-      failure = r.message;
+    auto problem = std::make_unique<DesignProblem>(frozen, load, clearance, limits, design, threads, always);
+    if (start == 0) out.result.initial_scene = scene_of(problem->current());
+    problem->set_schedule(coarse);
+    const std::vector<double> x0 = problem->feasible_towards(random_move(design, start));
+    Search s = search(*problem, optimizer, x0, start, design.starts, observer);
+    out.result.evaluations += problem->evaluations();
+    interrupted = s.interrupted;
+    if (s.history.empty()) {
+      failure = s.found.message;
       continue;
     }
-    finals.emplace_back(start, r.value);
-    if (any && !(r.value < best.result.objective)) continue;
-    any = true;
-    DesignResult& out = best.result;
-    // The best point may not be the last accepted one; its states are found again from there.
-    problem.accept(r.x);
-    const DesignPoint& p = problem.current();
-    best.scene = scene_of(p);
-    out.status = interrupted ? "interrupted" : r.status;
-    out.message = r.message;
-    out.objective = r.value;
-    out.start = start;
-    out.history = recorder.history;
-    out.iterations = r.iterations;
-    out.variables.clear();
-    const std::vector<double> initial = problem.scene_variables();
-    for (std::size_t v = 0; v < design.variables.size(); ++v) {
-      const DesignVariable& d = design.variables[v];
-      out.variables.push_back({d.name, initial[v], r.x[v], d.lower, d.upper});
-    }
-    out.targets.clear();
-    for (std::size_t i = 0; i < design.targets.size(); ++i) {
-      DesignTargetResult t;
-      t.direction_deg = design.targets[i].direction_deg;
-      t.target = design.targets[i].value;
-      t.weight = design.targets[i].weight;
-      if (i < p.values.size()) t.provisional = p.values[i];
-      out.targets.push_back(t);
+    out.result.starts.emplace_back(start, s.found.value);
+    if (best_problem && !(s.found.value < best.found.value)) continue;
+    best = std::move(s);
+    best_problem = std::move(problem);
+    out.result.start = start;
+  }
+  if (!best_problem) throw ComputationError("no design could be evaluated: " + failure);
+  out.result.history = best.history;
+  out.result.iterations = best.found.iterations;
+  if (!interrupted) {
+    const long before = best_problem->evaluations();
+    best_problem->set_schedule(design.schedule);
+    const Search fine = search(*best_problem, optimizer, best.found.x, out.result.start, design.starts, observer);
+    out.result.evaluations += best_problem->evaluations() - before;
+    if (!fine.history.empty()) {
+      out.result.iterations += fine.found.iterations;
+      for (DesignIterate it : fine.history) {
+        it.iteration += best.found.iterations + 1;
+        it.seconds += best.history.back().seconds;
+        out.result.history.push_back(it);
+      }
+      best = fine;
     }
   }
-  if (!any) throw ComputationError("no design could be evaluated: " + failure);
-  best.result.quantity = design.quantity_name;
-  best.result.starts = finals;
-  best.result.evaluations = evaluations;
-  best.result.seconds = seconds_since(t0);
-  return best;
+  enter(out.result, *best_problem, design, best);
+  out.scene = scene_of(best_problem->current());
+  out.result.quantity = design.quantity_name;
+  out.result.seconds = seconds_since(t0);
+  return out;
 }
 
 void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,

@@ -30,7 +30,7 @@ std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()
 DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                              const DesignSpec& design, unsigned threads, KeepGoing keep_going)
     : scene_(scene), load_(load), clearance_(clearance), limits_(limits), design_(design), threads_(threads),
-      keep_going_(std::move(keep_going)), tasks_(target_tasks(design))
+      keep_going_(std::move(keep_going)), schedule_(design.schedule), tasks_(target_tasks(design))
 {
   for (const DesignVariable& v : design_.variables) {
     lower_.push_back(v.lower);
@@ -119,6 +119,7 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
 
 void DesignProblem::solve_targets(DesignPoint& p)
 {
+  const std::vector<std::optional<State>> warm = current_->warm;
   p.warm.assign(tasks_.size(), std::nullopt);
   std::vector<Locked> locked(tasks_.size());
   std::vector<double> estimate(tasks_.size());
@@ -127,12 +128,13 @@ void DesignProblem::solve_targets(DesignPoint& p)
   parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
     const Vector load = load_vector(p.model, tasks_[k].direction_deg * degree, tasks_[k].sense);
     std::optional<State> start;
-    if (current_->warm.size() == tasks_.size() && current_->warm[k] && &p != current_.get() &&
-        safe_parameter_step(current_->model, p.model, *current_->warm[k], Vector::Zero(p.model.dofs())) >= 1.0) {
-      start = current_->warm[k];
+    const bool same = &p == current_.get();
+    if (warm.size() == tasks_.size() && warm[k] &&
+        (same || safe_parameter_step(current_->model, p.model, *warm[k], Vector::Zero(p.model.dofs())) >= 1.0)) {
+      start = warm[k];
     }
     if (!start) start = perturbed(p.model, p.rest, limits_.perturbation, limits_.seed);
-    locked[k] = lock(p.model, *start, load, limits_.contact, design_.schedule, keep_going_);
+    locked[k] = lock(p.model, *start, load, limits_.contact, schedule_, keep_going_);
     const Locked& l = locked[k];
     if (l.status != LockStatus::locked) return;
     p.warm[k] = l.warm;
@@ -282,6 +284,14 @@ double DesignProblem::largest_safe_step(std::span<const double> x, std::span<con
     }
   }
   return 0.0;
+}
+
+void DesignProblem::set_schedule(const Schedule& schedule)
+{
+  schedule_ = schedule;
+  current_ = last_ = std::make_shared<DesignPoint>(*current_);
+  current_->evaluated = false;
+  current_->why.clear();
 }
 
 void DesignProblem::accept(std::span<const double> x) { current_ = make_point(x); }

@@ -162,7 +162,8 @@ class Checker {
 
     std::vector<std::string> given;
     std::erase_if(node.members, [&](auto& member) {
-      auto& [key, value] = member;
+      const std::string& key = member.first;
+      Node& value = member.second;
       given.push_back(key);
       const auto child =
           std::find_if(children.begin(), children.end(), [&](const Field& f) { return f.name == key; });

@@ -130,6 +130,8 @@ Field design_field()
                   choice("per", "One variable per placed element, per entry of elements, or for all of them.",
                          {"element", "type", "all"}),
                   "\"element\""),
+              with_default(boolean("tied", "Several parameters share one variable instead of having one each."),
+                           "false"),
               required(number("lower", "Lower bound.", "as declared by the shape")),
               required(number("upper", "Upper bound.", "as declared by the shape"))});
   Field target = object(

@@ -37,7 +37,10 @@ class VariablesReader {
     if (parameters->is(Node::Type::string)) {
       read_name(e, *parameters);
     } else {
+      const std::size_t first = variables.size();
       for (const Node& name : parameters->items) read_name(e, name);
+      const Node* tied = entry.find("tied");
+      if (tied != nullptr && tied->boolean) tie(*parameters, first);
     }
   }
 
@@ -54,6 +57,31 @@ class VariablesReader {
   bool scene_complete_;
   Problems& problems_;
   std::map<std::pair<int, int>, const Node*> owner_;  ///< (element, parameter) -> entry that varies it
+
+  /// Joins the variables from `first` on that differ in the parameter's name alone: k/ring.r0=ring.r1.
+  void tie(const Node& names, std::size_t first)
+  {
+    std::vector<ExperimentVariable> joined;
+    for (std::size_t k = first; k < variables.size(); ++k) {
+      const std::string group = variables[k].name.substr(0, variables[k].name.find('/') + 1);
+      const auto same = std::find_if(joined.begin(), joined.end(),
+                                     [&group](const ExperimentVariable& v) { return v.name.starts_with(group); });
+      if (same == joined.end()) {
+        joined.push_back(variables[k]);
+        continue;
+      }
+      if (variables[k].initial != same->initial) {
+        problems_.add(names, "tied parameters must start equal, but " + same->name + " is " +
+                                 format_number(same->initial) + " and " + variables[k].name + " is " +
+                                 format_number(variables[k].initial));
+        return;
+      }
+      same->name += "=" + variables[k].name.substr(group.size());
+      same->parameters.insert(same->parameters.end(), variables[k].parameters.begin(), variables[k].parameters.end());
+    }
+    variables.resize(first);
+    variables.insert(variables.end(), joined.begin(), joined.end());
+  }
 
   void read_name(const Entry& entry, const Node& name)
   {

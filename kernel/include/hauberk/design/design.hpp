@@ -32,7 +32,10 @@ struct DesignSpec {
   int starts = 1;
   double perturbation = 0.02;   ///< standard deviation of the starting designs, relative to upper - lower
   std::uint64_t seed = 1;
-  Schedule schedule;            ///< stages used while designing (few: their bias is reported by recomputing)
+  Schedule schedule;            ///< stages of the final search (few: their bias is reported by recomputing)
+  /// Activation distance that ends the stages of the first search, from every start. Limits at a coarse
+  /// stage are smooth functions of the parameters, on the scale of its gaps, where exact ones have kinks.
+  double coarse_last = 1e-2;
 };
 
 /// What the observer is told. Called from one thread.
@@ -46,10 +49,9 @@ using DesignObserver = std::function<bool(const DesignProgress&)>;
 struct Designed {
   DesignResult result;      ///< all but recomputed values
   SceneSpec scene;          ///< best design with its relaxed rest state
-  std::vector<DesignIterate> best_history;
 };
 
-/// Runs all starts of the design; returns the best by objective. Throws InputError when the initial design is
+/// Runs all starts of the design with coarse stages, then continues the best of them with the final ones. Throws InputError when the initial design is
 /// infeasible at rest, ComputationError when no evaluation succeeds.
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                     const DesignSpec& design, const Optimizer& optimizer, unsigned threads,

@@ -23,6 +23,9 @@ class DesignProblem final : public OptimizationProblem {
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
   void accept(std::span<const double> x) override;
 
+  /// Changes the stages; the current design keeps its rest state and warm starts and is evaluated anew.
+  void set_schedule(const Schedule& schedule);
+
   /// The last accepted design.
   const DesignPoint& current() const { return *current_; }
   /// Variables of the scene as given.
@@ -56,6 +59,7 @@ class DesignProblem final : public OptimizationProblem {
   const DesignSpec& design_;
   unsigned threads_;
   KeepGoing keep_going_;
+  Schedule schedule_;
   std::vector<double> lower_, upper_;
   std::vector<LimitTask> tasks_;
   std::vector<Hole> holes_;

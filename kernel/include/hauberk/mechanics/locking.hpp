@@ -18,7 +18,7 @@ enum class ContactChoice {
 struct Schedule {
   double first = 0.03;
   double ratio = 0.1;
-  double last = 1e-8;
+  double last = 2e-9;
   double change = 3e-4;       ///< `automatic` changes from arc to nearest at this activation distance
   double stiffness = 0.03;    ///< sets gaps at equilibrium to about a tenth of g_hat
   double tolerance = 1e-3;    ///< of a stage, relative to its mu

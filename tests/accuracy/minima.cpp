@@ -137,6 +137,27 @@ void search_surface(const Field& f, int nu, int nv, std::vector<BruteMinimum>& o
   }
 }
 
+/// Rise above `from` on the way of du, v settling at every u; v starts and ends in `w`.
+double walk_valley(const Field& f, const BruteMinimum& from, double du, double& w)
+{
+  constexpr int steps = 64;
+  double valley = from.distance;
+  for (int k = 1; k <= steps; ++k) {
+    const double x = from.u + du * k / steps;
+    for (int it = 0; it < 30 && !f.curve(); ++it) {
+      double gu, gv;
+      const double value = f.value(x, w, gu, gv);
+      const double curvature = std::max(hessian(f, x, w).vv * v_scale(f.P) * v_scale(f.P), 1e-3 * v_scale(f.P));
+      double step = std::clamp(-gv / curvature, -0.1, 0.1);
+      while (std::abs(step) > 1e-12 && f.value(x, w + step) > value) step *= 0.5;
+      w += step;
+      if (std::abs(step) < 1e-9) break;
+    }
+    valley = std::max(valley, f.value(x, w));
+  }
+  return valley - from.distance;
+}
+
 }  // namespace
 
 double Field::value(double u, double v) const
@@ -191,23 +212,16 @@ double climb(const Field& f, const BruteMinimum& from, double u, double v)
     straight = std::max(straight, f.value(from.u + s * du, from.v + s * dv));
   }
   if (f.curve() || straight - from.distance < 1e-10) return straight - from.distance;
-  // Along the valley: v settles at every u.
-  double valley = from.distance, w = from.v;
-  for (int k = 1; k <= steps; ++k) {
-    const double x = from.u + du * k / steps;
-    double gu, gv;
-    for (int it = 0; it < 30; ++it) {
-      const double value = f.value(x, w, gu, gv);
-      const double curvature = std::max(hessian(f, x, w).vv * v_scale(f.P) * v_scale(f.P), 1e-3 * v_scale(f.P));
-      double step = std::clamp(-gv / curvature, -0.1, 0.1);
-      while (std::abs(step) > 1e-12 && f.value(x, w + step) > value) step *= 0.5;
-      w += step;
-      if (std::abs(step) < 1e-9) break;
-    }
-    valley = std::max(valley, f.value(x, w));
-  }
+  double w = from.v;
+  const double valley = walk_valley(f, from, du, w);
   if (std::abs(turn(w - v)) > 1e-3) return straight - from.distance;  // the valley leads elsewhere
-  return std::min(straight, valley) - from.distance;
+  return std::min(straight - from.distance, valley);
+}
+
+double rise_along_valley(const Field& f, const BruteMinimum& from, double reach)
+{
+  double w = from.v, x = from.v;
+  return std::min(walk_valley(f, from, reach, w), walk_valley(f, from, -reach, x));
 }
 
 double lowest_curvature(const Field& f, double u, double v)

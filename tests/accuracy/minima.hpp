@@ -43,6 +43,10 @@ double surface_distance(const Torus& a, const Torus& b, const Sampling& sampling
 /// pairs, with v descending on the way for surfaces. An upper bound of the depth of the minimum.
 double climb(const Field& field, const BruteMinimum& from, double u, double v);
 
+/// How far the distance rises within `reach` radians of u to either side of a minimum when v descends on the
+/// way; the smaller of the two sides. Zero where whole families of points are equally far.
+double rise_along_valley(const Field& field, const BruteMinimum& from, double reach);
+
 /// Smallest eigenvalue of the Hessian in arc lengths, by central differences of the gradient.
 double lowest_curvature(const Field& field, double u, double v);
 

@@ -14,8 +14,8 @@ inline long count(const char* name, long otherwise)
   return text != nullptr ? std::stol(text) : otherwise;
 }
 
-inline long pair_count() { return count("HAUBERK_ACCURACY_PAIRS", 2000); }
-inline long motion_count() { return count("HAUBERK_ACCURACY_MOTIONS", 240); }
+inline long pair_count() { return count("HAUBERK_ACCURACY_PAIRS", 1200); }
+inline long motion_count() { return count("HAUBERK_ACCURACY_MOTIONS", 150); }
 inline long search_starts() { return count("HAUBERK_ACCURACY_STARTS", 1); }
 
 }  // namespace hauberk::brute

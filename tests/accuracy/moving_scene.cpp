@@ -208,11 +208,13 @@ RandomScene random_scene(long k, std::mt19937_64& rng)
     s.elements.push_back({0, values({size}), pose});
   };
   switch ((k / 3) % 4) {
-    case 0:
+    case 0: {
       out.what = "linked pair";
+      const Pose pose = linked_pose(A, B, rng);
       place(A, {});
-      place(B, linked_pose(A, B, rng));
+      place(B, pose);
       break;
+    }
     case 1: {
       out.what = "linked pair and free ring";
       const Pose pose = linked_pose(A, B, rng);

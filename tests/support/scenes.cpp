@@ -118,6 +118,35 @@ SceneSpec chainmail(int m, int n, double tilt_degrees, double r1)
   return s;
 }
 
+SceneSpec threefold_round()
+{
+  constexpr double centre = 4.25, side = 2.575, r = 0.95, a = threefold_spacing;
+  std::vector<Rings::Ring> rings(1);
+  std::vector<double> parameters{centre, r, r};
+  for (const double azimuth : {-90.0, 30.0, 150.0}) {
+    const Vec3 radial(std::cos(azimuth * degree), std::sin(azimuth * degree), 0.0);
+    rings.push_back({(centre + side) * radial, rotation_from_z(Vec3(-radial.y(), radial.x(), 0.0))});
+    parameters.insert(parameters.end(), {side, r, r});
+  }
+  SceneSpec s;
+  s.types.push_back({"threefold", std::make_shared<Rings>(rings)});
+  s.elements.push_back({0, parameters, {Vec3::Zero(), Mat3::Identity()}});
+  s.lattice = {Vec3(a * std::cos(30.0 * degree), 0.5 * a, 0.0), Vec3(0.0, a, 0.0)};
+  return s;
+}
+
+SceneSpec scaled_and_turned(const SceneSpec& scene, double factor, double angle)
+{
+  SceneSpec s = scene;
+  const Mat3 Q = rotation_exp(Vec3(0.0, 0.0, angle));
+  for (PlacedElement& e : s.elements) {
+    for (double& p : e.parameters) p *= factor;
+    e.rest = {factor * (Q * e.rest.position), Q * e.rest.rotation};
+  }
+  for (Vec3& t : s.lattice) t = factor * (Q * t);
+  return s;
+}
+
 Mat3 random_rotation(std::mt19937_64& rng, double largest)
 {
   std::normal_distribution<double> normal;

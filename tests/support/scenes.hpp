@@ -59,6 +59,16 @@ SceneSpec chain(std::array<double, 3> first, std::array<double, 3> second, doubl
 /// Published 4-in-1 chainmail (R 4.9, r 1.15, tilt 36.5 degrees), m x n of its two-ring cell.
 SceneSpec chainmail(int m, int n, double tilt_degrees = 36.5, double r1 = 1.15);
 
+/// Threefold element with round tubes, one per cell: a centre ring (R 4.25) about z and three side rings
+/// (R 2.575) at azimuths -90, 30 and 150 degrees, distance 6.825, whose planes hold the radial direction and
+/// z; all tubes r 0.95; lattice spacing 11.075. Each side ring links with the centre ring of a neighbour.
+/// Parameters: R, r0, r1 of the centre, then of the sides (positions do not follow the radii).
+SceneSpec threefold_round();
+inline constexpr double threefold_spacing = 11.075;
+
+/// The scene with all lengths multiplied by `factor` and turned by `angle` (radians) about z.
+SceneSpec scaled_and_turned(const SceneSpec& scene, double factor, double angle);
+
 /// Rotation with uniform axis and angle up to `largest`.
 Mat3 random_rotation(std::mt19937_64& rng, double largest = std::numbers::pi);
 

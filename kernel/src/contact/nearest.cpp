@@ -100,7 +100,7 @@ class Search {
       if constexpr (dim == 1) {
         if (std::abs(l.gu) > uu * s.hu) return;
         const double third = probe_.Lu * (3.0 * probe_.Lu * probe_.Lu * k * k + 3.0 * probe_.Lu * k + 1.0);
-        if (std::abs(l.huu) > third * s.hu || s.hu < merge_width) {
+        if (std::abs(l.huu) > third * s.hu) {
           bracket(s);
           return;
         }
@@ -108,13 +108,18 @@ class Search {
         const double uv = probe_.Lu * probe_.Lv * k + probe_.Luv;
         const double vv = probe_.Lv * (probe_.Lv * k + 1.0);
         if (std::abs(l.gu) > uu * s.hu + uv * s.hv || std::abs(l.gv) > uv * s.hu + vv * s.hv) return;
-        if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed_width) {
-          descend(s);
-          return;
-        }
       }
     }
-    if (s.hu < 1e-9) return;
+    // Deep inside F, beyond its medial axis, no curvature bound exists: small panels decide by themselves.
+    if constexpr (dim == 1) {
+      if (s.hu < merge_width) {
+        bracket(s);
+        return;
+      }
+    } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed_width) {
+      descend(s);
+      return;
+    }
     Panel first, second;
     split(probe_, s, first, second);
     visit(first);

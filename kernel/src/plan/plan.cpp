@@ -1,4 +1,5 @@
 #include <hauberk/geometry/separation.hpp>
+#include <hauberk/mechanics/gaps.hpp>
 #include <hauberk/plan/plan.hpp>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@ namespace hauberk {
 namespace {
 
 constexpr std::size_t most_tight_pairs = 10;
+constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 
 std::string kind_name(PrimitiveKind k) { return k == PrimitiveKind::circle_tube ? "circle_tube" : "revolved_ellipse"; }
 
@@ -31,6 +33,32 @@ bool spins(const Model& m, std::size_t element)
     if (b.axes.col(2).cross(axis).norm() > 1e-12 || (b.center - first.center).cross(axis).norm() > 1e-12) return false;
   }
   return true;
+}
+
+/// The closest pairs of bodies at rest, each once.
+void list_tightest(Plan& p, const Model& m, const State& rest)
+{
+  for (const Gap& g : find_gaps(m, rest, tight_range, false)) {
+    const Body& A = m.bodies[static_cast<std::size_t>(g.a)];
+    const Body& B = m.bodies[static_cast<std::size_t>(g.b)];
+    TightPair t;
+    t.elements = {A.element, B.element};
+    t.primitives = {A.index, B.index};
+    t.image = g.image;
+    t.distance = (g.gap + m.clearance) * m.length;
+    t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B, image_pose(m, rest, B.element, g.image)) != 0;
+    const auto same = std::find_if(p.tightest.begin(), p.tightest.end(), [&t](const TightPair& o) {
+      return o.elements == t.elements && o.primitives == t.primitives && o.image == t.image;
+    });
+    if (same == p.tightest.end()) {
+      p.tightest.push_back(t);
+    } else {
+      same->distance = std::min(same->distance, t.distance);
+    }
+  }
+  std::stable_sort(p.tightest.begin(), p.tightest.end(),
+                   [](const TightPair& a, const TightPair& b) { return a.distance < b.distance; });
+  if (p.tightest.size() > most_tight_pairs) p.tightest.resize(most_tight_pairs);
 }
 
 void decide(Plan& p, const Model& m, const LimitSettings& settings)
@@ -79,7 +107,6 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
       if (std::abs(pair.image[k]) > std::abs(p.farthest_image[k])) p.farthest_image[k] = pair.image[k];
     }
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-    const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
@@ -90,23 +117,11 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
         k.kinds = x + " / " + y;
         k.distance = reduction(A, B);
         ++k.pairs;
-        const double far = 1.0;
-        const Separation s = separation(A, pi, B, pj, 0.0, far, 0.999);
-        if (s.lower >= far) continue;
-        TightPair t;
-        t.elements = {pair.i, pair.j};
-        t.primitives = {A.index, B.index};
-        t.image = pair.image;
-        t.distance = std::min(s.upper, 1e300) * m.length;
-        t.linked = linking_number(A, pi, B, pj) != 0;
-        p.tightest.push_back(t);
       }
     }
   }
+  list_tightest(p, m, rest);
   for (auto& [name, k] : kinds) p.pairs.push_back(k);
-  std::stable_sort(p.tightest.begin(), p.tightest.end(),
-                   [](const TightPair& a, const TightPair& b) { return a.distance < b.distance; });
-  if (p.tightest.size() > most_tight_pairs) p.tightest.resize(most_tight_pairs);
   decide(p, m, settings);
   for (const LimitTask& t : tasks) {
     const auto decided = decided_by_links(m, t);

@@ -1,4 +1,5 @@
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/separation.hpp>
 #include <hauberk/mechanics/gaps.hpp>
 #include <hauberk/plan/plan.hpp>
 
@@ -25,6 +26,33 @@ std::string where(const Model& m, const Gap& g)
   return text;
 }
 
+/// Pairs so deep in each other that no minimum of the distance is left: their certified bound tells.
+void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
+{
+  const State rest = rest_state(m);
+  for (const ElementPair& pair : near_pairs(m, rest, 0.0)) {
+    const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const bool known = std::any_of(worst.begin(), worst.end(), [&](const Gap& g) {
+          return g.a == a && g.b == b && g.image == pair.image && g.gap + m.clearance < 0.0;
+        });
+        if (known) continue;
+        const Separation s = separation(m.bodies[static_cast<std::size_t>(a)], pi, m.bodies[static_cast<std::size_t>(b)],
+                                        pj, 0.0, touching);
+        if (s.upper >= -touching) continue;
+        Gap g;
+        g.a = a;
+        g.b = b;
+        g.image = pair.image;
+        g.gap = s.upper - m.clearance;
+        worst.push_back(g);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool relax_allowed)
@@ -46,6 +74,7 @@ std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool re
       *same = g;
     }
   }
+  add_deep_overlaps(m, worst);
   for (const Gap& g : worst) {
     if (g.gap >= -touching) continue;
     const double distance = (g.gap + m.clearance) * m.length;

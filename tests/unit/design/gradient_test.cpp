@@ -1,0 +1,112 @@
+/// The design's gradient against re-solved differences at fixed stiffness, and its constraints against
+/// differences of relaxed rest states.
+
+#include <hauberk/design/design_problem.hpp>
+
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hauberk::test {
+namespace {
+
+/// One cell of chainmail whose two rings differ, so that contact forces are unique.
+SceneSpec uneven_chainmail()
+{
+  SceneSpec s = chainmail(1, 1);
+  s.elements[0].parameters = {4.85, 1.10, 1.10};
+  s.elements[1].parameters = {4.80, 1.14, 1.14};
+  s.length = 4.9;
+  return s;
+}
+
+DesignSpec spec()
+{
+  DesignSpec d;
+  for (int k = 0; k < 2; ++k) {
+    d.variables.push_back({std::to_string(k) + "/R", {{k, 0}}, 4.0, 6.0});
+    d.variables.push_back({std::to_string(k) + "/r", {{k, 1}, {k, 2}}, 0.6, 1.4});
+  }
+  d.targets = {{20.0, 0.1, 1.0}, {70.0, 0.3, 2.0}};
+  d.hole_clearance = 0.3;
+  d.rest_clearance = 0.05;
+  d.schedule.first = 0.1;
+  d.schedule.last = 1e-2;
+  d.schedule.tolerance = d.schedule.last_tolerance = 1e-13;
+  return d;
+}
+
+TEST(DesignGradient, ResolvedDifferencesConvergeToIt)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  const DesignSpec design = spec();
+  LimitSettings limits;
+  DesignProblem problem(scene, load, 0.0, limits, design, 1, [] { return true; });
+  const std::vector<double> x = problem.scene_variables();
+  const auto at = problem.evaluate(x, true);
+  ASSERT_TRUE(at.ok) << at.why;
+  problem.accept(x);
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    std::array<double, 2> error{};
+    for (int j = 0; j < 2; ++j) {
+      // Far below the gaps at the last stage (about 1e-3 L = 5e-3 mm).
+      const double h = 4e-4 / (1 << j);
+      std::array<double, 2> f{};
+      for (int side = 0; side < 2; ++side) {
+        std::vector<double> y = x;
+        y[v] += side == 0 ? h : -h;
+        const auto e = problem.evaluate(y, false);
+        ASSERT_TRUE(e.ok) << e.why;
+        f[static_cast<std::size_t>(side)] = e.value;
+      }
+      error[static_cast<std::size_t>(j)] = std::abs((f[0] - f[1]) / (2.0 * h) - at.gradient[v]);
+    }
+    const double scale = std::abs(at.gradient[v]);
+    EXPECT_GT(scale, 1e-4) << "variable " << v;
+    EXPECT_TRUE(error[1] < 2e-6 * scale || error[1] < 0.35 * error[0]) << v << ": " << error[0] << " " << error[1] << " of " << scale;
+    EXPECT_LT(error[1], 1e-3 * scale) << v;
+  }
+}
+
+TEST(DesignGradient, GaussNewtonHessianIsThatOfTheResiduals)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  const DesignSpec design = spec();
+  LimitSettings limits;
+  DesignProblem problem(scene, load, 0.0, limits, design, 2, [] { return true; });
+  const std::vector<double> x = problem.scene_variables();
+  std::vector<double> H(16);
+  EXPECT_FALSE(problem.gauss_newton(x, H)) << "not evaluated yet";
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  ASSERT_TRUE(problem.gauss_newton(x, H));
+  const DesignPoint& p = problem.current();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const double expected = p.value_gradients(0, i) * p.value_gradients(0, j) + 2.0 * p.value_gradients(1, i) * p.value_gradients(1, j);
+      EXPECT_NEAR(H[static_cast<std::size_t>(4 * i + j)], expected, 1e-14);
+    }
+  }
+}
+
+TEST(DesignConstraints, HolesAreThePublishedOnes)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  const DesignSpec design = spec();
+  LimitSettings limits;
+  DesignProblem problem(scene, load, 0.0, limits, design, 1, [] { return true; });
+  const std::vector<double> x = problem.scene_variables();
+  std::vector<double> c(static_cast<std::size_t>(problem.constraint_count())), J(c.size() * x.size());
+  problem.constraints(x, c, J);
+  // First link: ring 0's hole against ring 1's section, R_0 - r0_0 - r_1 - eps, both half-widths equal.
+  EXPECT_NEAR(c[0] * 4.9, 4.85 - 1.10 - 1.14 - 0.3, 1e-12);
+  EXPECT_NEAR(c[1] * 4.9, 4.85 - 1.10 - 1.14 - 0.3, 1e-12);
+  EXPECT_NEAR(J[0] * 4.9, 1.0, 1e-12);
+  EXPECT_NEAR(J[1] * 4.9, -1.0, 1e-12);
+  EXPECT_NEAR(J[3] * 4.9, -1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace hauberk::test

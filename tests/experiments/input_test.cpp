@@ -78,10 +78,9 @@ TEST(BadInput, OverlapAtRest)
 
 TEST(BadInput, CoresThatCrossExactly)
 {
-  expect_refused(
-      "[12, 0]", "[16, 0]",
-      "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) of image [-1, 0] overlap at rest, their "
-      "core circles cross or nearly so; move them apart");
+  expect_refused("[12, 0]", "[16, 0]",
+                 "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) of image [-1, 0] overlap at "
+                 "rest by 1.4; move them apart, make them thinner, or set cell.relax to true");
 }
 
 TEST(BadInput, GapBelowTheClearance)

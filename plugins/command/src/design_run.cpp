@@ -113,41 +113,43 @@ class DesignRun {
     d.objective_initial = sum;
   }
 
-  /// Called with every iterate and its design, before `observe`.
-  void see(const OptimizerIterate& iterate, const DesignPoint& point)
-  {
-    variables_.assign(iterate.x.begin(), iterate.x.end());
-    improves_ = iterate.value < best_ && iterate.constraint_violation <= acceptable_violation;
-    if (!improves_) return;
-    best_ = iterate.value;
-    run_.scene = with_rest(point.spec, point.model, point.rest);
-    DesignResult& d = *run_.design;
-    for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].final = variables_[v];
-    for (std::size_t i = 0; i < d.targets.size() && i < point.values.size(); ++i)
-      d.targets[i].provisional = point.values[i];
-  }
-
+  /// Called with every iterate and its design.
   bool observe(const DesignProgress& p)
   {
-    progress_.design(p, spec_);
-    if (p.start != start_) history_ = resumed_ ? resumed_->history : std::vector<DesignIterate>{};
-    start_ = p.start;
-    history_.push_back(renumbered(*p.iterate));
-    DesignResult& d = *run_.design;
-    if (improves_) {
-      d.history = history_;
-      d.start = p.start;
-      d.iterations = p.iterate->iteration;
+    // Objectives of coarse and final stages cannot be compared: the final search starts a new count.
+    const bool begins = p.iterate->iteration == 0;
+    if (begins && !fine_ && p.start <= start_) {
+      fine_ = true;
+      best_ = std::numeric_limits<double>::infinity();
+      history_ = run_.design->history;
+    } else if (begins) {
+      history_ = resumed_ ? resumed_->history : std::vector<DesignIterate>{};
     }
+    if (begins) first_ = history_.empty() ? 0 : history_.back().iteration + 1;
+    start_ = p.start;
+    progress_.design(p, spec_, fine_);
+    history_.push_back(*p.iterate);
+    history_.back().iteration += first_;
+    keep_best(p);
     output_.write_sometimes(run_);
-    targets_met_ = experiment_.design->tolerance && all_met(*p.iterate);
+    targets_met_ = fine_ && experiment_.design->tolerance && all_met(*p.iterate);
     return !interrupted() && !targets_met_;
   }
 
-  DesignIterate renumbered(DesignIterate it) const
+  /// Enters the iterate into the partial results if it is the best of its search.
+  void keep_best(const DesignProgress& p)
   {
-    if (resumed_ && !resumed_->history.empty()) it.iteration += resumed_->history.back().iteration + 1;
-    return it;
+    const double violation = p.iterate->constraint_violation / loaded_.scene.length;
+    if (point_ == nullptr || !(p.iterate->objective < best_) || violation > acceptable_violation) return;
+    best_ = p.iterate->objective;
+    run_.scene = with_rest(point_->spec, point_->model, point_->rest);
+    DesignResult& d = *run_.design;
+    for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].final = point_->x[v];
+    for (std::size_t i = 0; i < d.targets.size() && i < point_->values.size(); ++i)
+      d.targets[i].provisional = point_->values[i];
+    d.history = history_;
+    d.start = p.start;
+    d.iterations = history_.back().iteration;
   }
 
   bool all_met(const DesignIterate& it) const
@@ -162,14 +164,21 @@ class DesignRun {
   void search()
   {
     const TappedOptimizer optimizer(*experiment_.design->optimizer, experiment_.design->max_iterations,
-                                    [this](const OptimizerIterate& i, const DesignPoint& p) { see(i, p); });
-    Designed designed = run_design(resumed_ ? resumed_->scene : loaded_.scene, *experiment_.load_case,
-                                   experiment_.solver.clearance, loaded_.settings, spec_, optimizer, threads_,
-                                   [this](const DesignProgress& p) { return observe(p); });
+                                    [this](const DesignPoint& p) { point_ = &p; });
+    Designed designed;
+    try {
+      designed = run_design(resumed_ ? resumed_->scene : loaded_.scene, *experiment_.load_case,
+                            experiment_.solver.clearance, loaded_.settings, spec_, optimizer, threads_,
+                            [this](const DesignProgress& p) { return observe(p); });
+    } catch (const SearchInterrupted&) {
+      progress_.clear();
+      return;  // the best so far is in `run_`
+    }
     progress_.clear();
     const DesignResult partial = *run_.design;
     DesignResult& d = run_.design.emplace(std::move(designed.result));
     run_.scene = std::move(designed.scene);
+    run_.scene.length = loaded_.scene.length;  // frozen, also when the search began from a resumed design
     d.initial_scene = loaded_.design_scene;
     d.initial_limits = partial.initial_limits;
     d.objective_initial = partial.objective_initial;
@@ -178,7 +187,11 @@ class DesignRun {
       d.variables[v].initial = partial.variables[v].initial;
     if (resumed_) {
       std::vector<DesignIterate> history = resumed_->history;
-      for (const DesignIterate& it : d.history) history.push_back(renumbered(it));
+      const int first = history.back().iteration + 1;
+      for (DesignIterate& it : d.history) {
+        it.iteration += first;
+        history.push_back(std::move(it));
+      }
       d.history = std::move(history);
     }
     if (interrupted()) {
@@ -224,11 +237,12 @@ class DesignRun {
   RunResult& run_;
   DesignSpec spec_;
 
-  std::vector<double> variables_;
-  std::vector<DesignIterate> history_;
+  const DesignPoint* point_ = nullptr;  ///< of the iterate that is being observed
+  std::vector<DesignIterate> history_;  ///< of the search that runs, with that of the design it continues
+  int first_ = 0;                       ///< number of its first iterate
   int start_ = -1;
+  bool fine_ = false;  ///< the best design is being continued with final stages
   double best_ = std::numeric_limits<double>::infinity();
-  bool improves_ = false;
   bool targets_met_ = false;
 };
 

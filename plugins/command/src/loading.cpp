@@ -14,9 +14,6 @@
 namespace hauberk::command {
 namespace {
 
-/// Of distances, L: what counts as touching at rest.
-constexpr double rounding = 1e-9;
-
 std::string kind_word(PluginKind kind)
 {
   switch (kind) {
@@ -98,23 +95,6 @@ bool prepare_scene(Loaded& loaded, Diagnostics& diagnostics)
          diagnostics.empty();
 }
 
-/// Overlaps that a search for local minima of the distance cannot see: where core circles cross there is
-/// none. The plan's distances are bounds over panels, so they have no such exception.
-void check_crossings(const Loaded& loaded, Diagnostics& diagnostics)
-{
-  const double least = loaded.experiment.solver.clearance - rounding * loaded.plan.length;
-  for (const TightPair& t : loaded.plan.tightest) {
-    if (t.distance >= least) continue;
-    diagnostics.problems.add(
-        nearest_node(loaded.experiment.resolved, "/cell"),
-        fmt::format("element {} (primitive {}) and element {} (primitive {}){} overlap at rest, their core "
-                    "circles cross "
-                    "or nearly so; move them apart",
-                    t.elements[0], t.primitives[0], t.elements[1], t.primitives[1],
-                    t.image == Image{0, 0} ? "" : fmt::format(" of image [{}, {}]", t.image[0], t.image[1])));
-  }
-}
-
 /// A target in a direction that links leave free can never be met.
 void check_targets(const Loaded& loaded, Diagnostics& diagnostics)
 {
@@ -187,8 +167,6 @@ Loaded load(const Options& options)
   }
   loaded.plan =
       make_plan(make_model(loaded.scene, *e.load_case, e.solver.clearance), loaded.tasks, loaded.settings);
-  check_crossings(loaded, diagnostics);
-  stop_on_problems();
   if (loaded.design) prepare_design(loaded, diagnostics);
   stop_on_problems();
   return loaded;

@@ -88,13 +88,14 @@ void Progress::limits(const std::string& label, std::size_t done, std::size_t to
   last_ = now;
 }
 
-void Progress::design(const DesignProgress& progress, const DesignSpec& design)
+void Progress::design(const DesignProgress& progress, const DesignSpec& design, bool final)
 {
   if (mode_ == Mode::quiet) return;
   const DesignIterate& it = *progress.iterate;
   const std::lock_guard lock(mutex_);
-  const std::string head = fmt::format("design: start {}/{}, iteration {}, objective {:.4e}",
-                                       progress.start + 1, progress.starts, it.iteration, it.objective);
+  const std::string head =
+      fmt::format("design: {}start {}/{}, iteration {}, objective {:.4e}", final ? "refining " : "",
+                  progress.start + 1, progress.starts, it.iteration, it.objective);
   if (mode_ == Mode::plain) {
     std::vector<std::string> values;
     for (const double v : it.values) values.push_back(fmt::format("{:.4f}", v));

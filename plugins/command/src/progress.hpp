@@ -28,8 +28,8 @@ class Progress {
   void note(const std::string& text);
   /// Limits done of all.
   void limits(const std::string& label, std::size_t done, std::size_t total);
-  /// An iterate of the design, with the table of its targets.
-  void design(const DesignProgress& progress, const DesignSpec& design);
+  /// An iterate of the design, with the table of its targets; `final`: the best start is being continued.
+  void design(const DesignProgress& progress, const DesignSpec& design, bool final);
   /// Removes the redrawn block.
   void clear();
 

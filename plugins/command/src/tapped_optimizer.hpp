@@ -9,12 +9,15 @@
 
 namespace hauberk::command {
 
-/// Forwards to another optimizer. Before the observer hears of an iterate, `seen` is called with it and with
-/// the design it belongs to; `most_iterations` ends each minimisation early. Not thread safe: for one design
-/// at a time.
+/// Thrown out of a minimisation when the user has interrupted the program.
+struct SearchInterrupted {};
+
+/// Forwards to another optimizer. Before the observer hears of an iterate, `seen` is called with the design
+/// it belongs to; `most_iterations` ends each minimisation early. An interrupt ends it at the next question
+/// to the problem, with SearchInterrupted. Not thread safe: for one design at a time.
 class TappedOptimizer final : public Optimizer {
  public:
-  using Seen = std::function<void(const OptimizerIterate&, const DesignPoint&)>;
+  using Seen = std::function<void(const DesignPoint&)>;
   TappedOptimizer(const Optimizer& inner, std::optional<int> most_iterations, Seen seen)
       : inner_(inner), most_iterations_(most_iterations), seen_(std::move(seen))
   {

@@ -222,6 +222,10 @@ class DesignRun {
         });
     const auto names = experiment_.load_case->sense_names();
     run_.profiles = profiles(run_.limits, names.first, names.second);
+    std::stable_sort(
+        run_.profiles.begin(), run_.profiles.end(), [](const ProfilePoint& a, const ProfilePoint& b) {
+          return a.direction_deg < b.direction_deg;  // limits of targets come first, but a profile is a curve
+        });
     if (interrupted()) return;
     d.status = status;
     d.message = message;

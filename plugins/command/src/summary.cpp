@@ -46,13 +46,12 @@ std::string limits_table(const Loaded& loaded, const RunResult& run)
   return text;
 }
 
-std::string design_table(const DesignResult& d)
+std::string design_table(const DesignResult& d, int starts)
 {
   std::string text = fmt::format("Design of {}: {}", d.quantity, d.status);
   if (!d.message.empty()) text += " (" + d.message + ")";
   text += fmt::format("\nobjective {:.4e} -> {:.4e}, {} iterations, {:.1f} s, start {} of {}\n",
-                      d.objective_initial, d.objective, d.iterations, d.seconds, d.start + 1,
-                      std::max<std::size_t>(1, d.starts.size()));
+                      d.objective_initial, d.objective, d.iterations, d.seconds, d.start + 1, starts);
   text += fmt::format("{:>10} {:>10} {:>10} {:>12} {:>11}  {}\n", "direction", "target", "initial",
                       "provisional", "recomputed", "met");
   std::size_t met = 0;
@@ -86,7 +85,7 @@ std::string summary(const Loaded& loaded, const RunResult& run)
     text +=
         fmt::format("The rest state touches itself and was relaxed: elements moved by up to {:.3g} {}.\n\n",
                     loaded.moved, loaded.experiment.length_unit);
-  if (run.design) text += design_table(*run.design) + "\n";
+  if (run.design) text += design_table(*run.design, loaded.design->starts) + "\n";
   if (!run.profiles.empty()) text += limits_table(loaded, run);
   return text + remarks(run);
 }

@@ -56,7 +56,8 @@ BruteMinimum descend(const Field& f, double u, double v)
     const double x = gu / su, y = gv / sv, size = std::hypot(x, y);
     if (size < 1e-13) break;
     const Hessian H = hessian(f, u, v);
-    const double low = lowest(H), shift = std::max(0.0, 1e-2 - low) * (low < 1e-9 ? 1.0 : 0.0);
+    // Along negative curvature the Newton step is turned round, so that level valleys are left quickly.
+    const double low = lowest(H), shift = low < 1e-9 ? 1e-8 - 2.0 * std::min(low, 0.0) : 0.0;
     const double a = H.uu + shift, c = H.vv + shift, det = a * c - H.uv * H.uv;
     double dx = -(c * x - H.uv * y) / det, dy = -(a * y - H.uv * x) / det;
     const double longest = 0.05 * std::min(f.P.R, f.F.R), length = std::hypot(dx, dy);
@@ -118,6 +119,9 @@ void search_surface(const Field& f, int nu, int nv, std::vector<BruteMinimum>& o
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) at(i, j) = f.value(2.0 * pi * i / nu, 2.0 * pi * j / nv);
   }
+  const auto k = std::min_element(value.begin(), value.end()) - value.begin();
+  BruteMinimum deepest{2.0 * pi * static_cast<double>(k / nv) / nu, 2.0 * pi * static_cast<double>(k % nv) / nv,
+                       value[static_cast<std::size_t>(k)]};
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) {
       bool low = true;
@@ -126,15 +130,12 @@ void search_surface(const Field& f, int nu, int nv, std::vector<BruteMinimum>& o
       }
       if (!low) continue;
       const BruteMinimum m = descend(f, 2.0 * pi * i / nu, 2.0 * pi * j / nv);
+      if (m.distance < deepest.distance) deepest = m;
       if (lowest(hessian(f, m.u, m.v)) > -1e-6) insert(out, f.P, m);
     }
   }
-  const auto lowest_sample = std::min_element(value.begin(), value.end());
-  const bool overlap = *lowest_sample <= 0.0;  // inside, distances have ridges and descent may fail
-  if (out.empty() || overlap) {                // empty: level along a valley
-    const auto k = lowest_sample - value.begin();
-    out.push_back(descend(f, 2.0 * pi * static_cast<double>(k / nv) / nu, 2.0 * pi * static_cast<double>(k % nv) / nv));
-  }
+  // The deepest place counts even if descent did not arrive: inside F distances have ridges.
+  insert(out, f.P, deepest);
 }
 
 /// Rise above `from` on the way of du, v settling at every u; v starts and ends in `w`.
@@ -200,6 +201,11 @@ double surface_distance(const Torus& a, const Torus& b, const Sampling& sampling
 {
   const bool probe_a = a.round() != b.round() ? a.round() : a.R <= b.R;
   return (probe_a ? all_minima(a, b, sampling) : all_minima(b, a, sampling)).front().distance;
+}
+
+double solid_distance(const Torus& a, const Torus& b)
+{
+  return std::min(all_minima(a, b).front().distance, all_minima(b, a).front().distance);
 }
 
 double climb(const Field& f, const BruteMinimum& from, double u, double v)

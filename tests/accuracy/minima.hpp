@@ -39,6 +39,9 @@ std::vector<BruteMinimum> all_minima(const Torus& P, const Torus& F, const Sampl
 /// Smallest distance between the surfaces; probes whichever of the two is cheaper. Negative if they overlap.
 double surface_distance(const Torus& a, const Torus& b, const Sampling& sampling = {});
 
+/// The same, probing both: also negative where one tube lies wholly inside the other.
+double solid_distance(const Torus& a, const Torus& b);
+
 /// How far one has to rise from `from` on the way to (u, v): along the straight line between the two angle
 /// pairs, with v descending on the way for surfaces. An upper bound of the depth of the minimum.
 double climb(const Field& field, const BruteMinimum& from, double u, double v);

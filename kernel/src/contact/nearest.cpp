@@ -13,6 +13,11 @@ constexpr double merge_width = 1e-4;  // radians
 
 /// Half-width from which a Newton iteration decides what a surface panel holds.
 constexpr double seed_width = 0.06;  // L
+/// ... and part of the field's smallest radius of curvature there.
+constexpr double seed_share = 0.5;
+
+/// Scaled curvature below which Newton's Hessian is shifted.
+constexpr double least_curvature = 1e-9;
 
 /// Minima closer than this are the same one found from two panels.
 constexpr double same_minimum = 1e-5;  // radians
@@ -116,7 +121,8 @@ class Search {
         bracket(s);
         return;
       }
-    } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed_width) {
+    } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) <
+               std::min(seed_width, seed_share * (rf_ + std::max(0.0, l.f.m.phi)))) {
       descend(s);
       return;
     }
@@ -149,11 +155,11 @@ class Search {
     if (l.f.m.phi < threshold_) insert(out_, {u, 0.0, l.f.m.phi - probe_.offset});
   }
 
-  /// Dimension 2: Newton from the centre; accepts a minimum that is not far from the panel.
+  /// Dimension 2: Newton from the centre; wherever it ends, a minimum is a minimum.
   void descend(const Panel& s)
   {
     double u = s.u, v = s.v;
-    const double far = 3.0;
+    const double longest = 2.0 * std::max(probe_.Lu * s.hu, probe_.Lv * s.hv);
     Local l = local_at(probe_, u, v);
     for (int it = 0; it < 40; ++it) {
       ++evaluations_;
@@ -161,19 +167,18 @@ class Search {
       const double su = probe_.Lu, sv = probe_.Lv;  // scaled coordinates
       const double a = l.huu / (su * su), b = l.huv / (su * sv), c = l.hvv / (sv * sv);
       const double mean = 0.5 * (a + c), dev = std::hypot(0.5 * (a - c), b);
-      const double shift = std::max(0.0, 1e-3 - (mean - dev));
+      const double shift = mean - dev > least_curvature ? 0.0 : 1e-3 - (mean - dev);
       const double A = a + shift, C = c + shift, det = A * C - b * b;
       const double gx = l.gu / su, gy = l.gv / sv;
       double dx = -(C * gx - b * gy) / det, dy = -(A * gy - b * gx) / det;
       const double size = std::hypot(dx, dy);
-      if (size > 2.0 * seed_width) {
-        dx *= 2.0 * seed_width / size;
-        dy *= 2.0 * seed_width / size;
+      if (size > longest) {
+        dx *= longest / size;
+        dy *= longest / size;
       }
       u += dx / su;
       v += dy / sv;
       l = local_at(probe_, u, v);
-      if (std::abs(u - s.u) > far * s.hu + 0.05 || std::abs(v - s.v) > far * s.hv + 0.05) return;
       if (std::hypot(dx, dy) < 1e-12) {
         const bool minimum = mean - dev > 0.0;
         if (minimum && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});

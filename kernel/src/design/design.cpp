@@ -204,6 +204,9 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
         out.result.history.push_back(it);
       }
       best = fine;
+    } else {
+      best.found.status = "failed";
+      best.found.message = "the search with the final stages could not start: " + fine.found.message;
     }
   }
   enter(out.result, *best_problem, design, best);

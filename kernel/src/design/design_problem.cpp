@@ -17,6 +17,7 @@ constexpr double constrained_range = 0.3;
 /// Gaps within this of the required clearance respond together when parameters change (L).
 constexpr double response_range = 0.03;
 constexpr double smallest_share = 1e-3;
+constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;
 constexpr int projection_sweeps = 200;
@@ -133,8 +134,13 @@ void DesignProblem::solve_targets(DesignPoint& p)
         (same || safe_parameter_step(current_->model, p.model, *warm[k], Vector::Zero(p.model.dofs())) >= 1.0)) {
       start = warm[k];
     }
-    if (!start) start = perturbed(p.model, p.rest, limits_.perturbation, limits_.seed);
-    locked[k] = lock(p.model, *start, load, limits_.contact, schedule_, keep_going_);
+    if (start) locked[k] = lock(p.model, *start, load, limits_.contact, schedule_, keep_going_);
+    // From rest where no warm start is safe or it leads nowhere.
+    for (int attempt = 0; attempt < attempts_from_rest && locked[k].status == LockStatus::stalled; ++attempt) {
+      const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
+      const State rest = perturbed(p.model, p.rest, limits_.perturbation, seed);
+      locked[k] = lock(p.model, rest, load, limits_.contact, schedule_, keep_going_);
+    }
     const Locked& l = locked[k];
     if (l.status != LockStatus::locked) return;
     p.warm[k] = l.warm;

@@ -15,6 +15,9 @@ constexpr double smallest_radius = 1e-13;
 constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
 constexpr double keep_gap = 0.1;        ///< a step may use up this much less than all of any gap
 constexpr double noise = 1e-15;         ///< relative rounding of energies
+/// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
+/// error); decreases below fifty times this are judged by the gradient.
+constexpr double quadrature_noise = 1e-9;
 
 /// Shift that null directions carry, relative to the largest scaled diagonal of the Hessian (rounding) and
 /// to the load (curvatures below it do not matter).
@@ -74,14 +77,20 @@ class Newton {
       const double predicted = alpha > 0.0 ? -(alpha * gs + 0.5 * alpha * alpha * step.dy.dot(now.hessian * step.dy)) : 0.0;
       const double actual = now.energy - next.energy;
       const double length = step_norm(m_, step.dy);
-      const double rounding = noise * (std::abs(now.energy) + 1.0);
+      double rounding = noise * (std::abs(now.energy) + 1.0);
+      if (stage_.contact.formulation == Formulation::arc) {
+        rounding += quadrature_noise * stage_.mu * now.contact.energy;
+      }
       // Below the rounding of the energy the gradient decides.
       const bool tiny = std::abs(predicted) < 50.0 * rounding;
       const bool better = alpha > 0.0 && next.admissible &&
                           (tiny ? dual_norm(next.gradient) < dual_norm(now.gradient)
                                 : actual > 1e-3 * std::max(predicted, 0.0));
       if (!better) {
-        if (tiny && next.admissible && !step.shifted) return finish(now, StageStatus::minimum, "");
+        // Nothing more can be gained above rounding: a minimum unless the curvature says otherwise.
+        if (tiny && next.admissible && (!step.shifted || !saddle_step(now, radius, step))) {
+          return finish(now, StageStatus::minimum, "");
+        }
         ++rejected;
         radius = 0.25 * std::min(radius, std::max(alpha, 1e-3) * length);
         if (radius < smallest_radius) {

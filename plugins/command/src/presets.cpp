@@ -62,6 +62,8 @@ Schedule design_schedule()
   schedule.first = 0.1;
   schedule.ratio = 0.1;
   schedule.last = 1e-4;
+  // Leaves forces, and so gradients, accurate to about a thousandth.
+  schedule.last_tolerance = 1e-6;
   return schedule;
 }
 

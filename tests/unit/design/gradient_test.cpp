@@ -51,7 +51,7 @@ TEST(DesignGradient, ResolvedDifferencesConvergeToIt)
     std::array<double, 2> error{};
     for (int j = 0; j < 2; ++j) {
       // Far below the gaps at the last stage (about 1e-3 L = 5e-3 mm).
-      const double h = 4e-4 / (1 << j);
+      const double h = 1.6e-3 / (1 << j);
       std::array<double, 2> f{};
       for (int side = 0; side < 2; ++side) {
         std::vector<double> y = x;
@@ -64,7 +64,9 @@ TEST(DesignGradient, ResolvedDifferencesConvergeToIt)
     }
     const double scale = std::abs(at.gradient[v]);
     EXPECT_GT(scale, 1e-4) << "variable " << v;
-    EXPECT_TRUE(error[1] < 2e-6 * scale || error[1] < 0.35 * error[0]) << v << ": " << error[0] << " " << error[1] << " of " << scale;
+    // Solved limits carry noise of about 3e-9, which differences divide by 2 h.
+    const double noise = 3e-9 / 1.6e-3;
+    EXPECT_TRUE(error[1] < 3.0 * noise || error[1] < 0.35 * error[0]) << v << ": " << error[0] << " " << error[1] << " of " << scale;
     EXPECT_LT(error[1], 1e-3 * scale) << v;
   }
 }

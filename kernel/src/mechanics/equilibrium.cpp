@@ -18,6 +18,8 @@ constexpr double noise = 1e-15;         ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
 constexpr double quadrature_noise = 1e-9;
+/// There, steps that shrink the gradient by less than this only stir the rounding.
+constexpr double worthwhile = 0.7;
 
 /// Shift that null directions carry, relative to the largest scaled diagonal of the Hessian (rounding) and
 /// to the load (curvatures below it do not matter).
@@ -84,7 +86,7 @@ class Newton {
       // Below the rounding of the energy the gradient decides.
       const bool tiny = std::abs(predicted) < 50.0 * rounding;
       const bool better = alpha > 0.0 && next.admissible &&
-                          (tiny ? dual_norm(next.gradient) < dual_norm(now.gradient)
+                          (tiny ? dual_norm(next.gradient) < worthwhile * dual_norm(now.gradient)
                                 : actual > 1e-3 * std::max(predicted, 0.0));
       if (!better) {
         // Nothing more can be gained above rounding: a minimum unless the curvature says otherwise.

@@ -32,8 +32,9 @@ void expect_formula(const std::vector<std::pair<Size, Size>>& chains)
       const LimitResult r = limit(scene, 0.0, Sense::positive, fast ? fast_settings() : LimitSettings{});
       ASSERT_EQ(r.status, LimitStatus::locked) << r.message;
       const double error = (1.0 + *r.value) / exact - 1.0;
-      fmt::print("chain ({}, {}, {}) ({}, {}, {}) {}: 1 + value {:.12f}, exact {:.12f}, relative error {:.1e}\n", a[0], a[1],
-                 a[2], b[0], b[1], b[2], fast ? "fast" : "accurate", 1.0 + *r.value, exact, error);
+      fmt::print(
+          "chain ({}, {}, {}) ({}, {}, {}) {}: 1 + value {:.12f}, exact {:.12f}, relative error {:.1e}\n",
+          a[0], a[1], a[2], b[0], b[1], b[2], fast ? "fast" : "accurate", 1.0 + *r.value, exact, error);
       EXPECT_NEAR(error, 0.0, fast ? 1e-3 : 1e-8);
       EXPECT_TRUE(r.links_kept);
     }
@@ -86,9 +87,10 @@ TEST(Chain, TallTubesLockWhereAnIndependentSearchEnds)
     ASSERT_EQ(r.status, LimitStatus::locked) << r.message;
     const double locked = (1.0 + *r.value) * scene.lattice[0].x();
     const double searched = longest_period(ring(a), ring(b), static_cast<int>(starts));
-    fmt::print("tall chain ({}, {}, {}) ({}, {}, {}): locked period {:.8f}, searched {:.8f} ({} starts), difference "
-               "{:.1e}; formula {:.4f}\n",
-               a[0], a[1], a[2], b[0], b[1], b[2], locked, searched, starts, locked / searched - 1.0, formula(a, b));
+    fmt::print(
+        "tall chain ({}, {}, {}) ({}, {}, {}): locked period {:.8f}, searched {:.8f} ({} starts), difference "
+        "{:.1e}; formula {:.4f}\n",
+        a[0], a[1], a[2], b[0], b[1], b[2], locked, searched, starts, locked / searched - 1.0, formula(a, b));
     EXPECT_LT(locked, formula(a, b) * (1.0 - 1e-4));
     EXPECT_GT(locked, searched * (1.0 - 1e-5));
     EXPECT_NEAR(locked / searched, 1.0, starts > 1 ? 2e-5 : 1e-3);

@@ -12,7 +12,8 @@ std::vector<LimitTask> tasks(double turned_by)
 {
   std::vector<LimitTask> list;
   for (const double direction : {0.0, 30.0, 60.0, 90.0}) {
-    for (const Sense sense : {Sense::positive, Sense::negative}) list.push_back({direction + turned_by, sense});
+    for (const Sense sense : {Sense::positive, Sense::negative})
+      list.push_back({direction + turned_by, sense});
   }
   return list;
 }
@@ -27,17 +28,20 @@ TEST(Invariance, UnitsAndTurnsLeaveTheStrains)
       ASSERT_EQ(base[k].status, LimitStatus::locked) << base[k].message;
       ASSERT_EQ(r[k].status, LimitStatus::locked) << what << ": " << r[k].message;
       worst = std::max(worst, std::abs(*r[k].value - *base[k].value));
-      EXPECT_NEAR(*r[k].value, *base[k].value, 1e-9) << what << ", direction " << base[k].direction_deg << ' ' << base[k].sense;
+      EXPECT_NEAR(*r[k].value, *base[k].value, 1e-9)
+          << what << ", direction " << base[k].direction_deg << ' ' << base[k].sense;
     }
   };
   for (const double unit : {1e-3, 1e3}) {  // the scene is in mm: m, um
-    compare(limits(test::scaled_and_turned(scene, unit, 0.0), tasks(0.0)), fmt::format("unit {}", unit), unit_worst);
+    compare(limits(test::scaled_and_turned(scene, unit, 0.0), tasks(0.0)), fmt::format("unit {}", unit),
+            unit_worst);
   }
   for (const double angle : {17.0, 45.0, 101.3}) {
-    compare(limits(test::scaled_and_turned(scene, 1.0, angle * degree), tasks(angle)), fmt::format("turned by {}", angle),
-            turn_worst);
+    compare(limits(test::scaled_and_turned(scene, 1.0, angle * degree), tasks(angle)),
+            fmt::format("turned by {}", angle), turn_worst);
   }
-  fmt::print("chainmail, 8 limits: largest difference between units {:.1e}, between frames {:.1e}\n", unit_worst, turn_worst);
+  fmt::print("chainmail, 8 limits: largest difference between units {:.1e}, between frames {:.1e}\n",
+             unit_worst, turn_worst);
 }
 
 TEST(Invariance, ThreadsChangeNoBit)
@@ -62,7 +66,8 @@ TEST(Invariance, ThreadsChangeNoBit)
         EXPECT_EQ(many[k].contacts[c].force, one[k].contacts[c].force);
       }
       ASSERT_EQ(many[k].starts.size(), one[k].starts.size());
-      for (std::size_t c = 0; c < one[k].starts.size(); ++c) EXPECT_EQ(many[k].starts[c].value, one[k].starts[c].value);
+      for (std::size_t c = 0; c < one[k].starts.size(); ++c)
+        EXPECT_EQ(many[k].starts[c].value, one[k].starts[c].value);
     }
   }
 }

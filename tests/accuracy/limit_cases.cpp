@@ -10,7 +10,8 @@ std::vector<LimitResult> limits(const SceneSpec& scene, const std::vector<LimitT
   return compute_limits(m, scene, tasks, settings, threads, [](std::size_t, std::size_t) { return true; });
 }
 
-LimitResult limit(const SceneSpec& scene, double direction, Sense sense, const LimitSettings& settings, double clearance)
+LimitResult limit(const SceneSpec& scene, double direction, Sense sense, const LimitSettings& settings,
+                  double clearance)
 {
   return limits(scene, {{direction, sense}}, settings, clearance).front();
 }

@@ -9,7 +9,8 @@ namespace hauberk::brute {
 
 /// Limits of a scene under `Sheet`; positive senses where not said otherwise.
 std::vector<LimitResult> limits(const SceneSpec& scene, const std::vector<LimitTask>& tasks,
-                                const LimitSettings& settings = {}, double clearance = 0.0, unsigned threads = 1);
+                                const LimitSettings& settings = {}, double clearance = 0.0,
+                                unsigned threads = 1);
 
 /// One limit.
 LimitResult limit(const SceneSpec& scene, double direction, Sense sense, const LimitSettings& settings = {},

@@ -25,11 +25,12 @@ struct Tally {
   Sample evaluations;
   void print(const char* what)
   {
-    fmt::print("{}: {} pairs, {} isolated minima; missed {}, spurious {}, twice {}, wrong distance {}\n"
-               "    left out: {} merging with a neighbour, {} in level families, {} on the other's axis\n"
-               "    most reported for a pair {}; evaluations {}\n",
-               what, pairs, minima, missed, spurious, twice, wrong_distance, merged, level, on_axis, most,
-               evaluations.summary());
+    fmt::print(
+        "{}: {} pairs, {} isolated minima; missed {}, spurious {}, twice {}, wrong distance {}\n"
+        "    left out: {} merging with a neighbour, {} in level families, {} on the other's axis\n"
+        "    most reported for a pair {}; evaluations {}\n",
+        what, pairs, minima, missed, spurious, twice, wrong_distance, merged, level, on_axis, most,
+        evaluations.summary());
   }
   void expect_perfect() const
   {
@@ -57,7 +58,8 @@ std::vector<Minimum> kernel_minima(const Torus& P, const Torus& F, double thresh
 {
   const Body p = kernel_body(P), f = kernel_body(F);
   const PairFrame frame(p, kernel_pose(P), f, kernel_pose(F));
-  return P.round() ? local_minima<1>(frame, threshold, evaluations) : local_minima<2>(frame, threshold, evaluations);
+  return P.round() ? local_minima<1>(frame, threshold, evaluations)
+                   : local_minima<2>(frame, threshold, evaluations);
 }
 
 void compare(const Torus& P, const Torus& F, const std::vector<BruteMinimum>& brute,
@@ -84,7 +86,8 @@ void compare(const Torus& P, const Torus& F, const std::vector<BruteMinimum>& br
     }
     for (std::size_t k = 0; !hit && !merged && k < brute.size(); ++k) {
       // Two of brute force's own that merge: either may be reported, or none when a whole family lies level.
-      if (!near(b.u, b.v, brute[k].u, brute[k].v)) merged = climb(field, b, brute[k].u, brute[k].v) < merge_depth;
+      if (!near(b.u, b.v, brute[k].u, brute[k].v))
+        merged = climb(field, b, brute[k].u, brute[k].v) < merge_depth;
     }
     if (merged) {
       ++tally.merged;
@@ -96,8 +99,8 @@ void compare(const Torus& P, const Torus& F, const std::vector<BruteMinimum>& br
       ++tally.minima;
       if (hit) continue;
       ++tally.missed;
-      fmt::print("{}: missed u {:.9f} v {:.9f} distance {:.12g} (threshold {:.3g}), curvature {:.3g}\n",
-                 what, b.u, b.v, b.distance, threshold, lowest_curvature(field, b.u, b.v));
+      fmt::print("{}: missed u {:.9f} v {:.9f} distance {:.12g} (threshold {:.3g}), curvature {:.3g}\n", what,
+                 b.u, b.v, b.distance, threshold, lowest_curvature(field, b.u, b.v));
     }
   }
   tally.most = std::max(tally.most, found.size());
@@ -113,13 +116,14 @@ void compare(const Torus& P, const Torus& F, const std::vector<BruteMinimum>& br
     }
     if (slope > 1e-7 || low < -1e-5 || std::abs(d - m.distance) > 1e-10) {
       ++tally.spurious;
-      ADD_FAILURE() << fmt::format("{}: reported u {:.9f} v {:.9f} distance {:.12g}: slope {:.2e}, curvature {:.2e}, "
-                                   "own distance {:.12g}",
-                                   what, m.u, m.v, m.distance, slope, low, d);
+      ADD_FAILURE() << fmt::format(
+          "{}: reported u {:.9f} v {:.9f} distance {:.12g}: slope {:.2e}, curvature {:.2e}, "
+          "own distance {:.12g}",
+          what, m.u, m.v, m.distance, slope, low, d);
     }
     for (std::size_t j = 0; j < k; ++j) {
-      if (near(m.u, m.v, found[j].u, found[j].v) && climb(field, {m.u, m.v, m.distance}, found[j].u, found[j].v) < 1e-15 &&
-          low > 1e-3) {
+      if (near(m.u, m.v, found[j].u, found[j].v) &&
+          climb(field, {m.u, m.v, m.distance}, found[j].u, found[j].v) < 1e-15 && low > 1e-3) {
         ++tally.twice;
         ADD_FAILURE() << what << ": reported twice, u " << m.u << " v " << m.v;
       }
@@ -143,7 +147,8 @@ TEST(LocalMinima, NoneMissedNoneSpurious)
     const bool swap = !pair.a.round() && pair.b.round();
     const Torus &P = swap ? pair.b : pair.a, &F = swap ? pair.a : pair.b;
     const std::vector<BruteMinimum> brute = all_minima(P, F);
-    if (brute.front().distance <= 0.0 || (!P.round() && all_minima(F, P, {2048, 128, 48}).front().distance <= 0.0)) {
+    if (brute.front().distance <= 0.0 ||
+        (!P.round() && all_minima(F, P, {2048, 128, 48}).front().distance <= 0.0)) {
       ++overlapping;
       continue;
     }

@@ -120,8 +120,8 @@ void search_surface(const Field& f, int nu, int nv, std::vector<BruteMinimum>& o
     for (int j = 0; j < nv; ++j) at(i, j) = f.value(2.0 * pi * i / nu, 2.0 * pi * j / nv);
   }
   const auto k = std::min_element(value.begin(), value.end()) - value.begin();
-  BruteMinimum deepest{2.0 * pi * static_cast<double>(k / nv) / nu, 2.0 * pi * static_cast<double>(k % nv) / nv,
-                       value[static_cast<std::size_t>(k)]};
+  BruteMinimum deepest{2.0 * pi * static_cast<double>(k / nv) / nu,
+                       2.0 * pi * static_cast<double>(k % nv) / nv, value[static_cast<std::size_t>(k)]};
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) {
       bool low = true;
@@ -148,7 +148,8 @@ double walk_valley(const Field& f, const BruteMinimum& from, double du, double& 
     for (int it = 0; it < 30 && !f.curve(); ++it) {
       double gu, gv;
       const double value = f.value(x, w, gu, gv);
-      const double curvature = std::max(hessian(f, x, w).vv * v_scale(f.P) * v_scale(f.P), 1e-3 * v_scale(f.P));
+      const double curvature =
+          std::max(hessian(f, x, w).vv * v_scale(f.P) * v_scale(f.P), 1e-3 * v_scale(f.P));
       double step = std::clamp(-gv / curvature, -0.1, 0.1);
       while (std::abs(step) > 1e-12 && f.value(x, w + step) > value) step *= 0.5;
       w += step;

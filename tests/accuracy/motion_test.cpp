@@ -44,11 +44,12 @@ struct Tally {
 
   void print(const char* what)
   {
-    fmt::print("{}: {} motions, {} of them through something; collisions missed {}, links changed {}\n"
-               "  alpha / time of contact        {}\n  alpha / time a gap falls to {:.2g}  {}\n"
-               "  no gap falls that far: {} whole steps, {} cut; alpha = 0: {}\n  evaluations  {}\n",
-               what, motions, touching, missed, links, to_contact.summary(), keep, to_near.summary(), whole,
-               short_steps, none, evaluations.summary());
+    fmt::print(
+        "{}: {} motions, {} of them through something; collisions missed {}, links changed {}\n"
+        "  alpha / time of contact        {}\n  alpha / time a gap falls to {:.2g}  {}\n"
+        "  no gap falls that far: {} whole steps, {} cut; alpha = 0: {}\n  evaluations  {}\n",
+        what, motions, touching, missed, links, to_contact.summary(), keep, to_near.summary(), whole,
+        short_steps, none, evaluations.summary());
   }
 };
 

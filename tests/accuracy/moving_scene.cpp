@@ -57,7 +57,8 @@ Pose linked_pose(std::array<double, 3>& first, std::array<double, 3>& second, st
 
 class Watcher {
  public:
-  Watcher(const Model& m, const TorusAt& at, double keep, double until) : m_(m), at_(at), keep_(keep), until_(until)
+  Watcher(const Model& m, const TorusAt& at, double keep, double until)
+      : m_(m), at_(at), keep_(keep), until_(until)
   {
     out_.smallest = 1e300;
   }
@@ -70,7 +71,8 @@ class Watcher {
       for (int b = a; b < n; ++b) {
         for (int i = -range; i <= range; ++i) {
           for (int j = -range; j <= range; ++j) {
-            const bool same = m_.bodies[static_cast<std::size_t>(a)].element == m_.bodies[static_cast<std::size_t>(b)].element;
+            const bool same = m_.bodies[static_cast<std::size_t>(a)].element ==
+                              m_.bodies[static_cast<std::size_t>(b)].element;
             if (same && i == 0 && j == 0) continue;
             if (a == b && (i < 0 || (i == 0 && j < 0))) continue;
             pair(a, b, {i, j});
@@ -95,13 +97,14 @@ class Watcher {
     constexpr int intervals = 64;
     Torus pa = at_(a, {0, 0}, 0.0), pb = at_(b, image, 0.0);
     for (int k = 1; k <= intervals; ++k) {
-      const Torus qa = at_(a, {0, 0}, static_cast<double>(k) / intervals), qb = at_(b, image, static_cast<double>(k) / intervals);
+      const Torus qa = at_(a, {0, 0}, static_cast<double>(k) / intervals),
+                  qb = at_(b, image, static_cast<double>(k) / intervals);
       const auto turn = [](const Torus& p, const Torus& q) { return (p.axes - q.axes).norm() * q.bound(); };
       const auto grow = [](const Torus& p, const Torus& q) {
         return std::abs(p.R - q.R) + std::max(std::abs(p.r0 - q.r0), std::abs(p.r1 - q.r1));
       };
-      const double step = ((qa.center - qb.center) - (pa.center - pb.center)).norm() + turn(pa, qa) + turn(pb, qb) +
-                          grow(pa, qa) + grow(pb, qb);
+      const double step = ((qa.center - qb.center) - (pa.center - pb.center)).norm() + turn(pa, qa) +
+                          turn(pb, qb) + grow(pa, qa) + grow(pb, qb);
       speed = std::max(speed, step * intervals);
       closest = std::min({closest, (pa.center - pb.center).norm() - pa.bound() - pb.bound() - step,
                           (qa.center - qb.center).norm() - qa.bound() - qb.bound() - step});
@@ -242,15 +245,18 @@ RandomScene random_scene(long k, std::mt19937_64& rng)
       for (;;) {
         const Pose pose = linked_pose(A, B, rng);
         const auto second = [&](const std::array<double, 3>& size, const Pose& p) {
-          return torus({0.5 * size[0], 0.5 * size[1], 0.5 * size[2]}, p.position + p.rotation * extra.position,
-                       p.rotation * extra.rotation);
+          return torus({0.5 * size[0], 0.5 * size[1], 0.5 * size[2]},
+                       p.position + p.rotation * extra.position, p.rotation * extra.rotation);
         };
-        const Torus a0 = torus(A, Vec3::Zero(), Mat3::Identity()), a1 = second(A, {}), b0 = torus(B, pose.position, pose.rotation),
-                    b1 = second(B, pose);
-        if (std::min({surface_distance(a0, b1, quick), surface_distance(a1, b0, quick), surface_distance(a1, b1, quick)}) < 0.01) {
+        const Torus a0 = torus(A, Vec3::Zero(), Mat3::Identity()), a1 = second(A, {}),
+                    b0 = torus(B, pose.position, pose.rotation), b1 = second(B, pose);
+        if (std::min({surface_distance(a0, b1, quick), surface_distance(a1, b0, quick),
+                      surface_distance(a1, b1, quick)}) < 0.01) {
           continue;
         }
-        const auto half = [](const std::array<double, 3>& x) { return std::array<double, 3>{0.5 * x[0], 0.5 * x[1], 0.5 * x[2]}; };
+        const auto half = [](const std::array<double, 3>& x) {
+          return std::array<double, 3>{0.5 * x[0], 0.5 * x[1], 0.5 * x[2]};
+        };
         s.elements.push_back({0, values({A, half(A)}), {}});
         s.elements.push_back({0, values({B, half(B)}), pose});
         break;

@@ -38,7 +38,9 @@ double sampled_distance(const Torus& a, const Torus& b)
         at = j;
       }
     }
-    starts.push_back({best, {2 * pi * (i / nv) / nu, 2 * pi * (i % nv) / nv, 2 * pi * (at / nv) / nu, 2 * pi * (at % nv) / nv}});
+    starts.push_back(
+        {best,
+         {2 * pi * (i / nv) / nu, 2 * pi * (i % nv) / nv, 2 * pi * (at / nv) / nu, 2 * pi * (at % nv) / nv}});
   }
   std::sort(starts.begin(), starts.end(), [](const Start& x, const Start& y) { return x.d < y.d; });
   const auto distance = [&](const std::array<double, 4>& c) {
@@ -95,7 +97,8 @@ TEST(Oracle, FootLiesOnTheSurfaceAndIsTheClosestOfManySamples)
     EXPECT_NEAR(X * X + Z * Z, 1.0, 1e-9);
     double nearest = 1e300;
     for (int i = 0; i < 200; ++i) {
-      for (int j = 0; j < 100; ++j) nearest = std::min(nearest, (x - t.surface(2 * pi * i / 200, 2 * pi * j / 100)).norm());
+      for (int j = 0; j < 100; ++j)
+        nearest = std::min(nearest, (x - t.surface(2 * pi * i / 200, 2 * pi * j / 100)).norm());
     }
     EXPECT_GE(nearest, std::abs(f.distance) - 1e-12);
     EXPECT_LE(nearest, std::abs(f.distance) + 0.06);

@@ -14,8 +14,8 @@ constexpr std::size_t unknowns = 5;
 using Point = std::array<double, unknowns>;
 
 /// Minimum of f by Nelder and Mead's simplex; `size` is its first edge.
-std::pair<Point, double> simplex_search(const std::function<double(const Point&)>& f, const Point& start, double size,
-                                        int most_calls)
+std::pair<Point, double> simplex_search(const std::function<double(const Point&)>& f, const Point& start,
+                                        double size, int most_calls)
 {
   std::vector<std::pair<double, Point>> s;
   int calls = 0;

@@ -9,9 +9,10 @@ namespace hauberk::brute {
 /// origin) and does not overlap it; 0 where there is none.
 double largest_offset(Torus A, Torus B, double y);
 
-/// Longest period of ... A B A' B' ... in a straight line, all centres at z = 0: maximises the offset from A to
-/// B plus that from B to the next A over both rings' axes and B's sideways offset, by Nelder-Mead, restarted
-/// with smaller simplices, from `starts` starting poses. Spins about the rings' own axes change nothing.
+/// Longest period of ... A B A' B' ... in a straight line, all centres at z = 0: maximises the offset from A
+/// to B plus that from B to the next A over both rings' axes and B's sideways offset, by Nelder-Mead,
+/// restarted with smaller simplices, from `starts` starting poses. Spins about the rings' own axes change
+/// nothing.
 double longest_period(const Torus& A, const Torus& B, int starts);
 
 }  // namespace hauberk::brute

@@ -48,7 +48,8 @@ class Draw {
   {
     Torus t;
     t.R = R;
-    t.r0 = R * (family_ == Family::thin ? uniform(0.01, 0.05) : power(10.0, std::log10(0.02), std::log10(0.6)));
+    t.r0 =
+        R * (family_ == Family::thin ? uniform(0.01, 0.05) : power(10.0, std::log10(0.02), std::log10(0.6)));
     t.r1 = round ? t.r0 : t.r0 * power(5.0, -1.0, 1.0);
     return t;
   }
@@ -58,7 +59,8 @@ class Draw {
     const bool first_round = kind_ == 0 || (kind_ == 1 && chance());
     const bool second_round = kind_ == 0 || (kind_ == 1 && !first_round);
     p.a = shape(1.0, first_round);
-    p.b = shape(family_ == Family::tightly_linked ? power(3.0, -1.0, 1.0) : power(10.0, -1.0, 1.0), second_round);
+    p.b = shape(family_ == Family::tightly_linked ? power(3.0, -1.0, 1.0) : power(10.0, -1.0, 1.0),
+                second_round);
   }
 
   void place(TorusPair& p)

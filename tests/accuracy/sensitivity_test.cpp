@@ -10,7 +10,8 @@ namespace hauberk::brute {
 namespace {
 
 /// Central difference of the value in parameter `p` of element `e`.
-double resolved_again(const SceneSpec& scene, std::size_t e, std::size_t p, double direction, Sense sense, double h)
+double resolved_again(const SceneSpec& scene, std::size_t e, std::size_t p, double direction, Sense sense,
+                      double h)
 {
   SceneSpec up = scene, down = scene;
   up.length = down.length = characteristic_length(scene);
@@ -84,15 +85,19 @@ TEST(Sensitivity, OfChainmailAgreesWithSolvingAgain)
         EXPECT_NEAR(stated, again, 2e-3 * largest) << direction << ' ' << e << ' ' << names[p];
       }
     }
-    fmt::print("chainmail {} {}: value {:.6f}, stated and solved-again sensitivities differ by {:.1e} of the largest\n",
-               direction, r.sense, *r.value, worst);
+    fmt::print(
+        "chainmail {} {}: value {:.6f}, stated and solved-again sensitivities differ by {:.1e} of the "
+        "largest\n",
+        direction, r.sense, *r.value, worst);
     const double h = 2e-4;
     const double clearance = (*limit(scene, direction, sense, {}, h).value - *r.value) / h;
     worst = std::max(worst, std::abs(clearance - *r.sensitivity_clearance) / std::abs(clearance));
     EXPECT_NEAR(*r.sensitivity_clearance, clearance, 5e-3 * std::abs(clearance)) << direction;
   }
-  fmt::print("chainmail with unequal elliptical rings: stated and solved-again sensitivities differ by at most {:.1e}\n",
-             worst);
+  fmt::print(
+      "chainmail with unequal elliptical rings: stated and solved-again sensitivities differ by at most "
+      "{:.1e}\n",
+      worst);
 }
 
 }  // namespace

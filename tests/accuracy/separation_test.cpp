@@ -56,9 +56,10 @@ TEST(Separation, BoundsTheBruteForceDistanceFromBothSides)
       worst_pair = k;
     }
   }
-  fmt::print("separation: {} pairs apart, {} overlapping\n  lower/distance  {}\n  upper/distance  {}\n"
-             "  evaluations     {} (pair {})\n",
-             separate, overlapping, tightness.summary(), above.summary(), evaluations.summary(), worst_pair);
+  fmt::print(
+      "separation: {} pairs apart, {} overlapping\n  lower/distance  {}\n  upper/distance  {}\n"
+      "  evaluations     {} (pair {})\n",
+      separate, overlapping, tightness.summary(), above.summary(), evaluations.summary(), worst_pair);
   EXPECT_GT(separate, 10 * overlapping);
 }
 

@@ -29,8 +29,8 @@ class Sample {
   }
   std::string summary()
   {
-    return fmt::format("min {:.4g}, 1 % {:.4g}, median {:.4g}, mean {:.4g}, 99 % {:.4g}, max {:.4g}", quantile(0.0),
-                       quantile(0.01), quantile(0.5), mean(), quantile(0.99), quantile(1.0));
+    return fmt::format("min {:.4g}, 1 % {:.4g}, median {:.4g}, mean {:.4g}, 99 % {:.4g}, max {:.4g}",
+                       quantile(0.0), quantile(0.01), quantile(0.5), mean(), quantile(0.99), quantile(1.0));
   }
 
  private:

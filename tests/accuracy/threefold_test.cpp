@@ -1,4 +1,5 @@
-// The threefold element with round tubes: exact stretch, and a compression whose symmetric path ends at a saddle.
+// The threefold element with round tubes: exact stretch, and a compression whose symmetric path ends at a
+// saddle.
 
 #include "limit_cases.hpp"
 
@@ -17,12 +18,13 @@ TEST(Threefold, StretchAlongALatticeDirectionIsExact)
   const double exact = (2.0 * 4.25 + 2.0 * 2.575 - 2.0 * 0.95) / test::threefold_spacing;
   for (const double direction : {90.0, 30.0, 150.0}) {
     for (const bool fast : {false, true}) {
-      const LimitResult r =
-          limit(test::threefold_round(), direction, Sense::positive, fast ? fast_settings() : LimitSettings{});
+      const LimitResult r = limit(test::threefold_round(), direction, Sense::positive,
+                                  fast ? fast_settings() : LimitSettings{});
       ASSERT_EQ(r.status, LimitStatus::locked) << r.message;
       const double error = (1.0 + *r.value) / exact - 1.0;
-      fmt::print("threefold stretch at {} {}: value {:.12f}, exact {:.12f}, relative error of 1 + value {:.1e}\n", direction,
-                 fast ? "fast" : "accurate", *r.value, exact - 1.0, error);
+      fmt::print(
+          "threefold stretch at {} {}: value {:.12f}, exact {:.12f}, relative error of 1 + value {:.1e}\n",
+          direction, fast ? "fast" : "accurate", *r.value, exact - 1.0, error);
       EXPECT_NEAR(error, 0.0, fast ? 1e-3 : 1e-8);
     }
   }
@@ -82,9 +84,10 @@ TEST(Threefold, CompressionLeavesTheSymmetricSaddle)
   const LimitResult unperturbed = limit(scene, 90.0, Sense::negative, none);
   ASSERT_EQ(perturbed.status, LimitStatus::locked) << perturbed.message;
   ASSERT_EQ(unperturbed.status, LimitStatus::locked) << unperturbed.message;
-  fmt::print("threefold compression at 90: symmetric state {:.6f} (lowest curvature {:.3f}); from unperturbed rest "
-             "{:.9f}, from perturbed rest {:.9f}\n",
-             symmetric.macro[1], lowest, *unperturbed.value, *perturbed.value);
+  fmt::print(
+      "threefold compression at 90: symmetric state {:.6f} (lowest curvature {:.3f}); from unperturbed rest "
+      "{:.9f}, from perturbed rest {:.9f}\n",
+      symmetric.macro[1], lowest, *unperturbed.value, *perturbed.value);
   EXPECT_LT(*perturbed.value, symmetric.macro[1] - 1e-3);
   EXPECT_LT(*unperturbed.value, symmetric.macro[1] - 1e-3);
 }

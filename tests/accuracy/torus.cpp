@@ -59,7 +59,8 @@ double gauss_sum(const Torus& a, const Torus& b, int n)
     for (int j = 0; j < n; ++j) {
       const Vec3 r = p[static_cast<std::size_t>(i)] - q[static_cast<std::size_t>(j)];
       const double d = r.squaredNorm();
-      sum += r.dot(dp[static_cast<std::size_t>(i)].cross(dq[static_cast<std::size_t>(j)])) / (d * std::sqrt(d));
+      sum +=
+          r.dot(dp[static_cast<std::size_t>(i)].cross(dq[static_cast<std::size_t>(j)])) / (d * std::sqrt(d));
     }
   }
   const double h = 2.0 * pi / n;

@@ -21,7 +21,7 @@ struct Torus {
 
 /// Foot of a point on a torus.
 struct Foot {
-  double distance = 0.0;  ///< signed, negative inside the tube
+  double distance = 0.0;       ///< signed, negative inside the tube
   Vec3 normal = Vec3::Zero();  ///< outward unit normal at the foot: gradient of the distance
   Vec3 point = Vec3::Zero();
 };

@@ -13,11 +13,11 @@ constexpr double merge_width = 1e-4;  // radians
 
 /// Half-width from which a Newton iteration decides what a surface panel holds.
 constexpr double seed_width = 0.06;  // L
-/// ... and part of the field's smallest radius of curvature there.
-constexpr double seed_share = 0.5;
 
-/// Scaled curvature below which Newton's Hessian is shifted.
-constexpr double least_curvature = 1e-9;
+constexpr double seed_fraction = 1.0;
+
+/// Slope at which a descent has arrived (rounding).
+constexpr double smallest_slope = 2e-16;
 
 /// Minima closer than this are the same one found from two panels.
 constexpr double same_minimum = 1e-5;  // radians
@@ -74,7 +74,7 @@ class Search {
  public:
   Search(const PairFrame& frame, double threshold, std::vector<Minimum>& out, int& evaluations)
       : probe_(frame), threshold_(threshold + probe_.offset), out_(out), evaluations_(evaluations),
-        rf_(smallest_radius(*frame.F))
+        rf_(smallest_radius(*frame.F)), rp_(smallest_radius(*frame.P))
   {
   }
 
@@ -121,8 +121,7 @@ class Search {
         bracket(s);
         return;
       }
-    } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) <
-               std::min(seed_width, seed_share * (rf_ + std::max(0.0, l.f.m.phi)))) {
+    } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed(l)) {
       descend(s);
       return;
     }
@@ -130,6 +129,14 @@ class Search {
     split(probe_, s, first, second);
     visit(first);
     visit(second);
+  }
+
+  /// Panels this small hold at most one basin, or one that starts from a neighbour: a fraction of the
+  /// smallest radius of curvature of either surface.
+  double seed(const Local& l) const
+  {
+    const double radius = std::min({rp_, rf_ + std::max(l.f.m.phi, 0.0), l.f.rho});
+    return std::max(std::min(seed_width, seed_fraction * radius), 1e-3);
   }
 
   /// Dimension 1: the second derivative keeps its sign on the panel, so it holds a minimum exactly when
@@ -155,33 +162,42 @@ class Search {
     if (l.f.m.phi < threshold_) insert(out_, {u, 0.0, l.f.m.phi - probe_.offset});
   }
 
-  /// Dimension 2: Newton from the centre; wherever it ends, a minimum is a minimum.
+  /// Dimension 2: descends from the centre by damped Newton steps to the minimum whose basin holds it.
   void descend(const Panel& s)
   {
+    const double su = probe_.Lu, sv = probe_.Lv;  // scaled coordinates
     double u = s.u, v = s.v;
-    const double longest = 2.0 * std::max(probe_.Lu * s.hu, probe_.Lv * s.hv);
     Local l = local_at(probe_, u, v);
-    for (int it = 0; it < 40; ++it) {
-      ++evaluations_;
-      // Modified Newton: shift the Hessian until it is positive definite.
-      const double su = probe_.Lu, sv = probe_.Lv;  // scaled coordinates
+    ++evaluations_;
+    for (int it = 0; it < 60; ++it) {
       const double a = l.huu / (su * su), b = l.huv / (su * sv), c = l.hvv / (sv * sv);
-      const double mean = 0.5 * (a + c), dev = std::hypot(0.5 * (a - c), b);
-      const double shift = mean - dev > least_curvature ? 0.0 : 1e-3 - (mean - dev);
+      const double mean = 0.5 * (a + c), dev = std::hypot(0.5 * (a - c), b), lowest = mean - dev;
+      const double gx = l.gu / su, gy = l.gv / sv, slope = std::hypot(gx, gy);
+      const double shift = lowest > 1e-9 ? 0.0 : 1e-2 - lowest;
       const double A = a + shift, C = c + shift, det = A * C - b * b;
-      const double gx = l.gu / su, gy = l.gv / sv;
       double dx = -(C * gx - b * gy) / det, dy = -(A * gy - b * gx) / det;
       const double size = std::hypot(dx, dy);
-      if (size > longest) {
-        dx *= longest / size;
-        dy *= longest / size;
+      if (slope < smallest_slope || (size < 1e-12 && shift == 0.0)) {
+        if (lowest > 0.0 && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});
+        return;
       }
-      u += dx / su;
-      v += dy / sv;
-      l = local_at(probe_, u, v);
-      if (std::hypot(dx, dy) < 1e-12) {
-        const bool minimum = mean - dev > 0.0;
-        if (minimum && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});
+      if (size > 2.0 * seed_width) {
+        dx *= 2.0 * seed_width / size;
+        dy *= 2.0 * seed_width / size;
+      }
+      bool lower = false;
+      for (double t = 1.0; t > 1e-4 && !lower; t *= 0.5) {
+        const Local n = local_at(probe_, u + t * dx / su, v + t * dy / sv);
+        ++evaluations_;
+        // Below rounding of the distance the slope decides.
+        lower = n.f.m.phi < l.f.m.phi || (n.f.m.phi < l.f.m.phi + 1e-14 && std::hypot(n.gu / su, n.gv / sv) < slope);
+        if (!lower) continue;
+        u += t * dx / su;
+        v += t * dy / sv;
+        l = n;
+      }
+      if (!lower) {
+        if (slope < 1e-10 && lowest > 0.0 && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});
         return;
       }
     }
@@ -191,7 +207,7 @@ class Search {
   double threshold_;
   std::vector<Minimum>& out_;
   int& evaluations_;
-  double rf_;
+  double rf_, rp_;
 };
 
 }  // namespace

@@ -190,6 +190,4 @@ Relaxed relax(const Model& m, const State& start, double target)
   return out;
 }
 
-std::vector<Pose> rest_poses(const Model& m, const State& s) { return poses(m, s); }
-
 }  // namespace hauberk

@@ -37,7 +37,4 @@ struct Relaxed {
 /// than their tubes).
 Relaxed relax(const Model& model, const State& start, double target);
 
-/// Rest poses of a state with macro = 0, in scaled lengths, as elements' new rest.
-std::vector<Pose> rest_poses(const Model& model, const State& state);
-
 }  // namespace hauberk

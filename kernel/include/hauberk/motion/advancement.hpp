@@ -5,14 +5,6 @@
 
 namespace hauberk {
 
-/// A motion of the whole model over s in [0, 1]: state advanced along dy, with primitives changing by at
-/// most a known speed.
-struct Motion {
-  const Model* model = nullptr;
-  const State* from = nullptr;
-  const Vector* dy = nullptr;
-};
-
 /// What the check found.
 struct SafeStep {
   double alpha = 1.0;      ///< nothing collides for s in [0, alpha]

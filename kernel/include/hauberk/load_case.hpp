@@ -120,8 +120,9 @@ class LoadCase {
   virtual bool do_periodic() const = 0;
   virtual void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
                            const Vec3& T, PositionMap& out) const = 0;
-  virtual double do_acceleration_bound(std::span<const double>, std::span<const double>, std::span<const double>,
-                                       std::span<const double>, const Vec3&, const Vec3&) const
+  virtual double do_acceleration_bound(std::span<const double>, std::span<const double>,
+                                       std::span<const double>, std::span<const double>, const Vec3&,
+                                       const Vec3&) const
   {
     return 0.0;
   }

@@ -69,8 +69,8 @@ class OptimizerObserver {
 };
 
 struct OptimizerResult {
-  std::string status;   ///< "converged", "small_step", "iteration_limit", "stopped", "infeasible", "failed"
-  std::string message;  ///< a sentence for people
+  std::string status;     ///< "converged", "small_step", "iteration_limit", "stopped", "infeasible", "failed"
+  std::string message;    ///< a sentence for people
   std::vector<double> x;  ///< best feasible point found (least violation if none is feasible)
   double value = 0.0;
   int iterations = 0;

@@ -40,23 +40,23 @@ inline constexpr std::uint32_t interface_revision = 1;
 
 /// What must agree before the rest of the table is read. Strings are compared by content.
 struct Handshake {
-  char magic[8];                   ///< "HAUBERK"
-  std::uint32_t table_size;        ///< sizeof(PluginTable)
-  std::uint32_t revision;          ///< interface_revision
-  const char* compiler;            ///< HAUBERK_COMPILER
-  const char* standard_library;    ///< HAUBERK_STDLIB
-  const char* eigen;               ///< "3.4.0"
-  std::uint32_t eigen_alignment;   ///< EIGEN_MAX_ALIGN_BYTES
-  const char* sanitizers;          ///< HAUBERK_SANITIZERS
+  char magic[8];                  ///< "HAUBERK"
+  std::uint32_t table_size;       ///< sizeof(PluginTable)
+  std::uint32_t revision;         ///< interface_revision
+  const char* compiler;           ///< HAUBERK_COMPILER
+  const char* standard_library;   ///< HAUBERK_STDLIB
+  const char* eigen;              ///< "3.4.0"
+  std::uint32_t eigen_alignment;  ///< EIGEN_MAX_ALIGN_BYTES
+  const char* sanitizers;         ///< HAUBERK_SANITIZERS
 };
 
-#define HAUBERK_HANDSHAKE                                                                             \
-  {                                                                                                   \
-    {'H', 'A', 'U', 'B', 'E', 'R', 'K', '\0'}, sizeof(::hauberk::PluginTable),                        \
-        ::hauberk::interface_revision, HAUBERK_COMPILER, HAUBERK_STDLIB,                              \
-        HAUBERK_STR(EIGEN_WORLD_VERSION) "." HAUBERK_STR(EIGEN_MAJOR_VERSION) "." HAUBERK_STR(        \
-            EIGEN_MINOR_VERSION),                                                                     \
-        EIGEN_MAX_ALIGN_BYTES, HAUBERK_SANITIZERS                                                     \
+#define HAUBERK_HANDSHAKE                                                                      \
+  {                                                                                            \
+    {'H', 'A', 'U', 'B', 'E', 'R', 'K', '\0'}, sizeof(::hauberk::PluginTable),                 \
+        ::hauberk::interface_revision, HAUBERK_COMPILER, HAUBERK_STDLIB,                       \
+        HAUBERK_STR(EIGEN_WORLD_VERSION) "." HAUBERK_STR(EIGEN_MAJOR_VERSION) "." HAUBERK_STR( \
+            EIGEN_MINOR_VERSION),                                                              \
+        EIGEN_MAX_ALIGN_BYTES, HAUBERK_SANITIZERS                                              \
   }
 
 enum class PluginKind : std::uint32_t { shape = 1, load_case = 2, optimizer = 3 };
@@ -65,7 +65,7 @@ enum class PluginKind : std::uint32_t { shape = 1, load_case = 2, optimizer = 3 
 struct PluginTable {
   Handshake handshake;
   PluginKind kind;
-  const char* id;        ///< as written in experiments; equals the library's file name without prefix and ending
+  const char* id;  ///< as written in experiments; equals the library's file name without prefix and ending
   const char* version;
   const char* summary;   ///< one sentence
   const char* citation;  ///< where the method comes from

@@ -17,14 +17,14 @@ std::string to_string(LimitStatus status);
 
 /// One contact force at a locked state. For `arc`, one resultant per pair and side.
 struct ContactForce {
-  std::array<int, 2> elements{};    ///< placed elements; walls: second is -1
-  std::array<int, 2> primitives{};  ///< index within the element; walls: -1
-  std::array<int, 2> image{};       ///< lattice image of the second element
+  std::array<int, 2> elements{};                           ///< placed elements; walls: second is -1
+  std::array<int, 2> primitives{};                         ///< index within the element; walls: -1
+  std::array<int, 2> image{};                              ///< lattice image of the second element
   std::array<Vec3, 2> points{Vec3::Zero(), Vec3::Zero()};  ///< on the two surfaces, absolute
-  Vec3 normal = Vec3::Zero();       ///< unit, from first to second element
-  double gap = 0.0;                 ///< surface distance minus clearance
-  double force = 0.0;               ///< -dE/dg >= 0, 1/length (times the unit of the value)
-  std::string wall;                 ///< name of the wall, empty for contacts between elements
+  Vec3 normal = Vec3::Zero();                              ///< unit, from first to second element
+  double gap = 0.0;                                        ///< surface distance minus clearance
+  double force = 0.0;  ///< -dE/dg >= 0, 1/length (times the unit of the value)
+  std::string wall;    ///< name of the wall, empty for contacts between elements
 };
 
 /// A distinct locked state found from one or more starts.
@@ -42,27 +42,28 @@ struct LimitResult {
   std::string sense;
   std::string measure;
   LimitStatus status = LimitStatus::failed;
-  std::string message;              ///< what happened, for people; empty when locked without remark
-  std::optional<double> value;      ///< null unless a state was reached
-  std::optional<double> infimum;    ///< for not_attained, if known
+  std::string message;            ///< what happened, for people; empty when locked without remark
+  std::optional<double> value;    ///< null unless a state was reached
+  std::optional<double> infimum;  ///< for not_attained, if known
   std::vector<std::pair<std::string, double>> companions;  ///< e.g. line_stretch
   std::vector<std::pair<std::string, double>> macro;       ///< names and values
   int iterations = 0;
   long evaluations = 0;
   double seconds = 0.0;
-  std::optional<double> min_gap;    ///< smallest surface distance minus clearance, over all pairs
+  std::optional<double> min_gap;  ///< smallest surface distance minus clearance, over all pairs
   std::optional<double> error_estimate;
   bool links_kept = false;
   double z_range = 0.0;
   std::vector<LockedState> starts;
-  bool better_state = false;        ///< a start found a state further than the one reached from rest
+  bool better_state = false;  ///< a start found a state further than the one reached from rest
   std::optional<double> sensitivity_clearance;
-  std::vector<std::pair<std::string, double>> sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter
-  std::vector<Pose> poses;          ///< of the cell's elements at the limit, absolute
+  std::vector<std::pair<std::string, double>>
+      sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter
+  std::vector<Pose> poses;     ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
   std::optional<double> force_balance;
-  std::string contact;              ///< formulation that finished: "nearest" or "arc"
-  std::string certificate;          ///< what is certified, for people
+  std::string contact;      ///< formulation that finished: "nearest" or "arc"
+  std::string certificate;  ///< what is certified, for people
 };
 
 struct ProfilePoint {
@@ -101,9 +102,9 @@ struct DesignResult {
   int iterations = 0;
   long evaluations = 0;
   double seconds = 0.0;
-  int start = 0;                          ///< which perturbed start gave the design
+  int start = 0;                               ///< which perturbed start gave the design
   std::vector<std::pair<int, double>> starts;  ///< (start, final objective) of all
-  SceneSpec initial_scene;                ///< rest as used, after relaxation
+  SceneSpec initial_scene;                     ///< rest as used, after relaxation
   std::vector<LimitResult> initial_limits;
 };
 

@@ -30,8 +30,8 @@ struct Node {
   bool boolean = false;
   double number = 0.0;
   std::string string;
-  std::vector<Node> items;                             ///< array
-  std::vector<std::pair<std::string, Node>> members;   ///< object
+  std::vector<Node> items;                            ///< array
+  std::vector<std::pair<std::string, Node>> members;  ///< object
 
   /// Member `key` of an object, null when absent or when this is no object.
   const Node* find(std::string_view key) const;
@@ -80,8 +80,8 @@ struct Field {
 
   std::string name;
   Kind kind = Kind::number;
-  std::string doc;           ///< one sentence
-  std::string unit;          ///< "length", "degree", "1", "" (none)
+  std::string doc;   ///< one sentence
+  std::string unit;  ///< "length", "degree", "1", "" (none)
   bool required = false;
   std::string default_json;  ///< default as JSON text; empty: none (absent stays absent)
   double minimum = -std::numeric_limits<double>::infinity();

@@ -50,7 +50,10 @@ const GaussRule<n>& gauss_rule()
 }
 
 /// Smallest radius of curvature of the profile.
-double profile_radius(const Body& b) { return b.is_tube() ? b.r0 : std::min(b.r0 * b.r0 / b.r1, b.r1 * b.r1 / b.r0); }
+double profile_radius(const Body& b)
+{
+  return b.is_tube() ? b.r0 : std::min(b.r0 * b.r0 / b.r1, b.r1 * b.r1 / b.r0);
+}
 
 /// Smallest relative radius of curvature between P's probe set and F along any line of the probe set.
 template <int dim>
@@ -65,7 +68,11 @@ class ArcIntegral {
  public:
   ArcIntegral(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
               SideTerms& out)
-      : frame_(frame), probe_(frame), settings_(settings), request_(request), out_(out),
+      : frame_(frame),
+        probe_(frame),
+        settings_(settings),
+        request_(request),
+        out_(out),
         radius_(relative_radius<dim>(frame)),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
                                   : surface_element / (2.0 * pi * reference_radius * settings.g_hat)))
@@ -93,7 +100,8 @@ class ArcIntegral {
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
     if (g <= 0.0) return;  // min_gap tells
     const double half = std::max(probe_.Lu * s.hu, probe_.Lv * s.hv);
-    if (half > panel_ratio * std::sqrt(2.0 * radius_ * std::min(g, 4.0 * settings_.g_hat)) && s.hu > smallest_panel) {
+    if (half > panel_ratio * std::sqrt(2.0 * radius_ * std::min(g, 4.0 * settings_.g_hat)) &&
+        s.hu > smallest_panel) {
       Panel first, second;
       split(probe_, s, first, second);
       visit(first);

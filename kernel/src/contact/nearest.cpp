@@ -73,8 +73,12 @@ template <int dim>
 class Search {
  public:
   Search(const PairFrame& frame, double threshold, std::vector<Minimum>& out, int& evaluations)
-      : probe_(frame), threshold_(threshold + probe_.offset), out_(out), evaluations_(evaluations),
-        rf_(smallest_radius(*frame.F)), rp_(smallest_radius(*frame.P))
+      : probe_(frame),
+        threshold_(threshold + probe_.offset),
+        out_(out),
+        evaluations_(evaluations),
+        rf_(smallest_radius(*frame.F)),
+        rp_(smallest_radius(*frame.P))
   {
   }
 
@@ -85,7 +89,8 @@ class Search {
     constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
     for (int i = 0; i < nu; ++i) {
       for (int j = 0; j < nv; ++j) {
-        visit({turn + (2 * i + 1) * pi / nu, turn + (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
+        visit(
+            {turn + (2 * i + 1) * pi / nu, turn + (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
       }
     }
   }
@@ -190,14 +195,16 @@ class Search {
         const Local n = local_at(probe_, u + t * dx / su, v + t * dy / sv);
         ++evaluations_;
         // Below rounding of the distance the slope decides.
-        lower = n.f.m.phi < l.f.m.phi || (n.f.m.phi < l.f.m.phi + 1e-14 && std::hypot(n.gu / su, n.gv / sv) < slope);
+        lower = n.f.m.phi < l.f.m.phi ||
+                (n.f.m.phi < l.f.m.phi + 1e-14 && std::hypot(n.gu / su, n.gv / sv) < slope);
         if (!lower) continue;
         u += t * dx / su;
         v += t * dy / sv;
         l = n;
       }
       if (!lower) {
-        if (slope < 1e-10 && lowest > 0.0 && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});
+        if (slope < 1e-10 && lowest > 0.0 && l.f.m.phi < threshold_)
+          insert(out_, {u, v, l.f.m.phi - probe_.offset});
         return;
       }
     }
@@ -217,12 +224,14 @@ std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int&
 {
   std::vector<Minimum> minima;
   Search<dim>(frame, threshold, minima, evaluations).run();
-  std::sort(minima.begin(), minima.end(), [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
+  std::sort(minima.begin(), minima.end(),
+            [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
   return minima;
 }
 
 template <int dim>
-void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request, SideTerms& out)
+void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request,
+                 SideTerms& out)
 {
   const Probe<dim> probe(frame);
   for (const Minimum& m : local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
@@ -250,9 +259,8 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
         const Vec6 xv = mixed(l.q.pv);
         const double det = l.huu * l.hvv - l.huv * l.huv;
         if (det > 0.0) {
-          out.hessian.noalias() -=
-              (b.db / det) * (l.hvv * xu * xu.transpose() + l.huu * xv * xv.transpose() -
-                              l.huv * (xu * xv.transpose() + xv * xu.transpose()));
+          out.hessian.noalias() -= (b.db / det) * (l.hvv * xu * xu.transpose() + l.huu * xv * xv.transpose() -
+                                                   l.huv * (xu * xv.transpose() + xv * xu.transpose()));
         }
         const double a = l.huu / (probe.Lu * probe.Lu), c = l.hvv / (probe.Lv * probe.Lv);
         const double o = l.huv / (probe.Lu * probe.Lv);

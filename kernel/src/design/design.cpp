@@ -22,7 +22,11 @@ double seconds_since(std::chrono::steady_clock::time_point t0)
 class Recorder final : public OptimizerObserver {
  public:
   Recorder(DesignProblem& problem, int start, int starts, const DesignObserver& observer)
-      : problem_(problem), start_(start), starts_(starts), observer_(observer), t0_(std::chrono::steady_clock::now())
+      : problem_(problem),
+        start_(start),
+        starts_(starts),
+        observer_(observer),
+        t0_(std::chrono::steady_clock::now())
   {
   }
 
@@ -91,7 +95,8 @@ std::vector<LimitTask> target_tasks(const DesignSpec& design)
   return tasks;
 }
 
-std::vector<std::optional<double>> target_values(const DesignSpec& design, const std::vector<LimitResult>& limits)
+std::vector<std::optional<double>> target_values(const DesignSpec& design,
+                                                 const std::vector<LimitResult>& limits)
 {
   std::vector<std::optional<double>> out;
   std::size_t k = 0;
@@ -119,8 +124,8 @@ struct Search {
   bool interrupted = false;
 };
 
-Search search(DesignProblem& problem, const Optimizer& optimizer, std::span<const double> x0, int start, int starts,
-              const DesignObserver& observer)
+Search search(DesignProblem& problem, const Optimizer& optimizer, std::span<const double> x0, int start,
+              int starts, const DesignObserver& observer)
 {
   Recorder recorder(problem, start, starts, observer);
   Search s;
@@ -155,8 +160,9 @@ void enter(DesignResult& out, const DesignProblem& problem, const DesignSpec& de
 
 }  // namespace
 
-Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
-                    const DesignSpec& design, const Optimizer& optimizer, unsigned threads, const DesignObserver& observer)
+Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
+                    const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
+                    unsigned threads, const DesignObserver& observer)
 {
   const auto t0 = std::chrono::steady_clock::now();
   SceneSpec frozen = scene;
@@ -194,7 +200,8 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   if (!interrupted) {
     const long before = best_problem->evaluations();
     best_problem->set_schedule(design.schedule);
-    const Search fine = search(*best_problem, optimizer, best.found.x, out.result.start, design.starts, observer);
+    const Search fine =
+        search(*best_problem, optimizer, best.found.x, out.result.start, design.starts, observer);
     out.result.evaluations += best_problem->evaluations() - before;
     if (!fine.history.empty()) {
       out.result.iterations += fine.found.iterations;
@@ -236,7 +243,8 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
     t.initial = before[i];
     t.recomputed = after[i];
     for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
-    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target) && !t.better_state;
+    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target) &&
+            !t.better_state;
   }
   result.objective_initial = objective(before);
   result.objective = objective(after);

@@ -33,12 +33,14 @@ Model between(const Model& a, const Model& b, double t)
 
 double shape_speed(const Body& a, const Body& b)
 {
-  return std::abs(a.R - b.R) + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
+  return std::abs(a.R - b.R) + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) +
+         (a.center - b.center).norm();
 }
 
 }  // namespace
 
-SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables, std::span<const double> x)
+SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables,
+                         std::span<const double> x)
 {
   SceneSpec s = scene;
   for (std::size_t v = 0; v < variables.size(); ++v) {
@@ -49,7 +51,8 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
   return s;
 }
 
-Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point, const std::vector<DesignVariable>& variables)
+Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
+                              const std::vector<DesignVariable>& variables)
 {
   const int ea = point.model.bodies[static_cast<std::size_t>(gap.a)].element;
   const int eb = point.model.bodies[static_cast<std::size_t>(gap.b)].element;
@@ -84,7 +87,8 @@ double safe_parameter_step(const Model& a, const Model& b, const State& from, co
 {
   const double motion = largest_motion(a, dy);
   double shape = 0.0;
-  for (std::size_t k = 0; k < a.bodies.size(); ++k) shape = std::max(shape, shape_speed(a.bodies[k], b.bodies[k]));
+  for (std::size_t k = 0; k < a.bodies.size(); ++k)
+    shape = std::max(shape, shape_speed(a.bodies[k], b.bodies[k]));
   const double most = 2.0 * (motion + shape);
   if (most == 0.0) return 1.0;
   double t = 0.0, first = -1.0;
@@ -107,8 +111,7 @@ double safe_parameter_step(const Model& a, const Model& b, const State& from, co
           const auto P = static_cast<std::size_t>(p), Q = static_cast<std::size_t>(q);
           const double rate = vi + vj + wi * m.bodies[P].reach + wj * m.bodies[Q].reach +
                               shape_speed(a.bodies[P], b.bodies[P]) + shape_speed(a.bodies[Q], b.bodies[Q]);
-          const double gap =
-              separation(m.bodies[P], pi, m.bodies[Q], pj, m.clearance, 2.0 * rate, 0.9).lower;
+          const double gap = separation(m.bodies[P], pi, m.bodies[Q], pj, m.clearance, 2.0 * rate, 0.9).lower;
           smallest = std::min(smallest, gap);
           if (rate > 0.0) advance = std::min(advance, std::max(0.0, gap) / rate);
         }

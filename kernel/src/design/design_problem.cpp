@@ -28,10 +28,18 @@ std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()
 
 }  // namespace
 
-DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
-                             const DesignSpec& design, unsigned threads, KeepGoing keep_going)
-    : scene_(scene), load_(load), clearance_(clearance), limits_(limits), design_(design), threads_(threads),
-      keep_going_(std::move(keep_going)), schedule_(design.schedule), tasks_(target_tasks(design))
+DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, double clearance,
+                             const LimitSettings& limits, const DesignSpec& design, unsigned threads,
+                             KeepGoing keep_going)
+    : scene_(scene),
+      load_(load),
+      clearance_(clearance),
+      limits_(limits),
+      design_(design),
+      threads_(threads),
+      keep_going_(std::move(keep_going)),
+      schedule_(design.schedule),
+      tasks_(target_tasks(design))
 {
   for (const DesignVariable& v : design_.variables) {
     lower_.push_back(v.lower);
@@ -42,7 +50,8 @@ DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, doubl
   p->spec = scene_;
   p->model = make_model(scene_, load_, clearance_);
   const Relaxed r = relax(p->model, rest_state(p->model), rest_target(p->model));
-  if (!r.problem.empty()) throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem);
+  if (!r.problem.empty())
+    throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem);
   p->rest = r.state;
   p->rest_gaps = find_gaps(p->model, p->rest, rest_target(p->model) + response_range, true);
   p->warm.resize(tasks_.size());
@@ -50,14 +59,18 @@ DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, doubl
   list_constraints();
 }
 
-double DesignProblem::rest_target(const Model& m) const { return design_.rest_clearance / m.length - m.clearance; }
+double DesignProblem::rest_target(const Model& m) const
+{
+  return design_.rest_clearance / m.length - m.clearance;
+}
 
 std::vector<double> DesignProblem::scene_variables() const
 {
   std::vector<double> x;
   for (const DesignVariable& v : design_.variables) {
     const auto& [element, parameter] = v.entries.front();
-    x.push_back(scene_.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)]);
+    x.push_back(
+        scene_.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)]);
   }
   return x;
 }
@@ -78,8 +91,9 @@ void DesignProblem::list_constraints()
     add_hole(l.b, l.a);
   }
   for (const Gap& g : find_gaps(m, current_->rest, constrained_range, false)) {
-    const bool known = std::any_of(pairs_.begin(), pairs_.end(),
-                                   [&g](const Pair& p) { return p.a == g.a && p.b == g.b && p.image == g.image; });
+    const bool known = std::any_of(pairs_.begin(), pairs_.end(), [&g](const Pair& p) {
+      return p.a == g.a && p.b == g.b && p.image == g.image;
+    });
     if (!known) pairs_.push_back({g.a, g.b, g.image});
   }
 }
@@ -109,7 +123,9 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   }
   const State predicted = advanced(current_->model, current_->rest, dy, 1.0);
   const Relaxed r = relax(p->model, predicted, rest_target(p->model));
-  if (r.moved && hauberk::largest_safe_step(p->model, predicted, difference(p->model, predicted, r.state), 0.02).alpha < 1.0) {
+  if (r.moved &&
+      hauberk::largest_safe_step(p->model, predicted, difference(p->model, predicted, r.state), 0.02).alpha <
+          1.0) {
     p->why = "relaxing the rest state would pass through an element";
     return p;
   }
@@ -131,12 +147,14 @@ void DesignProblem::solve_targets(DesignPoint& p)
     std::optional<State> start;
     const bool same = &p == current_.get();
     if (warm.size() == tasks_.size() && warm[k] &&
-        (same || safe_parameter_step(current_->model, p.model, *warm[k], Vector::Zero(p.model.dofs())) >= 1.0)) {
+        (same ||
+         safe_parameter_step(current_->model, p.model, *warm[k], Vector::Zero(p.model.dofs())) >= 1.0)) {
       start = warm[k];
     }
     if (start) locked[k] = lock(p.model, *start, load, limits_.contact, schedule_, keep_going_);
     // From rest where no warm start is safe or it leads nowhere.
-    for (int attempt = 0; attempt < attempts_from_rest && locked[k].status == LockStatus::stalled; ++attempt) {
+    for (int attempt = 0; attempt < attempts_from_rest && locked[k].status == LockStatus::stalled;
+         ++attempt) {
       const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
       const State rest = perturbed(p.model, p.rest, limits_.perturbation, seed);
       locked[k] = lock(p.model, rest, load, limits_.contact, schedule_, keep_going_);
@@ -148,7 +166,8 @@ void DesignProblem::solve_targets(DesignPoint& p)
     Request request;
     request.order = 1;
     request.parameters = true;
-    const ContactEnergy e = contact_energy(p.model, l.state, stage_pairs(p.model, l.state, l.stage), l.stage.contact, request);
+    const ContactEnergy e =
+        contact_energy(p.model, l.state, stage_pairs(p.model, l.state, l.stage), l.stage.contact, request);
     const double scale = std::pow(p.model.length, load_.value_length_power());
     const double sign = tasks_[k].sense == Sense::positive ? 1.0 : -1.0;
     estimate[k] = sign * (load.dot(l.state.macro) - l.stage.mu * e.energy) * scale;
@@ -177,7 +196,9 @@ void DesignProblem::solve_targets(DesignPoint& p)
       // eta = (s - c)/(1 + c)
       const double s = estimate[2 * k], c = estimate[2 * k + 1];
       p.values[k] = (s - c) / (1.0 + c);
-      p.value_gradients.row(i) = (gradient[2 * k] / (1.0 + c) - gradient[2 * k + 1] * (1.0 + s) / ((1.0 + c) * (1.0 + c))).transpose();
+      p.value_gradients.row(i) =
+          (gradient[2 * k] / (1.0 + c) - gradient[2 * k + 1] * (1.0 + s) / ((1.0 + c) * (1.0 + c)))
+              .transpose();
     } else {
       p.values[k] = estimate[k];
       p.value_gradients.row(i) = gradient[k].transpose();
@@ -208,7 +229,8 @@ bool DesignProblem::gauss_newton(std::span<const double> x, std::span<double> he
   const std::shared_ptr<DesignPoint> p = make_point(x);
   if (!p->evaluated) return false;
   Vector weights(static_cast<int>(design_.targets.size()));
-  for (std::size_t i = 0; i < design_.targets.size(); ++i) weights[static_cast<int>(i)] = design_.targets[i].weight;
+  for (std::size_t i = 0; i < design_.targets.size(); ++i)
+    weights[static_cast<int>(i)] = design_.targets[i].weight;
   const Matrix H = p->value_gradients.transpose() * weights.asDiagonal() * p->value_gradients;
   std::copy(H.data(), H.data() + H.size(), hessian.begin());  // symmetric: either order
   return true;
@@ -234,7 +256,10 @@ void DesignProblem::constraints(std::span<const double> x, std::span<double> c, 
           for (const auto& [el, parameter] : design_.variables[static_cast<std::size_t>(v)].entries) {
             if (el != element) continue;
             jacobian[row * static_cast<std::size_t>(nv) + static_cast<std::size_t>(v)] +=
-                factor * m.jacobians[static_cast<std::size_t>(body)][static_cast<std::size_t>(quantity * n + parameter)] / L;
+                factor *
+                m.jacobians[static_cast<std::size_t>(body)]
+                           [static_cast<std::size_t>(quantity * n + parameter)] /
+                L;
           }
         }
       };
@@ -260,8 +285,10 @@ void DesignProblem::constraints(std::span<const double> x, std::span<double> c, 
       }
     }
     if (closest != nullptr && !jacobian.empty()) {
-      const Vector d = gap_parameter_gradient(*closest, *p, design_.variables) + response.transpose() * closest->dy;
-      for (int v = 0; v < nv; ++v) jacobian[row * static_cast<std::size_t>(nv) + static_cast<std::size_t>(v)] = d[v];
+      const Vector d =
+          gap_parameter_gradient(*closest, *p, design_.variables) + response.transpose() * closest->dy;
+      for (int v = 0; v < nv; ++v)
+        jacobian[row * static_cast<std::size_t>(nv) + static_cast<std::size_t>(v)] = d[v];
     }
     ++row;
   }
@@ -305,7 +332,8 @@ void DesignProblem::accept(std::span<const double> x) { current_ = make_point(x)
 std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
 {
   std::vector<double> goal(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) goal[i] = std::clamp(current_->x[i] + d[i], lower_[i], upper_[i]);
+  for (std::size_t i = 0; i < d.size(); ++i)
+    goal[i] = std::clamp(current_->x[i] + d[i], lower_[i], upper_[i]);
   std::vector<double> c(static_cast<std::size_t>(constraint_count()));
   std::vector<double> jacobian(c.size() * d.size());
   for (int move = 0; move < most_start_moves; ++move) {

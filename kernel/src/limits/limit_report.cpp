@@ -78,8 +78,8 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   return r;
 }
 
-double force_balance(const Model& m, const State& s, const Vector& load, const std::vector<ContactEnergy::Point>& points,
-                     double mu)
+double force_balance(const Model& m, const State& s, const Vector& load,
+                     const std::vector<ContactEnergy::Point>& points, double mu)
 {
   // load + sum f dg/dy = 0: a gap opens when B's point moves along the normal and A's against it.
   Vector rest = Vector::Zero(m.dofs());
@@ -88,8 +88,8 @@ double force_balance(const Model& m, const State& s, const Vector& load, const s
   const auto push = [&](int element, const Image& image, const Vec3& point, const Vec3& force) {
     PositionMap map;
     const auto k = static_cast<std::size_t>(element);
-    m.load->position(macro_span(m, s), {s.e.data() + element * nc, static_cast<std::size_t>(nc)}, m.rest[k].position,
-                     m.translation(image), map);
+    m.load->position(macro_span(m, s), {s.e.data() + element * nc, static_cast<std::size_t>(nc)},
+                     m.rest[k].position, m.translation(image), map);
     rest.head(nm) += map.J.leftCols(nm).transpose() * force;
     rest.segment(m.offset(element), nc) += map.J.middleCols(nm, nc).transpose() * force;
     rest.segment<3>(m.offset(element) + nc) += (point - map.x).cross(force);
@@ -144,7 +144,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   request.order = 1;
   request.parameters = request.points = true;
   const ContactEnergy e = contact_energy(m, s, stage_pairs(m, s, l.stage), l.stage.contact, request);
-  for (const ContactEnergy::Point& p : e.points) r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
+  for (const ContactEnergy::Point& p : e.points)
+    r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   const Vector load = load_vector(m, theta, task.sense);
   r.force_balance = force_balance(m, s, load, e.points, l.stage.mu);
   r.contact = l.stage.contact.formulation == Formulation::arc ? "arc" : "nearest";
@@ -159,8 +160,9 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                             sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
     }
   }
-  r.certificate = fmt::format("path from rest certified free of intersections; {} links kept; smallest gap {:.3g}",
-                              m.links.size(), *r.min_gap);
+  r.certificate =
+      fmt::format("path from rest certified free of intersections; {} links kept; smallest gap {:.3g}",
+                  m.links.size(), *r.min_gap);
   if (!r.links_kept) {
     r.status = LimitStatus::failed;
     r.message = "a link was lost: the collision check failed";
@@ -171,13 +173,15 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   return r;
 }
 
-void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const Locked& l, std::uint64_t seed)
+void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const Locked& l,
+               std::uint64_t seed)
 {
   LockedState s;
   const double scale = power(m.length, m.load->value_length_power());
   s.value = m.load->value(task.direction_deg * degree, macro_span(m, l.state)) * scale;
   for (int k = 0; k < m.macro_count; ++k) {
-    s.macro.push_back(l.state.macro[k] * power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));
+    s.macro.push_back(l.state.macro[k] *
+                      power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));
   }
   s.z_range = z_range(m, l.state) * m.length;
   s.seed = seed;
@@ -189,7 +193,8 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
     return std::sqrt(n);
   };
   for (LockedState& o : list) {
-    if (std::abs(o.value - s.value) < same_state * scale && std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale &&
+    if (std::abs(o.value - s.value) < same_state * scale &&
+        std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale &&
         std::abs(o.z_range - s.z_range) < 100 * same_state * m.length) {
       ++o.count;
       return;

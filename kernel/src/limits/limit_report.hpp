@@ -7,11 +7,11 @@ namespace hauberk {
 LimitResult limit_header(const Model& model, const LimitTask& task);
 
 /// Everything that is reported about one locked state, in file units.
-LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTask& task, const LimitSettings& settings,
-                       const Locked& locked);
+LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTask& task,
+                       const LimitSettings& settings, const Locked& locked);
 
 /// Adds a start's state to the list of distinct locked states; mirror images count once.
-void add_start(std::vector<LockedState>& list, const Model& model, const LimitTask& task, const Locked& locked,
-               std::uint64_t seed);
+void add_start(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
+               const Locked& locked, std::uint64_t seed);
 
 }  // namespace hauberk

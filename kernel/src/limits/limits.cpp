@@ -36,8 +36,8 @@ std::optional<LimitResult> decided_by_links(const Model& m, const LimitTask& tas
   return r;
 }
 
-LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task, const LimitSettings& settings,
-                      const std::vector<Locked>& starts)
+LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task,
+                      const LimitSettings& settings, const std::vector<Locked>& starts)
 {
   const double theta = task.direction_deg * degree;
   constexpr double same_value = 1e-9;  // a further start must be further by more than rounding
@@ -65,8 +65,9 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
   return r;
 }
 
-std::vector<LimitResult> compute_limits(const Model& m, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
-                                        const LimitSettings& settings, unsigned threads, const LimitProgress& progress)
+std::vector<LimitResult> compute_limits(const Model& m, const SceneSpec& spec,
+                                        const std::vector<LimitTask>& tasks, const LimitSettings& settings,
+                                        unsigned threads, const LimitProgress& progress)
 {
   std::vector<std::optional<LimitResult>> decided(tasks.size());
   for (std::size_t k = 0; k < tasks.size(); ++k) decided[k] = decided_by_links(m, tasks[k]);
@@ -81,7 +82,8 @@ std::vector<LimitResult> compute_limits(const Model& m, const SceneSpec& spec, c
     found[i].state = rest_state(m);
     if (!decided[task] && going) {
       const auto t0 = std::chrono::steady_clock::now();
-      found[i] = limit_from_start(m, tasks[task], settings, static_cast<int>(i % n), [&] { return going.load(); });
+      found[i] =
+          limit_from_start(m, tasks[task], settings, static_cast<int>(i % n), [&] { return going.load(); });
       seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     }
     if (!progress(++done, found.size())) going = false;

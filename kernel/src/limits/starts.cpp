@@ -56,8 +56,8 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
 {
   const double size = start == 0 ? settings.perturbation : settings.further_perturbation;
   const State from = perturbed(m, rest_state(m), size, settings.seed + static_cast<std::uint64_t>(start));
-  return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact, settings.schedule,
-              keep_going);
+  return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact,
+              settings.schedule, keep_going);
 }
 
 }  // namespace hauberk

@@ -59,7 +59,8 @@ class Assembler {
       const BarrierValue b = barrier<0>(g, settings_.g_hat);
       out_.energy += b.b;
       if (request_.order >= 1) {
-        for (const auto& t : wall.terms) out_.gradient[m_.offset(t.element) + t.coordinate] += b.db * t.coefficient;
+        for (const auto& t : wall.terms)
+          out_.gradient[m_.offset(t.element) + t.coordinate] += b.db * t.coefficient;
       }
       if (request_.order >= 2) {
         for (const auto& t : wall.terms) {
@@ -90,9 +91,10 @@ class Assembler {
  private:
   void map(int element, const Image& image, PositionMap& out) const
   {
-    m_.load->position({s_.macro.data(), static_cast<std::size_t>(m_.macro_count)},
-                      {s_.e.data() + element * m_.coordinate_count, static_cast<std::size_t>(m_.coordinate_count)},
-                      m_.rest[static_cast<std::size_t>(element)].position, m_.translation(image), out);
+    m_.load->position(
+        {s_.macro.data(), static_cast<std::size_t>(m_.macro_count)},
+        {s_.e.data() + element * m_.coordinate_count, static_cast<std::size_t>(m_.coordinate_count)},
+        m_.rest[static_cast<std::size_t>(element)].position, m_.translation(image), out);
   }
 
   bool add_bodies(int a, int b, const Image& image, const Pose& pa, const Pose& pb, PairTerms& sum)
@@ -109,8 +111,8 @@ class Assembler {
     return any;
   }
 
-  bool add_side(int p, int f, const Image& image, const Pose& pp, const Pose& pf, double share, PairTerms& sum,
-                bool swapped)
+  bool add_side(int p, int f, const Image& image, const Pose& pp, const Pose& pf, double share,
+                PairTerms& sum, bool swapped)
   {
     const Body& P = m_.bodies[static_cast<std::size_t>(p)];
     const Body& F = m_.bodies[static_cast<std::size_t>(f)];

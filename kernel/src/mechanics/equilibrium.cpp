@@ -13,8 +13,8 @@ constexpr double first_radius = 0.1;    ///< L: trust radius at the start of a s
 constexpr double largest_radius = 0.5;  ///< L
 constexpr double smallest_radius = 1e-13;
 constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
-constexpr double keep_gap = 0.1;        ///< a step may use up this much less than all of any gap
-constexpr double noise = 1e-15;         ///< relative rounding of energies
+constexpr double keep_gap = 0.1;          ///< a step may use up this much less than all of any gap
+constexpr double noise = 1e-15;           ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
 constexpr double quadrature_noise = 1e-9;
@@ -50,7 +50,8 @@ class Newton {
     pairs_ = stage_pairs(m_, state_, stage_);
     TotalEnergy now = total_energy(m_, state_, load_, stage_, pairs_, 2);
     result_.evaluations += now.contact.evaluations;
-    if (!now.admissible) return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
+    if (!now.admissible)
+      return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
     double radius = first_radius;
     int rejected = 0;
     bool escaping = false;
@@ -76,7 +77,8 @@ class Newton {
       TotalEnergy next;
       const double alpha = try_step(step.dy, trial, next);
       const double gs = now.gradient.dot(step.dy);
-      const double predicted = alpha > 0.0 ? -(alpha * gs + 0.5 * alpha * alpha * step.dy.dot(now.hessian * step.dy)) : 0.0;
+      const double predicted =
+          alpha > 0.0 ? -(alpha * gs + 0.5 * alpha * alpha * step.dy.dot(now.hessian * step.dy)) : 0.0;
       const double actual = now.energy - next.energy;
       const double length = step_norm(m_, step.dy);
       double rounding = noise * (std::abs(now.energy) + 1.0);
@@ -96,9 +98,10 @@ class Newton {
         ++rejected;
         radius = 0.25 * std::min(radius, std::max(alpha, 1e-3) * length);
         if (radius < smallest_radius) {
-          return finish(now, StageStatus::stalled,
-                        fmt::format("no step lowers the energy: predicted {:.1e}, found {:.1e}, smallest gap {:.1e} L",
-                                    predicted, actual, now.contact.min_gap));
+          return finish(
+              now, StageStatus::stalled,
+              fmt::format("no step lowers the energy: predicted {:.1e}, found {:.1e}, smallest gap {:.1e} L",
+                          predicted, actual, now.contact.min_gap));
         }
         continue;
       }
@@ -190,7 +193,9 @@ class Newton {
   {
     double alpha = 1.0;
     trial = advanced(m_, state_, dy, 1.0);
-    for (int k = 0; k < 40 && !m_.load->admissible({trial.macro.data(), static_cast<std::size_t>(m_.macro_count)}); ++k) {
+    for (int k = 0;
+         k < 40 && !m_.load->admissible({trial.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+         ++k) {
       alpha *= 0.5;
       trial = advanced(m_, state_, dy, alpha);
     }
@@ -209,7 +214,8 @@ class Newton {
 
   bool runaway() const
   {
-    const auto [lo, hi] = m_.load->stretch_range({state_.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    const auto [lo, hi] =
+        m_.load->stretch_range({state_.macro.data(), static_cast<std::size_t>(m_.macro_count)});
     return lo < 1e-3 || hi > 1e3;
   }
 

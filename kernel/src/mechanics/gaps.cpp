@@ -15,8 +15,9 @@ constexpr int most_relaxations = 200;
 constexpr double room = 1e-3;  ///< relative to the target: aim a little beyond it
 
 template <int dim>
-void gaps_of(const Model& m, const ElementPair& pair, int p, int f, const Pose& pp, const Pose& pf, bool swapped,
-             double range, bool derivatives, const PositionMap& mi, const PositionMap& mj, std::vector<Gap>& out)
+void gaps_of(const Model& m, const ElementPair& pair, int p, int f, const Pose& pp, const Pose& pf,
+             bool swapped, double range, bool derivatives, const PositionMap& mi, const PositionMap& mj,
+             std::vector<Gap>& out)
 {
   const Body& P = m.bodies[static_cast<std::size_t>(p)];
   const Body& F = m.bodies[static_cast<std::size_t>(f)];
@@ -54,7 +55,8 @@ void gaps_of(const Model& m, const ElementPair& pair, int p, int f, const Pose& 
         Vector out_d = Vector::Zero(n);
         for (int r = 0; r < primitive_dofs; ++r) {
           for (int c = 0; c < n; ++c) {
-            out_d[c] += full[static_cast<std::size_t>(r)] * m.jacobians[k][static_cast<std::size_t>(r * n + c)] / m.length;
+            out_d[c] += full[static_cast<std::size_t>(r)] *
+                        m.jacobians[k][static_cast<std::size_t>(r * n + c)] / m.length;
           }
         }
         return out_d;
@@ -100,7 +102,8 @@ Penalty penalty(const Model& m, const State& start, const State& s, double targe
       for (const auto& t : w.terms) {
         p.gradient[m.offset(t.element) + t.coordinate] += g * t.coefficient;
         for (const auto& r : w.terms) {
-          p.hessian(m.offset(t.element) + t.coordinate, m.offset(r.element) + r.coordinate) += t.coefficient * r.coefficient;
+          p.hessian(m.offset(t.element) + t.coordinate, m.offset(r.element) + r.coordinate) +=
+              t.coefficient * r.coefficient;
         }
       }
     }
@@ -124,7 +127,8 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
   for (const ElementPair& pair : near_pairs(m, s, reach)) {
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
     m.load->position({s.macro.data(), nm}, {s.e.data() + i * nc, nc}, m.rest[i].position, Vec3::Zero(), mi);
-    m.load->position({s.macro.data(), nm}, {s.e.data() + j * nc, nc}, m.rest[j].position, m.translation(pair.image), mj);
+    m.load->position({s.macro.data(), nm}, {s.e.data() + j * nc, nc}, m.rest[j].position,
+                     m.translation(pair.image), mj);
     const Pose pi{mi.x, s.rotation[i]}, pj{mj.x, s.rotation[j]};
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {

@@ -16,7 +16,8 @@ std::vector<Link> find_links(const Model& m, const State& s)
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
-        const double d = (p[i].position + p[i].rotation * A.center - other.position - other.rotation * B.center).norm();
+        const double d =
+            (p[i].position + p[i].rotation * A.center - other.position - other.rotation * B.center).norm();
         if (d >= A.R + B.R) continue;
         const int number = linking_number(A, p[i], B, other);
         if (number != 0) links.push_back({a, b, pair.image, number});
@@ -48,7 +49,9 @@ std::vector<Vec3> cycle_translations(const Model& m)
   std::vector<Image> at(n);
   std::vector<bool> seen(n, false);
   std::vector<Vec3> cycles;
-  const auto element = [&](int body) { return static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(body)].element); };
+  const auto element = [&](int body) {
+    return static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(body)].element);
+  };
   for (std::size_t root = 0; root < n; ++root) {
     if (seen[root]) continue;
     seen[root] = true;

@@ -6,8 +6,9 @@
 namespace hauberk {
 namespace {
 
-constexpr double warm_range = 0.02;     ///< L: stages with g_hat at least this are kept for warm starts
-constexpr double steady_order = 0.3;    ///< relative change of the convergence ratio that still counts as steady
+constexpr double warm_range = 0.02;  ///< L: stages with g_hat at least this are kept for warm starts
+constexpr double steady_order =
+    0.3;  ///< relative change of the convergence ratio that still counts as steady
 
 double load_size(const Model& m, const Vector& load)
 {
@@ -20,7 +21,8 @@ std::optional<double> estimate_error(const std::vector<StageRecord>& s, double r
 {
   const std::size_t n = s.size();
   if (n < 3) return std::nullopt;
-  if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation) return std::nullopt;
+  if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation)
+    return std::nullopt;
   const double d1 = s[n - 2].value - s[n - 3].value, d2 = s[n - 1].value - s[n - 2].value;
   if (d2 == 0.0) return 0.0;
   const double order = d2 / d1;  // about `ratio` for first order
@@ -32,7 +34,12 @@ class Path {
  public:
   Path(const Model& m, const State& start, const Vector& load, ContactChoice choice, const Schedule& schedule,
        const KeepGoing& keep_going)
-      : m_(m), load_(load), choice_(choice), schedule_(schedule), keep_going_(keep_going), size_(load_size(m, load))
+      : m_(m),
+        load_(load),
+        choice_(choice),
+        schedule_(schedule),
+        keep_going_(keep_going),
+        size_(load_size(m, load))
   {
     out_.state = start;
     arc_to_the_end_ = choice == ContactChoice::arc;
@@ -82,10 +89,16 @@ class Path {
       r = attempt(before, g_hat, last, f);
     }
     switch (r.status) {
-      case StageStatus::minimum: break;
-      case StageStatus::interrupted: out_.status = LockStatus::interrupted; break;
-      case StageStatus::unbounded: out_.status = LockStatus::unbounded; break;
-      default: out_.status = LockStatus::stalled;
+      case StageStatus::minimum:
+        break;
+      case StageStatus::interrupted:
+        out_.status = LockStatus::interrupted;
+        break;
+      case StageStatus::unbounded:
+        out_.status = LockStatus::unbounded;
+        break;
+      default:
+        out_.status = LockStatus::stalled;
     }
     if (r.status != StageStatus::minimum) {
       out_.message = r.message;
@@ -122,7 +135,8 @@ class Path {
   void extrapolate(State& s, double g_hat, Formulation f)
   {
     const std::size_t n = out_.stages.size();
-    if (n < 2 || !previous_ || out_.stages[n - 1].formulation != f || out_.stages[n - 2].formulation != f) return;
+    if (n < 2 || !previous_ || out_.stages[n - 1].formulation != f || out_.stages[n - 2].formulation != f)
+      return;
     const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
     const Vector dy = ((g_hat - b) / (b - a)) * difference(m_, *previous_, s);
     const SafeStep safe = largest_safe_step(m_, s, dy, 0.05);

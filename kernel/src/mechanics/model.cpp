@@ -135,8 +135,9 @@ double largest_motion(const Model& m, const Vector& dy)
   double most = 0.0;
   for (int i = 0; i < m.element_count(); ++i) {
     const int o = m.offset(i);
-    most = std::max(most, dy.segment(o, m.coordinate_count).norm() +
-                              dy.segment<3>(o + m.coordinate_count).norm() * m.reach[static_cast<std::size_t>(i)]);
+    most = std::max(most,
+                    dy.segment(o, m.coordinate_count).norm() +
+                        dy.segment<3>(o + m.coordinate_count).norm() * m.reach[static_cast<std::size_t>(i)]);
   }
   return most;
 }
@@ -150,7 +151,8 @@ std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margi
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
         const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-        if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin) pairs.push_back({i, j, {0, 0}});
+        if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
+          pairs.push_back({i, j, {0, 0}});
       }
     }
     return pairs;

@@ -10,7 +10,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advances are not worth their cost
 constexpr int most_advances = 4000;
-constexpr double smallest_panel = 1e-9;    ///< radians
+constexpr double smallest_panel = 1e-9;  ///< radians
 
 /// Rigid motion of one element (image) over the step.
 struct Track {
@@ -19,8 +19,8 @@ struct Track {
   const Vector* dy;
   int element;
   Image image;
-  Vec3 w;              ///< rotation vector of the whole step
-  double acceleration; ///< bound of |x''|
+  Vec3 w;               ///< rotation vector of the whole step
+  double acceleration;  ///< bound of |x''|
 
   Track(const Model& model, const State& state, const Vector& step, int k, const Image& im)
       : m(&model), from(&state), dy(&step), element(k), image(im)
@@ -28,9 +28,9 @@ struct Track {
     const int nc = m->coordinate_count, o = m->offset(k);
     w = step.segment<3>(o + nc);
     const auto n = static_cast<std::size_t>(nc), nm = static_cast<std::size_t>(m->macro_count);
-    acceleration = m->load->acceleration_bound({state.macro.data(), nm}, {step.data(), nm},
-                                               {state.e.data() + k * nc, n}, {step.data() + o, n},
-                                               m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
+    acceleration = m->load->acceleration_bound(
+        {state.macro.data(), nm}, {step.data(), nm}, {state.e.data() + k * nc, n}, {step.data() + o, n},
+        m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
   }
 
   /// Pose and velocity at s.
@@ -40,7 +40,8 @@ struct Track {
     std::array<double, max_macro> macro{};
     std::array<double, max_coordinates> e{};
     for (int k = 0; k < nm; ++k) macro[static_cast<std::size_t>(k)] = from->macro[k] + s * (*dy)[k];
-    for (int k = 0; k < nc; ++k) e[static_cast<std::size_t>(k)] = from->e[element * nc + k] + s * (*dy)[o + k];
+    for (int k = 0; k < nc; ++k)
+      e[static_cast<std::size_t>(k)] = from->e[element * nc + k] + s * (*dy)[o + k];
     PositionMap map;
     const auto i = static_cast<std::size_t>(element);
     m->load->position({macro.data(), static_cast<std::size_t>(nm)}, {e.data(), static_cast<std::size_t>(nc)},
@@ -54,7 +55,8 @@ struct Track {
 template <int dim>
 class PairAdvance {
  public:
-  PairAdvance(const Body& P, const Track& tp, const Body& F, const Track& tf, double clearance, SafeStep& count)
+  PairAdvance(const Body& P, const Track& tp, const Body& F, const Track& tf, double clearance,
+              SafeStep& count)
       : P_(P), F_(F), tp_(tp), tf_(tf), clearance_(clearance), count_(count)
   {
   }
@@ -184,8 +186,9 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
   const double strain = dy.head(m.macro_count).cwiseAbs().sum();
   double widest = 0.0;
   for (const double r : m.reach) widest = std::max(widest, r);
-  const double smin = std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
-                               m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
+  const double smin =
+      std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
+               m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
   const double margin = m.clearance + own + strain * 2.0 * (2.0 * widest + own) / std::max(smin, 1e-3);
 
   for (const ElementPair& pair : near_pairs(m, from, margin)) {
@@ -215,8 +218,9 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
         const bool swap = probe_dimension(B) < probe_dimension(A);
         const Body &P = swap ? B : A, &F = swap ? A : B;
         const Track &tp = swap ? tj : ti, &tf = swap ? ti : tj;
-        out.alpha = probe_dimension(P) == 1 ? PairAdvance<1>(P, tp, F, tf, m.clearance, out).run(out.alpha, target)
-                                            : PairAdvance<2>(P, tp, F, tf, m.clearance, out).run(out.alpha, target);
+        out.alpha = probe_dimension(P) == 1
+                        ? PairAdvance<1>(P, tp, F, tf, m.clearance, out).run(out.alpha, target)
+                        : PairAdvance<2>(P, tp, F, tf, m.clearance, out).run(out.alpha, target);
         if (out.alpha <= 0.0) return out;
       }
     }

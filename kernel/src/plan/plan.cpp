@@ -14,12 +14,18 @@ namespace {
 constexpr std::size_t most_tight_pairs = 10;
 constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 
-std::string kind_name(PrimitiveKind k) { return k == PrimitiveKind::circle_tube ? "circle_tube" : "revolved_ellipse"; }
+std::string kind_name(PrimitiveKind k)
+{
+  return k == PrimitiveKind::circle_tube ? "circle_tube" : "revolved_ellipse";
+}
 
 std::string reduction(const Body& a, const Body& b)
 {
-  if (a.is_tube() && b.is_tube()) return "distance of two circles minus radii: one angle searched, the other in closed form";
-  if (a.is_tube() || b.is_tube()) return "distance of a circle to a revolved ellipse: one angle searched, point-ellipse in the meridian plane";
+  if (a.is_tube() && b.is_tube())
+    return "distance of two circles minus radii: one angle searched, the other in closed form";
+  if (a.is_tube() || b.is_tube())
+    return "distance of a circle to a revolved ellipse: one angle searched, point-ellipse in the meridian "
+           "plane";
   return "two angles searched on one surface, point-ellipse in the meridian plane of the other";
 }
 
@@ -30,7 +36,8 @@ bool spins(const Model& m, std::size_t element)
   for (int k = m.first_body[element]; k < m.first_body[element + 1]; ++k) {
     const Body& b = m.bodies[static_cast<std::size_t>(k)];
     const Vec3 axis = first.axes.col(2);
-    if (b.axes.col(2).cross(axis).norm() > 1e-12 || (b.center - first.center).cross(axis).norm() > 1e-12) return false;
+    if (b.axes.col(2).cross(axis).norm() > 1e-12 || (b.center - first.center).cross(axis).norm() > 1e-12)
+      return false;
   }
   return true;
 }
@@ -46,7 +53,8 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
     t.primitives = {A.index, B.index};
     t.image = g.image;
     t.distance = (g.gap + m.clearance) * m.length;
-    t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B, image_pose(m, rest, B.element, g.image)) != 0;
+    t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B,
+                              image_pose(m, rest, B.element, g.image)) != 0;
     const auto same = std::find_if(p.tightest.begin(), p.tightest.end(), [&t](const TightPair& o) {
       return o.elements == t.elements && o.primitives == t.primitives && o.image == t.image;
     });
@@ -64,22 +72,33 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
 void decide(Plan& p, const Model& m, const LimitSettings& settings)
 {
   if (p.inert > 0) {
-    p.decisions.push_back(fmt::format("{} elements are surfaces of revolution about one axis: their spin is inert and "
-                                      "carries only the regularisation of null directions", p.inert));
+    p.decisions.push_back(
+        fmt::format("{} elements are surfaces of revolution about one axis: their spin is inert and "
+                    "carries only the regularisation of null directions",
+                    p.inert));
   }
   if (m.coordinate_count == 2) p.decisions.push_back("z is fixed: one unknown less per element");
-  const bool smooth_only = std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
-  if (smooth_only) p.decisions.push_back("every cross-section is a circle: no surface is searched in two angles");
+  const bool smooth_only =
+      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
+  if (smooth_only)
+    p.decisions.push_back("every cross-section is a circle: no surface is searched in two angles");
   switch (settings.contact) {
     case ContactChoice::automatic:
-      p.decisions.push_back(fmt::format("contact: arc down to an activation distance of {:g} L, nearest below; arc "
-                                        "again from where nearest stalls", settings.schedule.change));
+      p.decisions.push_back(
+          fmt::format("contact: arc down to an activation distance of {:g} L, nearest below; arc "
+                      "again from where nearest stalls",
+                      settings.schedule.change));
       break;
-    case ContactChoice::nearest: p.decisions.push_back("contact: nearest in every stage"); break;
-    case ContactChoice::arc: p.decisions.push_back("contact: arc in every stage"); break;
+    case ContactChoice::nearest:
+      p.decisions.push_back("contact: nearest in every stage");
+      break;
+    case ContactChoice::arc:
+      p.decisions.push_back("contact: arc in every stage");
+      break;
   }
   p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
-                                    settings.schedule.first, settings.schedule.last, settings.schedule.ratio));
+                                    settings.schedule.first, settings.schedule.last,
+                                    settings.schedule.ratio));
 }
 
 }  // namespace
@@ -125,9 +144,9 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   decide(p, m, settings);
   for (const LimitTask& t : tasks) {
     const auto decided = decided_by_links(m, t);
-    p.bounded.emplace_back(t, !decided                                          ? "attained"
+    p.bounded.emplace_back(t, !decided                                    ? "attained"
                               : decided->status == LimitStatus::unbounded ? "unbounded"
-                                                                                : "not attained");
+                                                                          : "not attained");
   }
   return p;
 }

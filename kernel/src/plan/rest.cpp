@@ -21,7 +21,8 @@ std::string where(const Model& m, const Gap& g)
 {
   const Body& a = m.bodies[static_cast<std::size_t>(g.a)];
   const Body& b = m.bodies[static_cast<std::size_t>(g.b)];
-  std::string text = fmt::format("element {} (primitive {}) and element {} (primitive {})", a.element, a.index, b.element, b.index);
+  std::string text = fmt::format("element {} (primitive {}) and element {} (primitive {})", a.element,
+                                 a.index, b.element, b.index);
   if (g.image != Image{0, 0}) text += fmt::format(" of image [{}, {}]", g.image[0], g.image[1]);
   return text;
 }
@@ -39,8 +40,8 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
           return g.a == a && g.b == b && g.image == pair.image && g.gap + m.clearance < 0.0;
         });
         if (known) continue;
-        const Separation s = separation(m.bodies[static_cast<std::size_t>(a)], pi, m.bodies[static_cast<std::size_t>(b)],
-                                        pj, 0.0, touching);
+        const Separation s = separation(m.bodies[static_cast<std::size_t>(a)], pi,
+                                        m.bodies[static_cast<std::size_t>(b)], pj, 0.0, touching);
         if (s.upper >= -touching) continue;
         Gap g;
         g.a = a;
@@ -59,15 +60,18 @@ std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool re
 {
   std::vector<std::string> out;
   if (m.links.empty()) {
-    out.emplace_back("nothing is linked: no ring passes through another, so no direction has a limit; check positions, "
-                     "rotations and the cell's vectors");
+    out.emplace_back(
+        "nothing is linked: no ring passes through another, so no direction has a limit; check positions, "
+        "rotations and the cell's vectors");
     return out;
   }
   if (relax_allowed) return out;
   // The deepest gap of every pair of bodies.
   std::vector<Gap> worst;
   for (const Gap& g : find_gaps(m, rest_state(m), 0.0, false)) {
-    const auto same = std::find_if(worst.begin(), worst.end(), [&g](const Gap& o) { return o.a == g.a && o.b == g.b && o.image == g.image; });
+    const auto same = std::find_if(worst.begin(), worst.end(), [&g](const Gap& o) {
+      return o.a == g.a && o.b == g.b && o.image == g.image;
+    });
     if (same == worst.end()) {
       worst.push_back(g);
     } else if (g.gap < same->gap) {
@@ -79,11 +83,14 @@ std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool re
     if (g.gap >= -touching) continue;
     const double distance = (g.gap + m.clearance) * m.length;
     if (distance < -touching * m.length) {
-      out.push_back(fmt::format("{} overlap at rest by {:.6g}; move them apart, make them thinner, or set cell.relax to true",
-                                where(m, g), -distance));
+      out.push_back(fmt::format(
+          "{} overlap at rest by {:.6g}; move them apart, make them thinner, or set cell.relax to true",
+          where(m, g), -distance));
     } else {
-      out.push_back(fmt::format("{} are {:.6g} apart at rest, less than solver.clearance {:.6g}; move them apart, lower "
-                                "the clearance, or set cell.relax to true", where(m, g), std::max(distance, 0.0), m.clearance * m.length));
+      out.push_back(fmt::format(
+          "{} are {:.6g} apart at rest, less than solver.clearance {:.6g}; move them apart, lower "
+          "the clearance, or set cell.relax to true",
+          where(m, g), std::max(distance, 0.0), m.clearance * m.length));
     }
   }
   return out;
@@ -104,7 +111,8 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
   }
   if (!r.problem.empty()) throw InputError("the rest state has no room nearby: " + r.problem);
   const std::vector<Pose> p = poses(m, r.state);
-  for (std::size_t k = 0; k < p.size(); ++k) out.scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};
+  for (std::size_t k = 0; k < p.size(); ++k)
+    out.scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};
   out.moved = r.largest_motion * m.length;
   return out;
 }

@@ -123,17 +123,17 @@ Field design_field()
   Field name = string("parameters", "One parameter.");
   Field names = at_least_items(
       list("parameters", "Several parameters, a variable each.", string("parameter", "A name.")), 1);
-  Field variable =
-      object("variable", "A group of design variables with the same bounds.",
-             {required(any_of("parameters", "Parameters to vary, as the shapes name them.", {name, names})),
-              with_default(
-                  choice("per", "One variable per placed element, per entry of elements, or for all of them.",
-                         {"element", "type", "all"}),
-                  "\"element\""),
-              with_default(boolean("tied", "Several parameters share one variable instead of having one each."),
-                           "false"),
-              required(number("lower", "Lower bound.", "as declared by the shape")),
-              required(number("upper", "Upper bound.", "as declared by the shape"))});
+  Field variable = object(
+      "variable", "A group of design variables with the same bounds.",
+      {required(any_of("parameters", "Parameters to vary, as the shapes name them.", {name, names})),
+       with_default(
+           choice("per", "One variable per placed element, per entry of elements, or for all of them.",
+                  {"element", "type", "all"}),
+           "\"element\""),
+       with_default(boolean("tied", "Several parameters share one variable instead of having one each."),
+                    "false"),
+       required(number("lower", "Lower bound.", "as declared by the shape")),
+       required(number("upper", "Upper bound.", "as declared by the shape"))});
   Field target = object(
       "target", "A value to reach in one direction.",
       {required(number("direction_deg", "Direction, modulo 180.", "degree")),

@@ -64,8 +64,9 @@ class VariablesReader {
     std::vector<ExperimentVariable> joined;
     for (std::size_t k = first; k < variables.size(); ++k) {
       const std::string group = variables[k].name.substr(0, variables[k].name.find('/') + 1);
-      const auto same = std::find_if(joined.begin(), joined.end(),
-                                     [&group](const ExperimentVariable& v) { return v.name.starts_with(group); });
+      const auto same = std::find_if(joined.begin(), joined.end(), [&group](const ExperimentVariable& v) {
+        return v.name.starts_with(group);
+      });
       if (same == joined.end()) {
         joined.push_back(variables[k]);
         continue;
@@ -77,7 +78,8 @@ class VariablesReader {
         return;
       }
       same->name += "=" + variables[k].name.substr(group.size());
-      same->parameters.insert(same->parameters.end(), variables[k].parameters.begin(), variables[k].parameters.end());
+      same->parameters.insert(same->parameters.end(), variables[k].parameters.begin(),
+                              variables[k].parameters.end());
     }
     variables.resize(first);
     variables.insert(variables.end(), joined.begin(), joined.end());

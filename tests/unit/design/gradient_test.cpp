@@ -66,7 +66,8 @@ TEST(DesignGradient, ResolvedDifferencesConvergeToIt)
     EXPECT_GT(scale, 1e-4) << "variable " << v;
     // Solved limits carry noise of about 3e-9, which differences divide by 2 h.
     const double noise = 3e-9 / 1.6e-3;
-    EXPECT_TRUE(error[1] < 3.0 * noise || error[1] < 0.35 * error[0]) << v << ": " << error[0] << " " << error[1] << " of " << scale;
+    EXPECT_TRUE(error[1] < 3.0 * noise || error[1] < 0.35 * error[0])
+        << v << ": " << error[0] << " " << error[1] << " of " << scale;
     EXPECT_LT(error[1], 1e-3 * scale) << v;
   }
 }
@@ -86,7 +87,8 @@ TEST(DesignGradient, GaussNewtonHessianIsThatOfTheResiduals)
   const DesignPoint& p = problem.current();
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      const double expected = p.value_gradients(0, i) * p.value_gradients(0, j) + 2.0 * p.value_gradients(1, i) * p.value_gradients(1, j);
+      const double expected = p.value_gradients(0, i) * p.value_gradients(0, j) +
+                              2.0 * p.value_gradients(1, i) * p.value_gradients(1, j);
       EXPECT_NEAR(H[static_cast<std::size_t>(4 * i + j)], expected, 1e-14);
     }
   }

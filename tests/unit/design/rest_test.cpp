@@ -20,7 +20,8 @@ TEST(Rest, PublishedTiltViolatesTheClearanceAndSaysWhere)
   ASSERT_EQ(problems.size(), 4U);  // both rings, three rows away and in both directions
 
   EXPECT_EQ(problems[0],
-            "element 0 (primitive 0) and element 1 (primitive 0) of image [-1, -2] are 0.0659695 apart at rest, less than "
+            "element 0 (primitive 0) and element 1 (primitive 0) of image [-1, -2] are 0.0659695 apart at "
+            "rest, less than "
             "solver.clearance 0.098; move them apart, lower the clearance, or set cell.relax to true");
 }
 
@@ -31,7 +32,8 @@ TEST(Rest, NothingLinkedIsSaid)
   const auto problems = rest_problems(scene, make_model(scene, load, 0.0), false);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0],
-            "nothing is linked: no ring passes through another, so no direction has a limit; check positions, rotations and "
+            "nothing is linked: no ring passes through another, so no direction has a limit; check "
+            "positions, rotations and "
             "the cell's vectors");
 }
 

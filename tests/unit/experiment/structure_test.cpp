@@ -29,8 +29,7 @@ TEST(Structure, WrongTypes)
             "found null");
   EXPECT_EQ(after("[6, 0, 0]", "[6, 0]"),
             "t.json:11: /cell/place/1/position: expected an array of 3 numbers, found an array of 2 values");
-  EXPECT_EQ(after("[0, 100]]", "[0, \"x\"]]"),
-            "t.json:8: /cell/vectors/1/1: expected a number, found \"x\"");
+  EXPECT_EQ(after("[0, 100]]", "[0, \"x\"]]"), "t.json:8: /cell/vectors/1/1: expected a number, found \"x\"");
 }
 
 TEST(Structure, RangesAndChoices)

@@ -23,8 +23,10 @@ void expect_second_order(const std::array<double, 3>& error, double scale, doubl
 {
   const double last = error[2] / scale;
   if (last < small) return;
-  EXPECT_NEAR(error[0] / error[1], 4.0, 0.8) << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
-  EXPECT_NEAR(error[1] / error[2], 4.0, 0.8) << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.8)
+      << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
+  EXPECT_NEAR(error[1] / error[2], 4.0, 0.8)
+      << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
 }
 
 TEST_P(Derivatives, GradientAndHessian)
@@ -137,7 +139,8 @@ TEST_P(Derivatives, ParametersAndClearance)
             moved.elements[static_cast<std::size_t>(element)].parameters[k] += (sign == 0 ? h : -h) * d[k];
           }
           const Model mm = make_model(moved, load, 0.01);
-          v[static_cast<std::size_t>(sign)] = contact_energy(mm, s, pairs, settings, {0, false, false}).energy;
+          v[static_cast<std::size_t>(sign)] =
+              contact_energy(mm, s, pairs, settings, {0, false, false}).energy;
         }
         error[static_cast<std::size_t>(j)] = std::abs((v[0] - v[1]) / (2 * h) - expected);
       }
@@ -151,7 +154,8 @@ TEST_P(Derivatives, ParametersAndClearance)
     p.clearance += h;
     q.clearance -= h;
     const double d = (contact_energy(m, s, pairs, p, {0, false, false}).energy -
-                      contact_energy(m, s, pairs, q, {0, false, false}).energy) / (2 * h);
+                      contact_energy(m, s, pairs, q, {0, false, false}).energy) /
+                     (2 * h);
     error[static_cast<std::size_t>(j)] = std::abs(d - e.d_clearance);
   }
   expect_second_order(error, std::abs(e.d_clearance), 5e-6);

@@ -19,7 +19,8 @@ struct ContactSettings {
 ///   D_q = d_q,   D_qq = d_qq - d_qc H^-1 d_cq,   H = d_cc at the minimum.
 /// F's coordinates are eliminated in closed form by its field; c is what remains of P.
 template <int dim>
-void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request, SideTerms& out);
+void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request,
+                 SideTerms& out);
 
 /// Integral of the barrier over P (its core circle when P is a tube, else its surface), weight `share`.
 /// Panels are halved until their length is at most about half of sqrt(2 r g), where r is the smallest

@@ -24,7 +24,7 @@ struct Request {
 struct ContactPoint {
   Vec3 on_p, on_f, normal;  ///< F's frame while accumulating, world after `to_world`
   double gap = 0.0;
-  double force = 0.0;       ///< -d energy / d gap (before the stiffness is applied)
+  double force = 0.0;  ///< -d energy / d gap (before the stiffness is applied)
 };
 
 /// Energy and derivatives with respect to (eta, w_P): eta shifts P's element relative to F's, w_P turns P's

@@ -30,9 +30,9 @@ struct DesignSpec {
   double hole_clearance = 0.0;  ///< paper's C_ij > eps_c for every linked pair
   double rest_clearance = 0.0;  ///< surface distance of every pair at rest
   int starts = 1;
-  double perturbation = 0.02;   ///< standard deviation of the starting designs, relative to upper - lower
+  double perturbation = 0.02;  ///< standard deviation of the starting designs, relative to upper - lower
   std::uint64_t seed = 1;
-  Schedule schedule;            ///< stages of the final search (few: their bias is reported by recomputing)
+  Schedule schedule;  ///< stages of the final search (few: their bias is reported by recomputing)
   /// Activation distance that ends the stages of the first search, from every start. Limits at a coarse
   /// stage are smooth functions of the parameters, on the scale of its gaps, where exact ones have kinks.
   double coarse_last = 1e-2;
@@ -47,21 +47,23 @@ using DesignObserver = std::function<bool(const DesignProgress&)>;
 
 /// Outcome of the optimisation; limits are recomputed from rest by the caller (`finish_design`).
 struct Designed {
-  DesignResult result;      ///< all but recomputed values
-  SceneSpec scene;          ///< best design with its relaxed rest state
+  DesignResult result;  ///< all but recomputed values
+  SceneSpec scene;      ///< best design with its relaxed rest state
 };
 
-/// Runs all starts of the design with coarse stages, then continues the best of them with the final ones. Throws InputError when the initial design is
-/// infeasible at rest, ComputationError when no evaluation succeeds.
-Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
-                    const DesignSpec& design, const Optimizer& optimizer, unsigned threads,
-                    const DesignObserver& observer);
+/// Runs all starts of the design with coarse stages, then continues the best of them with the final ones.
+/// Throws InputError when the initial design is infeasible at rest, ComputationError when no evaluation
+/// succeeds.
+Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
+                    const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
+                    unsigned threads, const DesignObserver& observer);
 
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);
 
 /// Values of the designed quantity from limits in the order of `target_tasks`; null where not locked.
-std::vector<std::optional<double>> target_values(const DesignSpec& design, const std::vector<LimitResult>& limits);
+std::vector<std::optional<double>> target_values(const DesignSpec& design,
+                                                 const std::vector<LimitResult>& limits);
 
 /// Enters recomputed limits (before and after) into the result: targets, objectives, met or not.
 void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,

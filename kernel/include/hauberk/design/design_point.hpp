@@ -10,17 +10,17 @@ namespace hauberk {
 /// states of different designs can be exchanged.
 struct DesignPoint {
   std::vector<double> x;
-  SceneSpec spec;              ///< with the parameters of x; rest poses as in the scene
+  SceneSpec spec;  ///< with the parameters of x; rest poses as in the scene
   Model model;
-  State rest;                  ///< relaxed
-  std::vector<Gap> rest_gaps;  ///< close pairs at rest, with derivatives
+  State rest;                              ///< relaxed
+  std::vector<Gap> rest_gaps;              ///< close pairs at rest, with derivatives
   std::vector<std::optional<State>> warm;  ///< per task
   std::vector<double> values;              ///< per target
   Matrix value_gradients;                  ///< row per target, column per variable
   double objective = 0.0;
   Vector gradient;
   bool evaluated = false;
-  std::string why;             ///< why it could not be evaluated
+  std::string why;  ///< why it could not be evaluated
 };
 
 /// Turns variables into element parameters.
@@ -32,7 +32,8 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
 Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables);
 
 /// d gap / d variables at fixed poses.
-Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point, const std::vector<DesignVariable>& variables);
+Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
+                              const std::vector<DesignVariable>& variables);
 
 /// Largest t in [0, 1] such that nothing collides while parameters go from `a` to `b` (same topology) and the
 /// state moves along dy: conservative advancement with |dR| + max(|dr0|, |dr1|) + |dposition| of both bodies

@@ -14,10 +14,10 @@ namespace hauberk {
 struct PairFrame {
   const Body* P = nullptr;
   const Body* F = nullptr;
-  Mat3 M;               ///< F's axes in the world: world vector = M * local vector
-  Vec3 a;               ///< centre of P
-  Vec3 e1, e2, e3;      ///< axes of P
-  Vec3 o;               ///< origin of P's element: rotations of that element turn about it
+  Mat3 M;           ///< F's axes in the world: world vector = M * local vector
+  Vec3 a;           ///< centre of P
+  Vec3 e1, e2, e3;  ///< axes of P
+  Vec3 o;           ///< origin of P's element: rotations of that element turn about it
 
   PairFrame(const Body& p, const Pose& pose_p, const Body& f, const Pose& pose_f);
 };
@@ -25,7 +25,7 @@ struct PairFrame {
 /// A probe point and its derivatives with respect to the probe coordinates.
 struct ProbePoint {
   Vec3 p, pu, pv;
-  Vec3 radial;          ///< outward in the ring's plane of P, at angle u
+  Vec3 radial;  ///< outward in the ring's plane of P, at angle u
   double cv = 0.0, sv = 0.0;
 };
 
@@ -88,14 +88,15 @@ struct Panel {
 ///
 /// The signed distance of a body whose profile is convex is a convex function of (rho, z), inside as well as
 /// outside, and its slope in rho is at most 1; rho itself curves by at most 1/rho along a line. So the
-/// Hessian of the field is nowhere below -1/rho (rho: distance from the body's axis), and along p(u, v), with displacement d = |p_u| hu + |p_v| hv,
+/// Hessian of the field is nowhere below -1/rho (rho: distance from the body's axis), and along p(u, v), with
+/// displacement d = |p_u| hu + |p_v| hv,
 ///   phi >= phi_mid - |phi_u| hu - |phi_v| hv
 ///          - 1/2 (d^2/rho_min + |p_uu| hu^2 + |p_vv| hv^2 + 2 |p_uv| hu hv),   rho_min = rho_mid - d,
 /// and in any case phi >= phi_mid - d (Lipschitz constant 1).
 struct PanelBound {
-  double value;     ///< phi at the centre
-  double bound;     ///< phi over the panel is not smaller
-  double gu, gv;    ///< derivatives of phi at the centre
+  double value;   ///< phi at the centre
+  double bound;   ///< phi over the panel is not smaller
+  double gu, gv;  ///< derivatives of phi at the centre
 };
 
 template <int dim>

@@ -7,9 +7,9 @@ namespace hauberk {
 
 /// Bounds of the smallest gap of a pair of bodies.
 struct Separation {
-  double lower = 0.0;     ///< never above the gap (up to rounding of about 1e-15 L)
-  double upper = 0.0;     ///< gap at the closest probe point seen: never below the gap
-  int evaluations = 0;    ///< closest-point evaluations spent
+  double lower = 0.0;   ///< never above the gap (up to rounding of about 1e-15 L)
+  double upper = 0.0;   ///< gap at the closest probe point seen: never below the gap
+  int evaluations = 0;  ///< closest-point evaluations spent
 };
 
 /// Branch and bound over panels of the probing body with `panel_bound`: a panel is split until its bound is

@@ -13,7 +13,7 @@ struct LimitSettings {
   ContactChoice contact = ContactChoice::automatic;
   Schedule schedule;
   int starts = 1;
-  double perturbation = 1e-3;         ///< of the first start, L; breaks symmetries without leaving rest
+  double perturbation = 0.01;         ///< of the first start, L; breaks symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of further starts, L, as far as nothing collides
   std::uint64_t seed = 1;
 };
@@ -35,8 +35,8 @@ Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSe
 
 /// Result of one task out of its starts' locked states (in start order). Forces, balance, sensitivities and
 /// the smallest gap are evaluated at the best state.
-LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task, const LimitSettings& settings,
-                      const std::vector<Locked>& starts);
+LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
+                      const LimitSettings& settings, const std::vector<Locked>& starts);
 
 /// Result for a task that the links leave unbounded or not attained, or null if it is to be solved.
 std::optional<LimitResult> decided_by_links(const Model& model, const LimitTask& task);
@@ -46,8 +46,9 @@ using LimitProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
 /// All tasks, starts in parallel. Results do not depend on `threads`. On interruption, tasks that were not
 /// finished have status `interrupted`.
-std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
-                                        const LimitSettings& settings, unsigned threads, const LimitProgress& progress);
+std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
+                                        const std::vector<LimitTask>& tasks, const LimitSettings& settings,
+                                        unsigned threads, const LimitProgress& progress);
 
 /// Stretch and compression of equal directions joined: e_s, e_c, eta = (e_s - e_c)/(1 + e_c).
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,

@@ -13,13 +13,13 @@ struct ContactEnergy {
   Matrix hessian;
   double min_gap = std::numeric_limits<double>::infinity();  ///< smallest gap seen; <= 0: not admissible
   double regularity = std::numeric_limits<double>::infinity();
-  long evaluations = 0;           ///< closest-point evaluations
-  double d_clearance = 0.0;       ///< d energy / d clearance (scaled)
-  Matrix parameters;              ///< d energy / d parameters: column k = element k, file units (see below)
+  long evaluations = 0;      ///< closest-point evaluations
+  double d_clearance = 0.0;  ///< d energy / d clearance (scaled)
+  Matrix parameters;         ///< d energy / d parameters: column k = element k, file units (see below)
   struct Point {
-    int a = 0, b = 0;             ///< bodies; walls: a = element, b = -1
+    int a = 0, b = 0;  ///< bodies; walls: a = element, b = -1
     Image image{};
-    ContactPoint contact;         ///< world; normal from a to b; on_p on a, on_f on b
+    ContactPoint contact;  ///< world; normal from a to b; on_p on a, on_f on b
     int wall = -1;
   };
   std::vector<Point> points;

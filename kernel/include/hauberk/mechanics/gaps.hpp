@@ -10,11 +10,11 @@ namespace hauberk {
 
 /// A local minimum of the distance between two bodies.
 struct Gap {
-  int a = 0, b = 0;    ///< bodies; b in image
+  int a = 0, b = 0;  ///< bodies; b in image
   Image image{};
-  double gap = 0.0;    ///< surface distance minus clearance, scaled; negative when they overlap
-  Vector dy;           ///< derivative in all unknowns
-  Vector da, db;       ///< derivative in the parameters of a's and b's element (file units, scaled gap per unit)
+  double gap = 0.0;  ///< surface distance minus clearance, scaled; negative when they overlap
+  Vector dy;         ///< derivative in all unknowns
+  Vector da, db;  ///< derivative in the parameters of a's and b's element (file units, scaled gap per unit)
 };
 
 /// All local minima closer than `range` (scaled, after clearance), in a fixed order; derivatives on request.
@@ -32,8 +32,8 @@ struct Relaxed {
   std::string problem;          ///< empty when every gap reached the target and links are kept
 };
 
-/// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2 with
-/// the macroscopic unknowns fixed, by Levenberg-Marquardt. Elements may overlap at the start (not deeper
+/// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2
+/// with the macroscopic unknowns fixed, by Levenberg-Marquardt. Elements may overlap at the start (not deeper
 /// than their tubes).
 Relaxed relax(const Model& model, const State& start, double target);
 

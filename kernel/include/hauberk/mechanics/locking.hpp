@@ -19,9 +19,9 @@ struct Schedule {
   double first = 0.03;
   double ratio = 0.1;
   double last = 2e-9;
-  double change = 3e-4;       ///< `automatic` changes from arc to nearest at this activation distance
-  double stiffness = 0.03;    ///< sets gaps at equilibrium to about a tenth of g_hat
-  double tolerance = 1e-3;    ///< of a stage, relative to its mu
+  double change = 3e-4;     ///< `automatic` changes from arc to nearest at this activation distance
+  double stiffness = 0.03;  ///< sets gaps at equilibrium to about a tenth of g_hat
+  double tolerance = 1e-3;  ///< of a stage, relative to its mu
   double last_tolerance = 1e-8;
   int most_iterations = 300;  ///< per stage
 };
@@ -42,11 +42,11 @@ struct Locked {
   LockStatus status = LockStatus::stalled;
   std::string message;
   State state;
-  Stage stage;                    ///< the last one finished
+  Stage stage;  ///< the last one finished
   std::vector<StageRecord> stages;
   int iterations = 0;
   long evaluations = 0;
-  std::optional<State> warm;      ///< state of the stage nearest to a gap of about 1e-2 L, for warm starts
+  std::optional<State> warm;  ///< state of the stage nearest to a gap of about 1e-2 L, for warm starts
   std::optional<double> error_estimate;
 };
 

@@ -19,7 +19,7 @@ using Image = std::array<int, 2>;
 struct Link {
   int a = 0, b = 0;  ///< bodies
   Image image{};
-  int number = 0;    ///< linking number of the core circles
+  int number = 0;  ///< linking number of the core circles
 };
 
 /// Immutable description of what is simulated; lengths scaled by `length`. Thread safe to read.
@@ -56,8 +56,8 @@ struct Model {
 /// Unknowns: macro, element coordinates, rotations.
 struct State {
   Vector macro;
-  Vector e;                     ///< coordinate_count per element
-  std::vector<Mat3> rotation;   ///< per element
+  Vector e;                    ///< coordinate_count per element
+  std::vector<Mat3> rotation;  ///< per element
 };
 
 /// Builds the model and finds its links. Throws InputError when nothing is linked or a primitive is bad.
@@ -81,7 +81,8 @@ Vector difference(const Model& model, const State& from, const State& to);
 /// Norm of a step: root of the metric-weighted sum of squares.
 double step_norm(const Model& model, const Vector& dy);
 
-/// Largest displacement that any surface point of any element makes to first order, without the macroscopic part.
+/// Largest displacement that any surface point of any element makes to first order, without the macroscopic
+/// part.
 double largest_motion(const Model& model, const Vector& dy);
 
 /// Pair of elements that may come into contact: i of the cell, j of image.
@@ -91,7 +92,8 @@ struct ElementPair {
 };
 
 /// All element pairs whose bounding spheres are closer than `margin` in this state, in a fixed order.
-/// Images are found by reach: every lattice translation that the strained cell can bring that near is visited.
+/// Images are found by reach: every lattice translation that the strained cell can bring that near is
+/// visited.
 std::vector<ElementPair> near_pairs(const Model& model, const State& state, double margin);
 
 /// Links of the model in a state (all body pairs within reach), in a fixed order.

@@ -7,9 +7,9 @@ namespace hauberk {
 
 /// What the check found.
 struct SafeStep {
-  double alpha = 1.0;      ///< nothing collides for s in [0, alpha]
+  double alpha = 1.0;  ///< nothing collides for s in [0, alpha]
   long evaluations = 0;
-  int tight_pairs = 0;     ///< pairs that needed more than the first look
+  int tight_pairs = 0;  ///< pairs that needed more than the first look
 };
 
 /// Largest certified alpha: for every pair of bodies the gap stays above `keep` times its certified gap at

@@ -23,18 +23,19 @@ struct TightPair {
 };
 
 struct Plan {
-  double length = 0.0;                  ///< characteristic length, file units
+  double length = 0.0;  ///< characteristic length, file units
   int elements = 0, primitives = 0;
-  int unknowns = 0;                     ///< macro + coordinates + rotations
-  int inert = 0;                        ///< spins about a common axis of all of an element's primitives
+  int unknowns = 0;  ///< macro + coordinates + rotations
+  int inert = 0;     ///< spins about a common axis of all of an element's primitives
   std::string linear_solver;
   std::vector<PairPlan> pairs;
-  int image_pairs = 0;                  ///< element pairs within reach at rest
-  Image farthest_image{};               ///< largest image indices among them
+  int image_pairs = 0;     ///< element pairs within reach at rest
+  Image farthest_image{};  ///< largest image indices among them
   std::vector<int> links_per_element;
-  std::vector<TightPair> tightest;      ///< up to ten, nearest first
-  std::vector<std::string> decisions;   ///< sentences: what was left out, and why it is exact
-  std::vector<std::pair<LimitTask, std::string>> bounded;  ///< per task: "attained", "unbounded", "not attained"
+  std::vector<TightPair> tightest;     ///< up to ten, nearest first
+  std::vector<std::string> decisions;  ///< sentences: what was left out, and why it is exact
+  std::vector<std::pair<LimitTask, std::string>>
+      bounded;  ///< per task: "attained", "unbounded", "not attained"
 };
 
 Plan make_plan(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings);
@@ -43,8 +44,9 @@ Plan make_plan(const Model& model, const std::vector<LimitTask>& tasks, const Li
 /// is. Gaps within touching distance (1e-9 L) of the clearance are fine: relaxation opens them.
 std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& model, bool relax_allowed);
 
-/// Rest state as used: relaxed where gaps touch or overlap (call after `rest_problems` found nothing). Throws InputError when
-/// there is no room. Returns the scene with new rest poses, and how far elements moved (file units).
+/// Rest state as used: relaxed where gaps touch or overlap (call after `rest_problems` found nothing). Throws
+/// InputError when there is no room. Returns the scene with new rest poses, and how far elements moved (file
+/// units).
 struct PreparedScene {
   SceneSpec scene;
   double moved = 0.0;

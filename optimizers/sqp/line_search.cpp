@@ -12,13 +12,22 @@ using Eigen::VectorXd;
 
 /// Part of the predicted decrease that a step must bring (Armijo).
 constexpr double sufficient = 1e-4;
-/// Parts of the full step above (below) which the shift of a Gauss-Newton Hessian falls (rises).
-constexpr double long_step = 0.9;
-constexpr double short_step = 0.3;
+/// The same for a bundle, whose full step must bring what the model knows.
+constexpr double sufficient_of_model = 0.1;
+/// The shift falls after a first trial that was accepted at full length; it rises after one that showed a
+/// kink, one that showed only curvature, and one that failed.
 constexpr double shift_fall = 0.4;
+constexpr double shift_rise_kink = 1.5;
 constexpr double shift_rise = 4.0;
+constexpr double shift_rise_failure = 16.0;
 constexpr double least_shift = 1e-6;
-constexpr double largest_shift = 1e6;
+/// Steps in a row that each gain less than this part of the objective are creeping; what may then be done.
+constexpr int creeping_limit = 2;
+constexpr double creeping_gain = 3e-3;
+constexpr int most_crossings = 8;
+constexpr double crossing_rise = 0.25;
+constexpr double crossing_shift = 1e-2;
+constexpr double largest_shift = 1e9;
 /// Trial points of one search; each costs an evaluation.
 constexpr int max_trials = 12;
 /// A shorter step is this much shorter, at least and at most; and after an evaluation that failed.
@@ -50,13 +59,12 @@ void Minimizer::raise_penalty(const Step& step)
   // It may come down again, slowly: a penalty that stays too large follows the constraints in tiny steps.
   penalty_ = std::max(target, 0.5 * (penalty_ + target));
   const double removed = total_violation(at_.c) - step.model_violation;
-  const double increase = at_.gradient.dot(step.d) + 0.5 * step.d.dot(curvature() * step.d);
-  if (removed > 0.0) penalty_ = std::max(penalty_, increase / (usable * removed));
+  if (removed > 0.0) penalty_ = std::max(penalty_, -step.decrease / (usable * removed));
 }
 
 bool Minimizer::line_search(const Step& step)
 {
-  const double slope = at_.gradient.dot(step.d) - penalty_ * (total_violation(at_.c) - step.model_violation);
+  const double slope = this->slope(step);
   const double length = step.d.size() == 0 ? 0.0 : step.d.cwiseAbs().maxCoeff();
   double alpha = problem_.largest_safe_step(x_, step.d);
   blocked_ = alpha * length < settings_.min_step && length >= settings_.min_step;
@@ -76,12 +84,56 @@ bool Minimizer::line_search(const Step& step)
     const double rise = merit(found.value, c) - before;
     if (rise <= sufficient * alpha * slope) {
       slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
-      if (alpha > long_step) damping_ = std::max(shift_fall * damping_, least_shift);
-      if (alpha < short_step) damping_ = std::min(shift_rise * damping_, largest_shift);
       move_to(x, found, d, step);
       return true;
     }
     alpha = shorter(alpha, slope, rise);
+  }
+  return false;
+}
+
+bool Minimizer::bundle_search(Step step)
+{
+  // Where a residual jumps, the search creeps along the edge of the jump. Then a step across it is taken even
+  // if the objective is higher there; the best iterate is remembered.
+  const bool across = creeping_ >= creeping_limit && crossings_ < most_crossings;
+  if (across) {
+    ++crossings_;
+    creeping_ = 0;
+    bundle_.drop_cuts();
+    damping_ = crossing_shift;
+    step = propose(at_);
+  }
+  for (int trial = 0; trial < max_trials && step.ok; ++trial) {
+    if (trial > 0) raise_penalty(step);
+    const double before = merit(value_, at_.c);
+    const double slope = this->slope(step);
+    const double length = step.d.size() == 0 ? 0.0 : step.d.cwiseAbs().maxCoeff();
+    if (!(slope < 0.0) || length < settings_.min_step) return false;
+    const double alpha = problem_.largest_safe_step(x_, step.d);
+    blocked_ = alpha * length < settings_.min_step;
+    double rise_of_shift = shift_rise_failure;
+    if (!blocked_) {
+      VectorXd d = alpha * step.d;
+      VectorXd x = problem_.moved(x_, d, 1.0);
+      VectorXd c = problem_.constraints(x);
+      if (alpha == 1.0 && c.allFinite() && correct(step, d, c)) x = problem_.moved(x_, d, 1.0);
+      const Trial found = problem_.evaluate(x);
+      if (found.ok && c.allFinite()) {
+        const double rise = merit(found.value, c) - before;
+        if (rise <= sufficient_of_model * alpha * slope || (across && rise <= crossing_rise * value_)) {
+          creeping_ = -rise <= creeping_gain * value_ && !across ? creeping_ + 1 : 0;
+          slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
+          if (trial == 0 && alpha == 1.0) damping_ = std::max(shift_fall * damping_, least_shift);
+          move_to(x, found, d, step);
+          return true;
+        }
+        const bool kink = bundle_.add(problem_.scaled(x), problem_.residuals(x));
+        rise_of_shift = kink ? shift_rise_kink : shift_rise;
+      }
+    }
+    damping_ = std::min(rise_of_shift * damping_, largest_shift);
+    step = propose(at_);
   }
   return false;
 }
@@ -94,9 +146,7 @@ bool Minimizer::correct(const Step& step, VectorXd& d, VectorXd& c)
   if (step.elastic || largest_violation(c) <= settings_.constraint_tolerance) return false;
   Linearisation curved = at_;
   curved.c = c - at_.J * d;
-  const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
-  const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
-  const Step corrected = propose_step(curvature(), curved, lower, upper, penalty_);
+  const Step corrected = propose(curved);
   if (!corrected.ok || corrected.elastic) return false;
   if ((corrected.d - d).norm() > correction_length * d.norm()) return false;
   if (problem_.largest_safe_step(x_, corrected.d) < 1.0) return false;

@@ -15,9 +15,8 @@ constexpr int slow_limit = 3;
 /// A restart paid off when the objective or the violation fell by these parts since.
 constexpr double worthwhile_value = 1e-2;
 constexpr double worthwhile_violation = 0.5;
-/// Shift of a Gauss-Newton Hessian: raised by this when no step was found, so many times in a row at most.
-constexpr double raise = 30.0;
-constexpr int most_raises = 3;
+/// Shift when the cuts of a bundle are dropped.
+constexpr double restart_shift = 1e-2;
 /// Violation that the relaxed model must be able to remove, or the iterate is a minimum of the violation.
 constexpr double removable = 1e-6;
 
@@ -37,7 +36,7 @@ OptimizerResult Minimizer::run()
   std::string why;
   if (!begin(why)) return finish("failed", "the start cannot be evaluated: " + why);
   for (;;) {
-    const Step step = propose();
+    const Step step = propose(at_);
     if (!step.ok) {
       if (restart()) continue;
       return finish("failed", "the quadratic model has no solution; gradients or constraints are not finite");
@@ -51,7 +50,7 @@ OptimizerResult Minimizer::run()
       return finish("iteration_limit", "stopped after " + std::to_string(iteration_) + " iterations");
     }
     raise_penalty(step);
-    if (slow_steps_ < slow_limit && line_search(step)) {
+    if (slow_steps_ < slow_limit && (least_squares() ? bundle_search(step) : line_search(step))) {
       ++iteration_;
       continue;
     }
@@ -78,36 +77,33 @@ bool Minimizer::begin(std::string& why)
   }
   remember();
   reset_hessian(settings_.initial_step);
-  refresh_squares();
+  refresh_bundle();
   return true;
 }
 
-void Minimizer::refresh_squares()
+void Minimizer::refresh_bundle()
 {
-  if (!settings_.gauss_newton || !problem_.gauss_newton(x_, squares_)) squares_.resize(0, 0);
+  if (!settings_.gauss_newton) return;
+  Residuals at = problem_.residuals(x_);
+  if (at.empty())
+    bundle_.clear();
+  else
+    bundle_.move(problem_.scaled(x_), std::move(at));
 }
 
-Eigen::MatrixXd Minimizer::curvature() const
-{
-  if (squares_.size() == 0) return hessian_.matrix();
-  const double largest = std::max(squares_.diagonal().maxCoeff(), std::numeric_limits<double>::min());
-  Eigen::MatrixXd B = squares_;
-  B.diagonal().array() += damping_ * largest;
-  return B;
-}
-
-Step Minimizer::propose() const
+Step Minimizer::propose(const Linearisation& at) const
 {
   const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
   const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
-  return propose_step(curvature(), at_, lower, upper, penalty_);
+  if (least_squares()) return bundle_.propose(at, lower, upper, damping_, penalty_);
+  return propose_step(hessian_.matrix(), at, lower, upper, penalty_);
 }
 
 double Minimizer::optimality(const Step& step) const
 {
   // What the Lagrangian's gradient promises in each variable over its range, or over the room that the bounds
   // leave. In the objective's unit, and zero at a solution.
-  const VectorXd gradient = at_.gradient - at_.J.transpose() * step.multipliers;
+  const VectorXd gradient = step.gradient - at_.J.transpose() * step.multipliers;
   const VectorXd down = -problem_.step_lower(x_);
   const VectorXd up = problem_.step_upper(x_);
   double largest = 0.0;
@@ -130,9 +126,8 @@ bool Minimizer::converged(const Step& step) const
   // A gradient g promises g^2/(2 H); with H of the objective's size in scaled variables, the square root
   // makes both conditions ask for the same.
   const double scale = objective_scale();
-  const double decrease = -at_.gradient.dot(step.d) - 0.5 * step.d.dot(curvature() * step.d);
   const bool no_step = step.d.size() == 0 || step.d.cwiseAbs().maxCoeff() < settings_.min_step;
-  return (decrease <= settings_.tolerance * scale || no_step) &&
+  return (step.decrease <= settings_.tolerance * scale || no_step) &&
          optimality(step) <= std::sqrt(settings_.tolerance) * scale;
 }
 
@@ -165,14 +160,8 @@ void Minimizer::reset_hessian(double radius)
 
 bool Minimizer::restart()
 {
-  const bool squares = squares_.size() > 0;
-  if (squares && slow_steps_ < slow_limit) {  // no step was found: a shorter one, closer to the gradient
-    if (raised_ >= most_raises) return false;
-    ++raised_;
-    damping_ *= raise;
-    return true;
-  }
-  if (!squares && hessian_.fresh()) return false;  // the same step again
+  const bool again = least_squares() ? dropped_ : hessian_.fresh();  // would propose the same step
+  if (again) return false;
   if (restarted_) {
     const bool better = value_ < restart_value_ - worthwhile_value * std::abs(restart_value_);
     const bool more_feasible = total_violation(at_.c) < worthwhile_violation * restart_violation_;
@@ -182,8 +171,13 @@ bool Minimizer::restart()
   restart_value_ = value_;
   restart_violation_ = total_violation(at_.c);
   slow_steps_ = 0;
-  if (squares) damping_ *= raise;
-  reset_hessian(std::clamp(step_length_, 10.0 * settings_.min_step, settings_.initial_step));
+  if (least_squares()) {  // cuts of a residual that is not convex may be in the way
+    dropped_ = true;
+    bundle_.drop_cuts();
+    damping_ = restart_shift;
+  } else {
+    reset_hessian(std::clamp(step_length_, 10.0 * settings_.min_step, settings_.initial_step));
+  }
   return true;
 }
 
@@ -199,10 +193,10 @@ void Minimizer::move_to(const VectorXd& x, const Trial& trial, const VectorXd& s
   at_ = std::move(next);
   x_ = x;
   value_ = trial.value;
-  raised_ = 0;
-  refresh_squares();
+  refresh_bundle();
   step_length_ = s.size() == 0 ? 0.0 : s.cwiseAbs().maxCoeff();
   reported_ = false;
+  dropped_ = false;
   remember();
 }
 

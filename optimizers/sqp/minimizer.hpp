@@ -42,17 +42,25 @@ class Minimizer {
   };
 
   bool begin(std::string& why);
-  /// Curvature of the quadratic model.
-  Eigen::MatrixXd curvature() const;
-  void refresh_squares();
-  Step propose() const;
+  bool least_squares() const { return !bundle_.empty(); }
+  /// Makes x_ the bundle's iterate.
+  void refresh_bundle();
+  /// The step of the model whose constraints are linearised as in `at`.
+  Step propose(const Linearisation& at) const;
   double optimality(const Step& step) const;
   bool converged(const Step& step) const;
   bool locally_infeasible(const Step& step) const;
   bool report(const Step& step);
   bool restart();
   void raise_penalty(const Step& step);
+  /// Of the merit function along the step, to first order.
+  double slope(const Step& step) const
+  {
+    return -step.descent - penalty_ * (total_violation(at_.c) - step.model_violation);
+  }
   bool line_search(const Step& step);
+  /// The search for sums of squares: a trial that fails is a cut of the model, which then proposes again.
+  bool bundle_search(Step step);
   /// Second-order correction of a full step that ended at constraint values c; false when it does not help.
   bool correct(const Step& step, Eigen::VectorXd& d, Eigen::VectorXd& c);
   void move_to(const Eigen::VectorXd& x, const Trial& trial, const Eigen::VectorXd& s, const Step& step);
@@ -71,9 +79,11 @@ class Minimizer {
   double first_value_ = 0.0;
   Linearisation at_;
   DampedBfgs hessian_;
-  Eigen::MatrixXd squares_;  ///< Gauss-Newton Hessian at the iterate; empty: BFGS is used
-  double damping_ = 1e-2;    ///< Levenberg-Marquardt shift of it, relative to its largest diagonal entry
-  int raised_ = 0;           ///< times the shift was raised without an accepted step
+  Bundle bundle_;          ///< of residuals; empty: BFGS is used
+  double damping_ = 1e-2;  ///< Levenberg-Marquardt shift, relative to the bundle's curvature
+  int creeping_ = 0;       ///< steps in a row that gained little
+  int crossings_ = 0;      ///< steps taken across jumps
+  bool dropped_ = false;   ///< the cuts were dropped and no step was accepted since
   double penalty_ = 0.0;     ///< of the l1 merit function
   Best best_;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -69,13 +70,20 @@ void ScaledProblem::linearise(const VectorXd& x, Linearisation& at)
   at.J = J * scale_.asDiagonal();
 }
 
-bool ScaledProblem::gauss_newton(const VectorXd& x, Eigen::MatrixXd& hessian)
+Residuals ScaledProblem::residuals(const VectorXd& x)
 {
-  hessian.resize(x.size(), x.size());
-  if (!problem_.gauss_newton(view(x), {hessian.data(), static_cast<std::size_t>(hessian.size())}))
-    return false;
-  hessian = (scale_.asDiagonal() * hessian * scale_.asDiagonal()).eval();
-  return hessian.allFinite();
+  Residuals out;
+  const int count = problem_.residual_count();
+  if (count <= 0) return out;
+  VectorXd r(count);
+  RowMajor J(count, x.size());
+  if (!problem_.residuals(view(x), {r.data(), static_cast<std::size_t>(r.size())},
+                          {J.data(), static_cast<std::size_t>(J.size())}))
+    return out;
+  if (!r.allFinite() || !J.allFinite()) return out;
+  out.r = std::move(r);
+  out.J = J * scale_.asDiagonal();
+  return out;
 }
 
 double ScaledProblem::largest_safe_step(const VectorXd& x, const VectorXd& d)

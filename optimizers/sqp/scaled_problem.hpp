@@ -1,6 +1,7 @@
 #pragma once
 /// A kernel problem in variables scaled by their ranges, with checked values and counted calls.
 
+#include "bundle.hpp"
 #include "subproblem.hpp"
 
 #include <hauberk/optimizer.hpp>
@@ -39,8 +40,10 @@ class ScaledProblem {
   Eigen::VectorXd constraints(const Eigen::VectorXd& x);
   /// Fills c and J.
   void linearise(const Eigen::VectorXd& x, Linearisation& at);
-  /// Gauss-Newton Hessian at an evaluated point, when the problem has one.
-  bool gauss_newton(const Eigen::VectorXd& x, Eigen::MatrixXd& hessian);
+  /// Residuals at the point evaluated last; empty when the problem has none.
+  Residuals residuals(const Eigen::VectorXd& x);
+  /// x in scaled variables: differences of these are scaled steps.
+  Eigen::VectorXd scaled(const Eigen::VectorXd& x) const { return x.cwiseQuotient(scale_); }
   /// In [0, 1].
   double largest_safe_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d);
   void accept(const Eigen::VectorXd& x);

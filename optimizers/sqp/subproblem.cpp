@@ -67,6 +67,9 @@ Step propose_step(const MatrixXd& B, const Linearisation& at, const VectorXd& lo
     step.d = solution.x.head(n).cwiseMax(lower).cwiseMin(upper);
     step.multipliers = solution.multipliers.head(m);
     step.model_violation = total_violation(at.c + at.J * step.d);
+    step.gradient = at.gradient;
+    step.descent = -at.gradient.dot(step.d);
+    step.decrease = step.descent - 0.5 * step.d.dot(B * step.d);
   };
   const QuadraticSolution hard = solve(assemble(B, at, lower, upper, {}, 0.0));
   if (hard.status == Status::solved) {

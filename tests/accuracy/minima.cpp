@@ -66,7 +66,8 @@ BruteMinimum descend(const Field& f, double u, double v)
       dy *= longest / length;
     }
     bool moved = false;
-    for (double t = 1.0; t > 1e-6; t *= 0.5) {
+    double t = 1.0;
+    for (int halvings = 0; halvings < 20; ++halvings, t *= 0.5) {
       double nu, nv;
       const double next = f.value(u + t * dx / su, v + t * dy / sv, nu, nv);
       // Close to the minimum values are equal to rounding and the slope decides.
@@ -120,8 +121,9 @@ void search_surface(const Field& f, int nu, int nv, std::vector<BruteMinimum>& o
     for (int j = 0; j < nv; ++j) at(i, j) = f.value(2.0 * pi * i / nu, 2.0 * pi * j / nv);
   }
   const auto k = std::min_element(value.begin(), value.end()) - value.begin();
-  BruteMinimum deepest{2.0 * pi * static_cast<double>(k / nv) / nu,
-                       2.0 * pi * static_cast<double>(k % nv) / nv, value[static_cast<std::size_t>(k)]};
+  const auto row = k / nv, column = k % nv;
+  BruteMinimum deepest{2.0 * pi * static_cast<double>(row) / nu, 2.0 * pi * static_cast<double>(column) / nv,
+                       value[static_cast<std::size_t>(k)]};
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) {
       bool low = true;

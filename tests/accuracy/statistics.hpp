@@ -2,6 +2,7 @@
 /// Quantiles of measured numbers, for the tables that the programs print.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ class Sample {
   {
     if (values_.empty()) return 0.0;
     std::sort(values_.begin(), values_.end());
-    const auto k = static_cast<std::size_t>(q * static_cast<double>(values_.size() - 1) + 0.5);
+    const auto k = static_cast<std::size_t>(std::lround(q * static_cast<double>(values_.size() - 1)));
     return values_[k];
   }
   double mean() const

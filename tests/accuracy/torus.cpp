@@ -49,7 +49,7 @@ double gauss_sum(const Torus& a, const Torus& b, int n)
     for (int k = 0; k < n; ++k) {
       const double u = 2.0 * pi * k / n;
       x.push_back(t.core(u));
-      dx.push_back(t.R * (-std::sin(u) * t.axes.col(0) + std::cos(u) * t.axes.col(1)));
+      dx.emplace_back(t.R * (-std::sin(u) * t.axes.col(0) + std::cos(u) * t.axes.col(1)));
     }
   };
   fill(a, p, dp);

@@ -15,7 +15,7 @@ void expect_refused(const std::string& text, const std::vector<std::string>& pro
   const TemporaryFolder folder;
   const std::string file = folder.write("bad.json", text);
   std::string expected;
-  for (const std::string& p : problems) expected += file + ":" + p + "\n";
+  for (const std::string& p : problems) expected.append(file).append(":").append(p).append("\n");
   const Outcome o = run_program({"run", file, "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.err, expected);

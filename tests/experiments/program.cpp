@@ -8,17 +8,15 @@
 #include <boost/json/object.hpp>
 
 #include <fcntl.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-
-extern char** environ;
 
 namespace hauberk::test {
 
@@ -40,7 +38,7 @@ TemporaryFolder::~TemporaryFolder()
 
 std::string TemporaryFolder::write(const std::string& name, const std::string& text) const
 {
-  const std::string file = *this / name;
+  std::string file = *this / name;
   std::ofstream(file) << text;
   return file;
 }

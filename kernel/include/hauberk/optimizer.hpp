@@ -28,15 +28,13 @@ class OptimizationProblem {
   /// Objective, and its gradient when wanted.
   virtual Evaluation evaluate(std::span<const double> x, bool want_gradient) = 0;
 
-  /// Gauss-Newton Hessian J^T J (row-major, size of x squared) where the objective is half a sum of squares;
-  /// false where it is not, or x was not evaluated. Optimizers may use it instead of an approximation of
-  /// their own.
-  virtual bool gauss_newton(std::span<const double> x, std::span<double> hessian)
-  {
-    static_cast<void>(x);
-    static_cast<void>(hessian);
-    return false;
-  }
+  /// Number of residuals where the objective is half the sum of their squares, else 0.
+  virtual int residual_count() const = 0;
+
+  /// Residuals r (size residual_count) at the point that was evaluated last, and their Jacobian, row-major
+  /// residual_count x size of x: f = 1/2 sum r_i^2. False when they are not known there. Residuals may have
+  /// kinks; an optimizer sees more of them through residuals than through the gradient of their sum.
+  virtual bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) = 0;
 
   /// Inequality constraints c (size constraint_count) and their Jacobian, row-major count x size of x;
   /// an empty span means not wanted.

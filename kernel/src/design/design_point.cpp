@@ -7,9 +7,12 @@
 namespace hauberk {
 namespace {
 
-constexpr double response_weight = 1e-6;  ///< weight of staying against keeping gaps
+constexpr double response_weight = 1e-3;  ///< weight of staying against keeping gaps, at rest
+constexpr double follow_weight = 1e-6;    ///< the same for locked states, whose contacts fix them
 constexpr double least_gap = 0.05;        ///< of the smallest gap at the start: the advance stops there
 constexpr double shortest_advance = 1e-6;
+constexpr double contact_range = 3.0;   ///< activation distances: gaps that a warm start keeps
+constexpr double open_enough = 0.01;    ///< activation distances: gaps of a warm start are at least that
 
 /// Model between a and b: bodies interpolated linearly. Kinds follow `b` unless both are tubes.
 Model between(const Model& a, const Model& b, double t)
@@ -35,6 +38,25 @@ double shape_speed(const Body& a, const Body& b)
 {
   return std::abs(a.R - b.R) + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) +
          (a.center - b.center).norm();
+}
+
+/// Least-squares motion that keeps `gaps` of a point, per unit of the variables.
+Matrix gap_response(const DesignPoint& point, const std::vector<Gap>& gaps,
+                    const std::vector<DesignVariable>& variables, bool strain_moves, double weight)
+{
+  const Model& m = point.model;
+  const int n = m.dofs(), nv = static_cast<int>(variables.size());
+  Matrix A = Matrix::Zero(n, n), B = Matrix::Zero(n, nv);
+  A.diagonal() = weight * m.metric;
+  for (const Gap& g : gaps) {
+    Vector dy = g.dy;
+    if (!strain_moves) dy.head(m.macro_count).setZero();
+    A.noalias() += dy * dy.transpose();
+    B.noalias() += dy * gap_parameter_gradient(g, point, variables).transpose();
+  }
+  Matrix response = -A.ldlt().solve(B);
+  if (!strain_moves) response.topRows(m.macro_count).setZero();
+  return response;
 }
 
 }  // namespace
@@ -68,19 +90,31 @@ Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
 
 Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables)
 {
-  const Model& m = point.model;
-  const int n = m.dofs(), nv = static_cast<int>(variables.size());
-  Matrix A = Matrix::Zero(n, n), B = Matrix::Zero(n, nv);
-  A.diagonal() = response_weight * m.metric;
-  for (const Gap& g : point.rest_gaps) {
-    Vector dy = g.dy;
-    dy.head(m.macro_count).setZero();
-    A.noalias() += dy * dy.transpose();
-    B.noalias() += dy * gap_parameter_gradient(g, point, variables).transpose();
+  return gap_response(point, point.rest_gaps, variables, false, response_weight);
+}
+
+std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
+                              const std::vector<DesignVariable>& variables)
+{
+  if (from.x == to.x) return warm.state;
+  const Model& m = from.model;
+  Vector dx(static_cast<int>(from.x.size()));
+  for (std::size_t v = 0; v < from.x.size(); ++v) dx[static_cast<int>(v)] = to.x[v] - from.x[v];
+  const double range = contact_range * warm.g_hat;
+  const std::vector<Gap> gaps = find_gaps(m, warm.state, range, true);
+  const Vector dy = gap_response(from, gaps, variables, true, follow_weight) * dx;
+  double shape = 0.0, thinnest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
+    shape = std::max(shape, shape_speed(m.bodies[k], to.model.bodies[k]));
+    thinnest = std::min({thinnest, m.bodies[k].r0, m.bodies[k].r1});
   }
-  Matrix response = -A.ldlt().solve(B);
-  response.topRows(m.macro_count).setZero();
-  return response;
+  // Two cores are apart by both thicknesses; each moves by less than half of the thinner.
+  if (2.0 * (largest_motion(m, dy) + shape) > thinnest) return std::nullopt;
+  const State s = advanced(m, warm.state, dy, 1.0);
+  if (!m.load->admissible({s.macro.data(), static_cast<std::size_t>(m.macro_count)})) return std::nullopt;
+  if (smallest_gap(to.model, s, range) < open_enough * warm.g_hat || !links_kept(to.model, s))
+    return std::nullopt;
+  return s;
 }
 
 double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy)

@@ -17,6 +17,7 @@ constexpr double constrained_range = 0.3;
 /// Gaps within this of the required clearance respond together when parameters change (L).
 constexpr double response_range = 0.03;
 constexpr double smallest_share = 1e-3;
+constexpr double same_value = 1e-9;  ///< two locked states closer than that are taken for one
 constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;
@@ -102,6 +103,9 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
 {
   if (std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return current_;
   if (std::equal(x.begin(), x.end(), last_->x.begin(), last_->x.end())) return last_;
+  for (const auto& known : accepted_) {
+    if (std::equal(x.begin(), x.end(), known->x.begin(), known->x.end())) return known;
+  }
   auto p = std::make_shared<DesignPoint>();
   p->x = copy(x);
   p->spec = with_variables(scene_, design_.variables, x);
@@ -134,34 +138,62 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   return p;
 }
 
+Locked DesignProblem::lock_target(const DesignPoint& p, std::size_t task, const Vector& load,
+                                  std::vector<WarmStart>& trail, long& evaluations) const
+{
+  const std::vector<WarmStart> warm =
+      current_->warm.size() == tasks_.size() ? current_->warm[task] : std::vector<WarmStart>();
+  const auto run = [&](const State& from, const Schedule& schedule) {
+    Locked l = lock(p.model, from, load, limits_.contact, schedule, keep_going_);
+    evaluations += l.evaluations;
+    return l;
+  };
+  const auto enter = [](const Locked& l, std::vector<WarmStart>& out) {
+    for (std::size_t i = 0; i < l.trail.size(); ++i) out.push_back({l.stages[i].g_hat, l.trail[i]});
+  };
+  // A limit is the furthest locked state. One search starts loose, and may find another state than the
+  // iterate's; one follows the iterate's state, which may be further, as tightly as it can.
+  Locked loose;
+  if (!warm.empty()) {
+    const std::optional<State> start = followed(*current_, warm.front(), p, design_.variables);
+    if (start) loose = run(*start, schedule_);
+  }
+  for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
+    const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
+    loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed), schedule_);
+  }
+  for (std::size_t j = warm.size(); j-- > 1;) {
+    if (warm[j].g_hat < schedule_.last) continue;
+    const std::optional<State> start = followed(*current_, warm[j], p, design_.variables);
+    if (!start) continue;
+    Schedule schedule = schedule_;
+    schedule.first = warm[j].g_hat;
+    Locked tight = run(*start, schedule);
+    if (tight.status != LockStatus::locked) continue;
+    const bool further = loose.status != LockStatus::locked ||
+                         load.dot(tight.state.macro) > load.dot(loose.state.macro) + same_value;
+    if (!further) break;
+    if (!loose.trail.empty()) trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
+    enter(tight, trail);
+    return tight;
+  }
+  enter(loose, trail);
+  return loose;
+}
+
 void DesignProblem::solve_targets(DesignPoint& p)
 {
-  const std::vector<std::optional<State>> warm = current_->warm;
-  p.warm.assign(tasks_.size(), std::nullopt);
+  p.warm.assign(tasks_.size(), {});
   std::vector<Locked> locked(tasks_.size());
   std::vector<double> estimate(tasks_.size());
+  std::vector<long> evaluations(tasks_.size(), 0);
   std::vector<Vector> gradient(tasks_.size());
   const auto nv = static_cast<int>(design_.variables.size());
   parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
     const Vector load = load_vector(p.model, tasks_[k].direction_deg * degree, tasks_[k].sense);
-    std::optional<State> start;
-    const bool same = &p == current_.get();
-    if (warm.size() == tasks_.size() && warm[k] &&
-        (same ||
-         safe_parameter_step(current_->model, p.model, *warm[k], Vector::Zero(p.model.dofs())) >= 1.0)) {
-      start = warm[k];
-    }
-    if (start) locked[k] = lock(p.model, *start, load, limits_.contact, schedule_, keep_going_);
-    // From rest where no warm start is safe or it leads nowhere.
-    for (int attempt = 0; attempt < attempts_from_rest && locked[k].status == LockStatus::stalled;
-         ++attempt) {
-      const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
-      const State rest = perturbed(p.model, p.rest, limits_.perturbation, seed);
-      locked[k] = lock(p.model, rest, load, limits_.contact, schedule_, keep_going_);
-    }
+    locked[k] = lock_target(p, k, load, p.warm[k], evaluations[k]);
     const Locked& l = locked[k];
     if (l.status != LockStatus::locked) return;
-    p.warm[k] = l.warm;
     // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
     Request request;
     request.order = 1;
@@ -179,7 +211,7 @@ void DesignProblem::solve_targets(DesignPoint& p)
     }
   });
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    evaluations_ += locked[k].evaluations;
+    evaluations_ += evaluations[k];
     if (locked[k].status != LockStatus::locked) {
       p.why = fmt::format("no limit at {} degrees: {}", tasks_[k].direction_deg, locked[k].message);
       return;
@@ -224,15 +256,18 @@ OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> 
   return e;
 }
 
-bool DesignProblem::gauss_newton(std::span<const double> x, std::span<double> hessian)
+bool DesignProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)
 {
   const std::shared_ptr<DesignPoint> p = make_point(x);
   if (!p->evaluated) return false;
-  Vector weights(static_cast<int>(design_.targets.size()));
-  for (std::size_t i = 0; i < design_.targets.size(); ++i)
-    weights[static_cast<int>(i)] = design_.targets[i].weight;
-  const Matrix H = p->value_gradients.transpose() * weights.asDiagonal() * p->value_gradients;
-  std::copy(H.data(), H.data() + H.size(), hessian.begin());  // symmetric: either order
+  std::size_t entry = 0;
+  for (std::size_t i = 0; i < design_.targets.size(); ++i) {
+    const DesignTarget& t = design_.targets[i];
+    const double w = std::sqrt(t.weight);
+    r[i] = w * (p->values[i] - t.value);
+    for (std::size_t v = 0; v < x.size(); ++v)
+      jacobian[entry++] = w * p->value_gradients(static_cast<int>(i), static_cast<int>(v));
+  }
   return true;
 }
 
@@ -251,15 +286,11 @@ void DesignProblem::constraints(std::span<const double> x, std::span<double> c, 
     if (!jacobian.empty()) {
       const auto add = [&](int body, int quantity, double factor) {
         const int element = m.bodies[static_cast<std::size_t>(body)].element;
-        const int n = m.parameter_count[static_cast<std::size_t>(element)];
         for (int v = 0; v < nv; ++v) {
           for (const auto& [el, parameter] : design_.variables[static_cast<std::size_t>(v)].entries) {
             if (el != element) continue;
             jacobian[row * static_cast<std::size_t>(nv) + static_cast<std::size_t>(v)] +=
-                factor *
-                m.jacobians[static_cast<std::size_t>(body)]
-                           [static_cast<std::size_t>(quantity * n + parameter)] /
-                L;
+                factor * m.size_derivative(static_cast<std::size_t>(body), quantity, parameter);
           }
         }
       };
@@ -325,9 +356,16 @@ void DesignProblem::set_schedule(const Schedule& schedule)
   current_ = last_ = std::make_shared<DesignPoint>(*current_);
   current_->evaluated = false;
   current_->why.clear();
+  accepted_.clear();  // their values are of the other stages
 }
 
-void DesignProblem::accept(std::span<const double> x) { current_ = make_point(x); }
+void DesignProblem::accept(std::span<const double> x)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  if (!p->evaluated) throw PluginError("the optimizer accepted a design that it could not evaluate: " + p->why);
+  current_ = p;
+  accepted_.push_back(p);
+}
 
 std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
 {

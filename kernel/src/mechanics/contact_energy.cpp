@@ -247,8 +247,7 @@ class Assembler {
       const int n = m_.parameter_count[static_cast<std::size_t>(element)];
       for (int r = 0; r < primitive_dofs; ++r) {
         for (int c = 0; c < n; ++c) {
-          out_.parameters(c, element) += full[static_cast<std::size_t>(r)] *
-                                         m_.jacobians[k][static_cast<std::size_t>(r * n + c)] / m_.length;
+          out_.parameters(c, element) += full[static_cast<std::size_t>(r)] * m_.size_derivative(k, r, c);
         }
       }
     };

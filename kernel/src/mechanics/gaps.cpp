@@ -55,8 +55,7 @@ void gaps_of(const Model& m, const ElementPair& pair, int p, int f, const Pose& 
         Vector out_d = Vector::Zero(n);
         for (int r = 0; r < primitive_dofs; ++r) {
           for (int c = 0; c < n; ++c) {
-            out_d[c] += full[static_cast<std::size_t>(r)] *
-                        m.jacobians[k][static_cast<std::size_t>(r * n + c)] / m.length;
+            out_d[c] += full[static_cast<std::size_t>(r)] * m.size_derivative(k, r, c);
           }
         }
         return out_d;

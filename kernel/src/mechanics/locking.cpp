@@ -6,7 +6,6 @@
 namespace hauberk {
 namespace {
 
-constexpr double warm_range = 0.02;  ///< L: stages with g_hat at least this are kept for warm starts
 constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
 
@@ -114,7 +113,7 @@ class Path {
     record.residual = r.residual;
     record.escapes = r.escapes;
     out_.stages.push_back(record);
-    if (g_hat >= warm_range || out_.stages.size() == 1) out_.warm = out_.state;
+    out_.trail.push_back(out_.state);
     previous_ = before_valid_ ? std::optional<State>(before) : std::nullopt;
     before_valid_ = true;
     return true;
@@ -124,7 +123,7 @@ class Path {
   {
     State s = before;
     extrapolate(s, g_hat, f);
-    const StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_);
+    StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
     out_.state = std::move(s);

@@ -42,7 +42,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   m.load = &load;
   m.macro_count = load.macro_count();
   m.coordinate_count = load.coordinate_count();
-  for (const Vec3& t : spec.lattice) m.lattice.push_back(t / m.length);
+  for (const Vec3& t : spec.lattice) m.lattice.emplace_back(t / m.length);
 
   std::vector<Vec3> positions;
   for (std::size_t k = 0; k < spec.elements.size(); ++k) {

@@ -77,11 +77,11 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
                     "carries only the regularisation of null directions",
                     p.inert));
   }
-  if (m.coordinate_count == 2) p.decisions.push_back("z is fixed: one unknown less per element");
+  if (m.coordinate_count == 2) p.decisions.emplace_back("z is fixed: one unknown less per element");
   const bool smooth_only =
       std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
   if (smooth_only)
-    p.decisions.push_back("every cross-section is a circle: no surface is searched in two angles");
+    p.decisions.emplace_back("every cross-section is a circle: no surface is searched in two angles");
   switch (settings.contact) {
     case ContactChoice::automatic:
       p.decisions.push_back(
@@ -90,10 +90,10 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
                       settings.schedule.change));
       break;
     case ContactChoice::nearest:
-      p.decisions.push_back("contact: nearest in every stage");
+      p.decisions.emplace_back("contact: nearest in every stage");
       break;
     case ContactChoice::arc:
-      p.decisions.push_back("contact: arc in every stage");
+      p.decisions.emplace_back("contact: arc in every stage");
       break;
   }
   p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
@@ -132,8 +132,9 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         std::string x = kind_name(A.kind), y = kind_name(B.kind);
         if (y < x) std::swap(x, y);
-        PairPlan& k = kinds[x + " / " + y];
-        k.kinds = x + " / " + y;
+        const std::string name = fmt::format("{} / {}", x, y);
+        PairPlan& k = kinds[name];
+        k.kinds = name;
         k.distance = reduction(A, B);
         ++k.pairs;
       }

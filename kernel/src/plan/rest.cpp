@@ -105,10 +105,11 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
   const double gap = smallest_gap(m, rest, opened);
   if (gap > touching) return out;
   Relaxed r;
-  for (double room = opened; room >= least_opened; room *= 0.1) {
+  double room = opened;
+  do {
     r = relax(m, rest, room);
-    if (r.problem.empty()) break;
-  }
+    room *= 0.1;
+  } while (!r.problem.empty() && room >= least_opened);
   if (!r.problem.empty()) throw InputError("the rest state has no room nearby: " + r.problem);
   const std::vector<Pose> p = poses(m, r.state);
   for (std::size_t k = 0; k < p.size(); ++k)

@@ -202,32 +202,30 @@ TEST(SqpConvergence, FixedAndUnboundedVariables)
   EXPECT_NEAR(r.x[1], 1.0, 1e-5);
 }
 
-/// Eight residuals of 24 variables, as designs are; all vanish at one point. Fills the rows of J.
-double residuals(const VectorXd& x, VectorXd& g, RowMajor& J)
+/// Eight residuals of 24 variables, as designs are; all vanish at one point.
+void eight_residuals(const VectorXd& x, VectorXd& r, RowMajor& J)
 {
-  double value = 0.0;
-  g.setZero();
+  r.setZero(8);
   J.resize(8, 24);
   for (int k = 0; k < 8; ++k) {
-    double residual = 0.0;
     for (int i = 0; i < 24; ++i) {
       const double weight = 0.1 * (0.5 + 0.5 * std::cos(1.0 + k * (i + 1.3)));
       const double target = 0.3 + 0.025 * ((5 * i) % 24);
-      residual += weight * (x[i] - target + 0.3 * (x[i] * x[i] - target * target));
+      r[k] += weight * (x[i] - target + 0.3 * (x[i] * x[i] - target * target));
       J(k, i) = weight * (1.0 + 0.6 * x[i]);
     }
-    value += 0.5 * residual * residual;
-    g += residual * J.row(k).transpose();
   }
-  return value;
 }
 
 FunctionProblem least_squares()
 {
   FunctionProblem problem = box(24, 0.0, 1.0);
   problem.objective = [](const VectorXd& x, VectorXd& g) {
+    VectorXd r;
     RowMajor J;
-    return residuals(x, g, J);
+    eight_residuals(x, r, J);
+    g = J.transpose() * r;
+    return 0.5 * r.squaredNorm();
   };
   return problem;
 }
@@ -243,15 +241,11 @@ TEST(SqpConvergence, ManyLeastSquaresVariables)
   EXPECT_LT(r.evaluations, 60);
 }
 
-TEST(SqpConvergence, GaussNewtonNeedsFewerEvaluations)
+TEST(SqpConvergence, ResidualsSaveEvaluations)
 {
   FunctionProblem problem = least_squares();
-  problem.squares = [](const VectorXd& x, RowMajor& H) {
-    VectorXd g(24);
-    RowMajor J;
-    residuals(x, g, J);
-    H = J.transpose() * J;
-  };
+  problem.residual_number = 8;
+  problem.residual_functions = [](const VectorXd& x, VectorXd& r, RowMajor& J) { eight_residuals(x, r, J); };
   Recorder recorder;
   const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, SqpSettings{});
   EXPECT_EQ(r.status, "converged") << r.message;
@@ -259,21 +253,99 @@ TEST(SqpConvergence, GaussNewtonNeedsFewerEvaluations)
   EXPECT_LT(r.evaluations, 15);
 }
 
-TEST(SqpConvergence, UselessGaussNewtonHessianEnds)
+TEST(SqpConvergence, UselessJacobianEnds)
 {
-  // A Hessian that is nought, and a hundred times too small: steps are shortened, and the run ends.
-  for (const double factor : {0.0, 1e-2}) {
+  // Jacobians of residuals that are nought, and ten times too small: steps are shortened, and the run ends.
+  for (const double factor : {0.0, 0.1}) {
     FunctionProblem problem = rosenbrock(-2.0, 2.0);
-    problem.squares = [factor](const VectorXd& x, RowMajor& H) {
-      H << 400.0 * x[0] * x[0] + 1.0, -200.0 * x[0], -200.0 * x[0], 200.0;
-      H *= factor;
+    problem.residual_number = 2;
+    problem.residual_functions = [factor](const VectorXd& x, VectorXd& r, RowMajor& J) {
+      const double root = std::sqrt(2.0);
+      r << root * (1.0 - x[0]), root * 10.0 * (x[1] - x[0] * x[0]);
+      J << -root, 0.0, -20.0 * root * x[0], 10.0 * root;
+      J *= factor;
     };
     Recorder recorder;
     const OptimizerResult r = minimise(problem, {-1.2, 1.0}, recorder, SqpSettings{});
-    EXPECT_LT(r.value, 24.2);
+    EXPECT_LT(r.value, 24.3);
     EXPECT_LE(r.iterations, 100);
-    EXPECT_LT(r.evaluations, 400);
+    EXPECT_LT(r.evaluations, 1300);
   }
+}
+
+/// Residuals r_i = min(a_i . x, b_i . x) - 1 with kinks, as limits have them: they rise fastest where two
+/// contacts are equal. Half the sum of squares, with r_(n+i) = x_i/2 added, is convex below zero and the same
+/// for all cyclic permutations of x: it is least at equal components t, where all six kinks meet. There
+/// r_i = 1.4 t - 1, so t = 1.4/(1.4^2 + 1/4).
+void kinked(const VectorXd& x, VectorXd& r, RowMajor& J)
+{
+  constexpr int n = 6;
+  J.setZero();
+  for (int i = 0; i < n; ++i) {
+    VectorXd a = VectorXd::Zero(n), b = VectorXd::Zero(n);
+    a[i] = 1.0;
+    a[(i + 1) % n] = 0.4;
+    b[(i + 2) % n] = 0.9;
+    b[(i + 3) % n] = 0.5;
+    const VectorXd& g = a.dot(x) <= b.dot(x) ? a : b;
+    r[i] = g.dot(x) - 1.0;
+    J.row(i) = g.transpose();
+    r[n + i] = 0.5 * x[i];
+    J(n + i, i) = 0.5;
+  }
+}
+
+TEST(SqpConvergence, KinkedResidualsAreFollowedAlongTheirKinks)
+{
+  FunctionProblem problem = box(6, -2.0, 3.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    VectorXd r(12);
+    RowMajor J(12, 6);
+    kinked(x, r, J);
+    g = J.transpose() * r;
+    return 0.5 * r.squaredNorm();
+  };
+  problem.residual_number = 12;
+  problem.residual_functions = kinked;
+  const std::vector<double> start = {-1.0, 2.0, 0.3, -0.7, 1.4, 0.1};
+  const double t = 1.4 / (1.96 + 0.25);
+  const double least = 3.0 * ((1.4 * t - 1.0) * (1.4 * t - 1.0) + 0.25 * t * t);
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, start, recorder, SqpSettings{});
+  EXPECT_NEAR(r.value, least, 1e-6 * least);
+  for (const double v : r.x) EXPECT_NEAR(v, t, 1e-3);
+  // Without residuals the search sees one gradient at a time.
+  FunctionProblem blind = problem;
+  blind.residual_number = 0;
+  blind.evaluated.clear();
+  blind.accepted.clear();
+  Recorder other;
+  const OptimizerResult slow = minimise(blind, start, other, SqpSettings{});
+  EXPECT_GE(slow.value, r.value - 1e-9);
+  EXPECT_LT(2 * r.evaluations, slow.evaluations);
+}
+
+TEST(SqpConvergence, AJumpIsCrossed)
+{
+  // Along the way down to x = 0 the residual jumps up by 10 % at x = 1.
+  FunctionProblem problem = box(2, -4.0, 4.0);
+  const auto residual = [](const VectorXd& x, VectorXd& r, RowMajor& J) {
+    r << x[0] + (x[0] < 1.0 && x[0] > -0.5 ? 0.1 : 0.0), 0.1 * (x[1] - 1.0);
+    J << 1.0, 0.0, 0.0, 0.1;
+  };
+  problem.objective = [residual](const VectorXd& x, VectorXd& g) {
+    VectorXd r(2);
+    RowMajor J(2, 2);
+    residual(x, r, J);
+    g = J.transpose() * r;
+    return 0.5 * r.squaredNorm();
+  };
+  problem.residual_number = 2;
+  problem.residual_functions = residual;
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {1.05, -3.0}, recorder, SqpSettings{});
+  EXPECT_LT(r.value, 1e-6 * recorder.iterates.front().value) << r.message;
+  EXPECT_NEAR(r.x[0], -0.1, 2e-3);
 }
 
 }  // namespace

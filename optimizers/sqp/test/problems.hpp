@@ -21,7 +21,8 @@ class FunctionProblem : public OptimizationProblem {
   std::function<double(const VectorXd&, VectorXd&)> objective;  ///< value; fills the gradient
   int constraint_number = 0;
   std::function<void(const VectorXd&, VectorXd&, RowMajor&)> constraint_functions;
-  std::function<void(const VectorXd&, RowMajor&)> squares;  ///< Gauss-Newton Hessian; empty: there is none
+  int residual_number = 0;  ///< 0: the objective is not given as a sum of squares
+  std::function<void(const VectorXd&, VectorXd&, RowMajor&)> residual_functions;
   std::function<double(const VectorXd&, const VectorXd&)> safe = [](const auto&, const auto&) { return 1.0; };
   std::function<bool(const VectorXd&)> fails = [](const auto&) { return false; };
 
@@ -62,14 +63,16 @@ class FunctionProblem : public OptimizationProblem {
     if (!jacobian.empty()) std::copy(J.data(), J.data() + J.size(), jacobian.begin());
   }
 
-  bool gauss_newton(std::span<const double> x, std::span<double> hessian) override
+  int residual_count() const override { return residual_number; }
+  bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
   {
     const VectorXd v = vector(x);
-    if (!squares) return false;
     if (evaluated.empty() || v != evaluated.back()) ++broken_protocol;
-    RowMajor H(v.size(), v.size());
-    squares(v, H);
-    std::copy(H.data(), H.data() + H.size(), hessian.begin());
+    VectorXd values(residual_number);
+    RowMajor J(residual_number, v.size());
+    residual_functions(v, values, J);
+    std::copy(values.begin(), values.end(), r.begin());
+    std::copy(J.data(), J.data() + J.size(), jacobian.begin());
     return true;
   }
 

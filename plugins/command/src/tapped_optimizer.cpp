@@ -22,9 +22,10 @@ class InterruptibleProblem final : public OptimizationProblem {
     stop_if_interrupted();
     return problem_.evaluate(x, want_gradient);
   }
-  bool gauss_newton(std::span<const double> x, std::span<double> hessian) override
+  int residual_count() const override { return problem_.residual_count(); }
+  bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
   {
-    return problem_.gauss_newton(x, hessian);
+    return problem_.residuals(x, r, jacobian);
   }
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
   {

@@ -158,6 +158,7 @@ class Checker {
     const ExtraFields extra = extra_ ? extra_(field, node, problems_) : ExtraFields{};
     const std::vector<Field> children = merge_fields(field.children, extra.fields);
     std::vector<std::string> known;
+    known.reserve(children.size());
     for (const Field& child : children) known.push_back(child.name);
 
     std::vector<std::string> given;

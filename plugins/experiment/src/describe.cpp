@@ -83,7 +83,6 @@ std::string describe_expected(const Field& field)
     case Field::Kind::list:
       return array_of(field, field.children.empty() ? "values" : plural(field.children[0]));
     case Field::Kind::object:
-      return "an object";
     case Field::Kind::map:
       return "an object";
     case Field::Kind::any:

@@ -47,7 +47,7 @@ std::size_t json_number_size(std::string_view text)
     return at - start;
   };
   const auto next_is = [&](std::string_view any) {
-    return at < text.size() && any.find(text[at]) != any.npos;
+    return at < text.size() && any.find(text[at]) != std::string_view::npos;
   };
 
   if (next_is("-")) ++at;

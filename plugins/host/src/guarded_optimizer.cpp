@@ -52,6 +52,14 @@ class WatchedProblem final : public OptimizationProblem {
   {
     return callbacks_.run([&] { return inner_.evaluate(x, want_gradient); });
   }
+  int residual_count() const override
+  {
+    return callbacks_.run([&] { return inner_.residual_count(); });
+  }
+  bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
+  {
+    return callbacks_.run([&] { return inner_.residuals(x, r, jacobian); });
+  }
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
   {
     callbacks_.run([&] { inner_.constraints(x, c, jacobian); });

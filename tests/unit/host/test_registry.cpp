@@ -122,6 +122,7 @@ TEST_F(RegistryTest, ThreadsGetTheSameTable)
   std::vector<const PluginTable*> found(8);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(found.size());
     for (auto& slot : found) {
       threads.emplace_back([&] { slot = &registry_.find(PluginKind::shape, "good_shape"); });
     }

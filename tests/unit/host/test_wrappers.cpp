@@ -144,6 +144,13 @@ class Parabola final : public OptimizationProblem {
     evaluation.value = x[0] * x[0];
     return evaluation;
   }
+  int residual_count() const override { return 1; }
+  bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
+  {
+    r[0] = std::sqrt(2.0) * x[0];
+    jacobian[0] = std::sqrt(2.0);
+    return true;
+  }
   void constraints(std::span<const double>, std::span<double>, std::span<double>) override {}
   double largest_safe_step(std::span<const double>, std::span<const double>) override { return 1.0; }
   void accept(std::span<const double>) override {}
@@ -175,6 +182,13 @@ TEST(GuardedOptimizer, ResultComesThrough)
   const OptimizerResult result = run_hasty(false, false, false);
   EXPECT_EQ(result.value, 2.25);
   EXPECT_EQ(result.x, std::vector<double>{1.5});
+}
+
+TEST(GuardedOptimizer, ResidualsComeThrough)
+{
+  const OptimizerResult result = run_hasty(false, false, false);
+  EXPECT_EQ(result.iterations, 1) << "the number of residuals";
+  EXPECT_EQ(result.message, std::to_string(std::sqrt(2.0) * 1.5));
 }
 
 TEST(GuardedOptimizer, ItsOwnFailureIsThePlugins)

@@ -163,6 +163,8 @@ class AnyProblem final : public OptimizationProblem {
   std::span<const double> upper() const override { return high; }
   int constraint_count() const override { return 0; }
   Evaluation evaluate(std::span<const double>, bool) override { return {}; }
+  int residual_count() const override { return 0; }
+  bool residuals(std::span<const double>, std::span<double>, std::span<double>) override { return false; }
   void constraints(std::span<const double>, std::span<double>, std::span<double>) override {}
   double largest_safe_step(std::span<const double>, std::span<const double>) override { return 1.0; }
   void accept(std::span<const double>) override {}

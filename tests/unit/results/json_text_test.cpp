@@ -18,7 +18,7 @@ TEST(JsonText, EveryNumberSurvivesWritingAndReading)
   std::mt19937_64 random(20);
   boost::json::array numbers;
   for (int i = 0; i < 20000; ++i) {
-    const double x = std::bit_cast<double>(random());
+    const auto x = std::bit_cast<double>(random());
     if (std::isfinite(x)) numbers.push_back(x);
     numbers.push_back(std::uniform_real_distribution<>(-20.0, 20.0)(random));
   }

@@ -6,6 +6,12 @@
 
 namespace hauberk {
 
+/// End of one stage on the way to a locked state.
+struct WarmStart {
+  double g_hat = 0.0;
+  State state;
+};
+
 /// A design whose rest state is relaxed; the reference positions of the model stay those of the scene, so
 /// states of different designs can be exchanged.
 struct DesignPoint {
@@ -14,7 +20,7 @@ struct DesignPoint {
   Model model;
   State rest;                              ///< relaxed
   std::vector<Gap> rest_gaps;              ///< close pairs at rest, with derivatives
-  std::vector<std::optional<State>> warm;  ///< per task
+  std::vector<std::vector<WarmStart>> warm;  ///< per task, loosest first
   std::vector<double> values;              ///< per target
   Matrix value_gradients;                  ///< row per target, column per variable
   double objective = 0.0;
@@ -30,6 +36,14 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
 /// Response of the rest poses to the variables: least-squares motion that keeps all close gaps; columns are
 /// variables, rows unknowns.
 Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables);
+
+/// Warm start of design `to` from a stage of design `from`: the state moved by the least-squares response of
+/// all unknowns, strain included, that keeps the gaps in contact. Null where that is not a state of the same
+/// fabric: some gap is closed, a link is lost, or the change is so large that cores could have crossed
+/// unseen (a tube's radius). What is between is not a motion of either design, so it need not be free of
+/// overlaps.
+std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
+                              const std::vector<DesignVariable>& variables);
 
 /// d gap / d variables at fixed poses.
 Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,

@@ -18,7 +18,8 @@ class DesignProblem final : public OptimizationProblem {
   std::span<const double> upper() const override { return upper_; }
   int constraint_count() const override { return static_cast<int>(holes_.size() + pairs_.size()); }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override;
-  bool gauss_newton(std::span<const double> x, std::span<double> hessian) override;
+  int residual_count() const override { return static_cast<int>(design_.targets.size()); }
+  bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override;
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override;
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
   void accept(std::span<const double> x) override;
@@ -49,6 +50,9 @@ class DesignProblem final : public OptimizationProblem {
 
   std::shared_ptr<DesignPoint> make_point(std::span<const double> x);
   void solve_targets(DesignPoint& p);
+  /// Furthest locked state of one task that the iterate's states lead to; appends its stages to `trail`.
+  Locked lock_target(const DesignPoint& p, std::size_t task, const Vector& load,
+                     std::vector<WarmStart>& trail, long& evaluations) const;
   void list_constraints();
   double rest_target(const Model& m) const;
 
@@ -65,6 +69,8 @@ class DesignProblem final : public OptimizationProblem {
   std::vector<Hole> holes_;
   std::vector<Pair> pairs_;
   std::shared_ptr<DesignPoint> current_, last_;
+  /// Iterates: an optimizer may go back to its best one, which is not always on the way from the last.
+  std::vector<std::shared_ptr<DesignPoint>> accepted_;
   long evaluations_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <hauberk/mechanics/equilibrium.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace hauberk {
 
@@ -46,7 +47,7 @@ struct Locked {
   std::vector<StageRecord> stages;
   int iterations = 0;
   long evaluations = 0;
-  std::optional<State> warm;  ///< state of the stage nearest to a gap of about 1e-2 L, for warm starts
+  std::vector<State> trail;  ///< states at the ends of `stages`, for warm starts
   std::optional<double> error_estimate;
 };
 

@@ -41,6 +41,13 @@ struct Model {
   int macro_count = 0, coordinate_count = 0;
   Vector metric;  ///< squared displacement per squared unknown: weights of the norm of a step
 
+  /// d (scaled position, R, r0, r1 of a body; quantity 0 to 5) / d parameter of its element (file units).
+  double size_derivative(std::size_t body, int quantity, int parameter) const
+  {
+    const int n = parameter_count[static_cast<std::size_t>(bodies[body].element)];
+    const int entry = quantity * n + parameter;
+    return jacobians[body][static_cast<std::size_t>(entry)] / length;
+  }
   int element_count() const { return static_cast<int>(rest.size()); }
   int element_dofs() const { return coordinate_count + 3; }
   int dofs() const { return macro_count + element_count() * element_dofs(); }

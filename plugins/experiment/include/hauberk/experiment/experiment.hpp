@@ -91,7 +91,7 @@ struct ExperimentSource {
 
 /// Reads, checks and expands an experiment. Every problem is put into `diagnostics`; null when there is any.
 /// Thread safe as far as the lookup is.
-std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& plugins,
+std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& lookup,
                                           Diagnostics& diagnostics);
 
 /// Text of a file. Throws InputError "cannot read 'x.json': ..." when it cannot be read or is beyond 64 MB.

@@ -14,6 +14,7 @@ constexpr double largest_radius = 0.5;  ///< L
 constexpr double smallest_radius = 1e-13;
 constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
 constexpr double keep_gap = 0.1;          ///< a step may use up this much less than all of any gap
+constexpr int most_slides = 50;           ///< times `most_iterations`: the most steps of a stage
 constexpr double noise = 1e-15;           ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
@@ -52,14 +53,23 @@ class Newton {
     result_.evaluations += now.contact.evaluations;
     if (!now.admissible)
       return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
-    double radius = first_radius;
-    int rejected = 0;
+    double radius = first_radius, noticed = now.energy;
+    int rejected = 0, noticed_at = 0;
     bool escaping = false;
     for (;;) {
       if (!keep_going_()) return finish(now, StageStatus::interrupted, "interrupted");
-      if (result_.iterations >= stage_.most_iterations) {
-        return finish(now, StageStatus::iteration_limit,
-                      fmt::format("no minimum after {} Newton steps", result_.iterations));
+      // A state may have to slide a long way through a channel as narrow as the gaps, in many short steps:
+      // what counts is whether it still goes down.
+      if (now.energy < noticed - stage_.mu) {
+        noticed = now.energy;
+        noticed_at = result_.iterations;
+      }
+      const int idle = result_.iterations - noticed_at;
+      if (idle >= stage_.most_iterations || result_.iterations >= most_slides * stage_.most_iterations) {
+        return finish(
+            now, StageStatus::iteration_limit,
+            fmt::format("no minimum after {} Newton steps, the last {} without a noticeable decrease",
+                        result_.iterations, idle));
       }
       Step step = newton_step(now, radius);
       bool escape = false;

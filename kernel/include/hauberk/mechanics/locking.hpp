@@ -24,7 +24,7 @@ struct Schedule {
   double stiffness = 0.03;  ///< sets gaps at equilibrium to about a tenth of g_hat
   double tolerance = 1e-3;  ///< of a stage, relative to its mu
   double last_tolerance = 1e-8;
-  int most_iterations = 300;  ///< per stage
+  int most_iterations = 300;  ///< of a stage without noticeable decrease
 };
 
 /// One finished stage.

@@ -2,6 +2,7 @@
 /// differences of relaxed rest states.
 
 #include <hauberk/design/design_problem.hpp>
+#include <hauberk/error.hpp>
 
 #include "scenes.hpp"
 
@@ -104,6 +105,99 @@ TEST(DesignConstraints, HolesAreThePublishedOnes)
   EXPECT_NEAR(J[0] * 4.9, 1.0, 1e-12);
   EXPECT_NEAR(J[1] * 4.9, -1.0, 1e-12);
   EXPECT_NEAR(J[3] * 4.9, -1.0, 1e-12);
+}
+
+TEST(DesignConstraints, RestGapsFollowTheirLinearisation)
+{
+  // At a new design the rest state is predicted, and relaxed only where a gap is too small: with room, the
+  // constraints are those of the predicted state, and differ from the linearisation by the second order.
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  DesignSpec design = spec();
+  design.rest_clearance = 0.02;
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+  const std::vector<double> x = problem.scene_variables();
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  problem.accept(x);
+  const auto n = static_cast<std::size_t>(problem.constraint_count());
+  std::vector<double> c0(n), c(n), J(n * x.size());
+  problem.constraints(x, c0, J);
+  const std::vector<double> d = {-0.3, 1.0, 0.5, -0.8};
+  std::array<double, 3> error{};
+  for (std::size_t k = 0; k < error.size(); ++k) {
+    const double h = 8e-3 / static_cast<double>(1U << k);
+    std::vector<double> y = x;
+    for (std::size_t v = 0; v < y.size(); ++v) y[v] += h * d[v];
+    problem.constraints(y, c, {});
+    for (std::size_t r = 0; r < n; ++r) {
+      double linear = c0[r];
+      for (std::size_t v = 0; v < y.size(); ++v) linear += h * d[v] * J[r * y.size() + v];
+      error[k] = std::max(error[k], std::abs(c[r] - linear));
+    }
+  }
+  EXPECT_GT(error[0], 1e-8);
+  EXPECT_LT(error[1], 0.3 * error[0]) << error[0] << " " << error[1];
+  EXPECT_LT(error[2], 0.3 * error[1]) << error[1] << " " << error[2];
+}
+
+TEST(DesignProblem, GoesBackToAnyIterateWithoutSolvingAgain)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
+  const std::vector<double> first = problem.scene_variables();
+  const double value = problem.evaluate(first, true).value;
+  problem.accept(first);
+  std::vector<double> x = first;
+  for (int k = 0; k < 3; ++k) {
+    x[0] += 0.02;
+    ASSERT_TRUE(problem.evaluate(x, true).ok);
+    problem.accept(x);
+  }
+  const long spent = problem.evaluations();
+  problem.accept(first);
+  EXPECT_EQ(problem.evaluate(first, true).value, value);
+  EXPECT_EQ(problem.current().x, first);
+  EXPECT_EQ(problem.evaluations(), spent);
+  // What cannot be evaluated cannot be an iterate: rings this thick overlap at rest.
+  std::vector<double> thick = first;
+  thick[1] = thick[3] = 2.4;
+  EXPECT_FALSE(problem.evaluate(thick, true).ok);
+  EXPECT_THROW(problem.accept(thick), PluginError);
+}
+
+TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  const DesignSpec design = spec();
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+  const std::vector<double> x = problem.scene_variables();
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  const DesignPoint at = problem.current();
+  const WarmStart& tight = at.warm[0].back();
+  EXPECT_NEAR(tight.g_hat, 1e-2, 1e-12);
+  const double before = smallest_gap(at.model, tight.state, 0.03);
+  const auto neighbour = [&](double h) {
+    DesignPoint to = at;
+    to.x[0] -= h;
+    to.x[3] += h;
+    to.spec = with_variables(scene, design.variables, to.x);
+    to.model = make_model(to.spec, load, 0.0);
+    return to;
+  };
+  // Gaps are kept to the second order, strain and poses moving along.
+  std::array<double, 2> change{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const DesignPoint to = neighbour(0.02 / static_cast<double>(1U << k));
+    const auto state = followed(at, tight, to, design.variables);
+    ASSERT_TRUE(state.has_value());
+    change[k] = std::abs(smallest_gap(to.model, *state, 0.03) - before);
+  }
+  EXPECT_LT(change[0], 0.3 * before);
+  EXPECT_LT(change[1], 0.35 * change[0]) << change[0] << " " << change[1];
+  // A change by more than a tube's radius might pass through it.
+  EXPECT_FALSE(followed(at, tight, neighbour(0.8), design.variables).has_value());
 }
 
 }  // namespace

@@ -56,11 +56,11 @@ class DesignProblem final : public OptimizationProblem {
   void list_constraints();
   double rest_target(const Model& m) const;
 
-  const SceneSpec& scene_;
+  SceneSpec scene_;
   const LoadCase& load_;
   double clearance_;
-  const LimitSettings& limits_;
-  const DesignSpec& design_;
+  LimitSettings limits_;
+  DesignSpec design_;
   unsigned threads_;
   KeepGoing keep_going_;
   Schedule schedule_;

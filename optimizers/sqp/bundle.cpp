@@ -42,8 +42,7 @@ bool Bundle::add(const VectorXd& x, Residuals at)
     VectorXd value(at_.r.size());
     for (Index i = 0; i < value.size(); ++i)
       value[i] = std::max(0.0, std::abs(at_.r[i]) + sign(i) * at_.J.row(i).dot(d));
-    for (const Piece& p : list)
-      value[p.residual] = std::max(value[p.residual], p.value + p.gradient.dot(d));
+    for (const Piece& p : list) value[p.residual] = std::max(value[p.residual], p.value + p.gradient.dot(d));
     return value;
   };
   const VectorXd before = model(pieces());

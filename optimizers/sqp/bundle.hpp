@@ -18,11 +18,12 @@ struct Residuals {
 
 /// Linearisations ("cuts") of residuals at the iterate and at points evaluated near it.
 ///
-/// |r_i| is modelled by the largest of its linearisations s (r_i(x_k) + J_i(x_k) (x + d - x_k)), s the sign of
-/// r_i at the iterate, over the iterate itself and those earlier points whose linearisation does not exceed
-/// |r_i| there, as one of a convex function cannot. So a kink that was seen from both sides is in the model,
-/// and a step along it can be long (a proximal bundle method on each residual: Lemarechal and Sagastizabal,
-/// Mathematical Programming 76 (1997) 393-410; of half a sum of squares: Gauss-Newton where there are no cuts).
+/// |r_i| is modelled by the largest of its linearisations s (r_i(x_k) + J_i(x_k) (x + d - x_k)), s the sign
+/// of r_i at the iterate, over the iterate itself and those earlier points whose linearisation does not
+/// exceed |r_i| there, as one of a convex function cannot. So a kink that was seen from both sides is in the
+/// model, and a step along it can be long (a proximal bundle method on each residual: Lemarechal and
+/// Sagastizabal, Mathematical Programming 76 (1997) 393-410; of half a sum of squares: Gauss-Newton where
+/// there are no cuts).
 class Bundle {
  public:
   /// The new iterate; the last one becomes a cut.

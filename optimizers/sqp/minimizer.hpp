@@ -84,7 +84,7 @@ class Minimizer {
   int creeping_ = 0;       ///< steps in a row that gained little
   int crossings_ = 0;      ///< steps taken across jumps
   bool dropped_ = false;   ///< the cuts were dropped and no step was accepted since
-  double penalty_ = 0.0;     ///< of the l1 merit function
+  double penalty_ = 0.0;   ///< of the l1 merit function
   Best best_;
 
   int iteration_ = 0;

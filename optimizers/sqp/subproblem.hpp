@@ -25,7 +25,7 @@ struct Step {
   double model_violation = 0.0;  ///< total violation of c + J d
   Eigen::VectorXd gradient;      ///< n, of the objective at the iterate; at kinks, the mean that the step saw
   double decrease = 0.0;         ///< of the objective, as the model promises
-  double descent = 0.0;          ///< a step alpha d decreases the objective by at least alpha descent, to first order
+  double descent = 0.0;  ///< a step alpha d decreases the objective by at least alpha descent, to first order
 };
 
 /// min g.d + 1/2 d.B d subject to c + J d >= 0 and lower <= d <= upper, where lower <= 0 <= upper.

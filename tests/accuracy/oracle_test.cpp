@@ -40,8 +40,7 @@ double sampled_distance(const Torus& a, const Torus& b)
     }
     const int row = i / nv, other = at / nv;
     starts.push_back(
-        {best,
-         {2 * pi * row / nu, 2 * pi * (i % nv) / nv, 2 * pi * other / nu, 2 * pi * (at % nv) / nv}});
+        {best, {2 * pi * row / nu, 2 * pi * (i % nv) / nv, 2 * pi * other / nu, 2 * pi * (at % nv) / nv}});
   }
   std::sort(starts.begin(), starts.end(), [](const Start& x, const Start& y) { return x.d < y.d; });
   const auto distance = [&](const std::array<double, 4>& c) {

@@ -11,8 +11,8 @@ constexpr double response_weight = 1e-3;  ///< weight of staying against keeping
 constexpr double follow_weight = 1e-6;    ///< the same for locked states, whose contacts fix them
 constexpr double least_gap = 0.05;        ///< of the smallest gap at the start: the advance stops there
 constexpr double shortest_advance = 1e-6;
-constexpr double contact_range = 3.0;   ///< activation distances: gaps that a warm start keeps
-constexpr double open_enough = 0.01;    ///< activation distances: gaps of a warm start are at least that
+constexpr double contact_range = 3.0;  ///< activation distances: gaps that a warm start keeps
+constexpr double open_enough = 0.01;   ///< activation distances: gaps of a warm start are at least that
 
 /// Model between a and b: bodies interpolated linearly. Kinds follow `b` unless both are tubes.
 Model between(const Model& a, const Model& b, double t)

@@ -17,7 +17,7 @@ constexpr double constrained_range = 0.3;
 /// Gaps within this of the required clearance respond together when parameters change (L).
 constexpr double response_range = 0.03;
 constexpr double smallest_share = 1e-3;
-constexpr double same_value = 1e-9;  ///< two locked states closer than that are taken for one
+constexpr double same_value = 1e-9;    ///< two locked states closer than that are taken for one
 constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;
@@ -362,7 +362,8 @@ void DesignProblem::set_schedule(const Schedule& schedule)
 void DesignProblem::accept(std::span<const double> x)
 {
   const std::shared_ptr<DesignPoint> p = make_point(x);
-  if (!p->evaluated) throw PluginError("the optimizer accepted a design that it could not evaluate: " + p->why);
+  if (!p->evaluated)
+    throw PluginError("the optimizer accepted a design that it could not evaluate: " + p->why);
   current_ = p;
   accepted_.push_back(p);
 }

@@ -29,8 +29,9 @@ void read_senses(Node& section, const LoadCase& load_case, Problems& problems, s
   }
   for (const Node& item : list->items) {
     if (item.string != positive && item.string != negative) {
-      problems.add(item, fmt::format("expected one of {}, {}, found {}{}", positive, negative, quote_json(item.string),
-                                     nearest_hint("value", item.string, {positive, negative})));
+      problems.add(
+          item, fmt::format("expected one of {}, {}, found {}{}", positive, negative, quote_json(item.string),
+                            nearest_hint("value", item.string, {positive, negative})));
       continue;
     }
     const Sense sense = item.string == positive ? Sense::positive : Sense::negative;

@@ -18,11 +18,11 @@ struct DesignPoint {
   std::vector<double> x;
   SceneSpec spec;  ///< with the parameters of x; rest poses as in the scene
   Model model;
-  State rest;                              ///< relaxed
-  std::vector<Gap> rest_gaps;              ///< close pairs at rest, with derivatives
+  State rest;                                ///< relaxed
+  std::vector<Gap> rest_gaps;                ///< close pairs at rest, with derivatives
   std::vector<std::vector<WarmStart>> warm;  ///< per task, loosest first
-  std::vector<double> values;              ///< per target
-  Matrix value_gradients;                  ///< row per target, column per variable
+  std::vector<double> values;                ///< per target
+  Matrix value_gradients;                    ///< row per target, column per variable
   double objective = 0.0;
   Vector gradient;
   bool evaluated = false;

@@ -11,8 +11,8 @@ namespace hauberk {
 /// One stage: contact formulation, activation distance and stiffness (scaled).
 struct Stage {
   ContactSettings contact;
-  double mu = 0.0;          ///< E has the unit of the value
-  double tolerance = 1e-3;  ///< stop when the Newton step can lower E by less than tolerance * mu
+  double mu = 0.0;            ///< E has the unit of the value
+  double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
 };
 

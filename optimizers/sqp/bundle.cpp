@@ -29,6 +29,7 @@ void Bundle::keep(Cut cut)
 
 void Bundle::move(const VectorXd& x, Residuals at)
 {
+  if (at_.r.size() != at.r.size()) cuts_.clear();
   if (!empty() && at_.r.size() == at.r.size()) keep({x_, std::move(at_)});
   x_ = x;
   at_ = std::move(at);
@@ -40,8 +41,7 @@ bool Bundle::add(const VectorXd& x, Residuals at)
   const VectorXd d = x - x_;
   const auto model = [&](const std::vector<Piece>& list) {
     VectorXd value(at_.r.size());
-    for (Index i = 0; i < value.size(); ++i)
-      value[i] = std::max(0.0, std::abs(at_.r[i]) + sign(i) * at_.J.row(i).dot(d));
+    for (Index i = 0; i < value.size(); ++i) value[i] = std::abs(at_.r[i] + at_.J.row(i).dot(d));
     for (const Piece& p : list) value[p.residual] = std::max(value[p.residual], p.value + p.gradient.dot(d));
     return value;
   };
@@ -94,8 +94,11 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
     if (c < 0) c = own++;
   }
   for (Index i = 0; i < residuals; ++i) {  // the iterate's pieces
-    if (column[static_cast<std::size_t>(i)] >= 0)
-      list.push_back({i, std::abs(at_.r[i]), sign(i) * at_.J.row(i).transpose()});
+    if (column[static_cast<std::size_t>(i)] < 0) continue;
+    // Both sides: the residual may change its sign within the step.
+    const VectorXd gradient = sign(i) * at_.J.row(i).transpose();
+    list.push_back({i, std::abs(at_.r[i]), gradient});
+    list.push_back({i, -std::abs(at_.r[i]), -gradient});
   }
 
   // Unknowns (d, w): |r_i(x + d)| is at most |r_i| + w_i.

@@ -1,5 +1,6 @@
-/// The globalisation of Minimizer: l1 merit function, backtracking from the largest safe step and a
-/// second-order correction (Nocedal and Wright, Numerical Optimization, 2nd ed., sections 15.4 and 18.3).
+/// The globalisation of Minimizer: l1 merit function, backtracking from the largest safe step (or, with
+/// residuals, a bundle that learns from failed trials) and a second-order correction (Nocedal and Wright,
+/// Numerical Optimization, 2nd ed., sections 15.4 and 18.3).
 
 #include "minimizer.hpp"
 
@@ -22,6 +23,7 @@ constexpr double shift_rise = 4.0;
 constexpr double shift_rise_failure = 16.0;
 constexpr double least_shift = 1e-6;
 /// Steps in a row that each gain less than this part of the objective are creeping; what may then be done.
+constexpr double jump = 3.0;  ///< a rise by this many times the promised decrease, with nothing new to see
 constexpr int creeping_limit = 2;
 constexpr double creeping_gain = 3e-3;
 constexpr int most_crossings = 8;
@@ -94,18 +96,30 @@ bool Minimizer::line_search(const Step& step)
 
 bool Minimizer::bundle_search(Step step)
 {
+  blocked_ = false;
   // Where a residual jumps, the search creeps along the edge of the jump. Then a step across it is taken even
   // if the objective is higher there; the best iterate is remembered.
-  const bool across = creeping_ >= creeping_limit && crossings_ < most_crossings;
+  bool across = jumped_ && creeping_ >= creeping_limit && crossings_ < most_crossings;
   if (across) {
     ++crossings_;
     creeping_ = 0;
+    jumped_ = false;
+    const double shift = damping_;
     bundle_.drop_cuts();
     damping_ = crossing_shift;
-    step = propose(at_);
+    const Step longer = propose(at_);
+    across = longer.ok && slope(longer) < 0.0 && longer.d.cwiseAbs().maxCoeff() >= settings_.min_step;
+    if (across)
+      step = longer;
+    else
+      damping_ = shift;
   }
   for (int trial = 0; trial < max_trials && step.ok; ++trial) {
-    if (trial > 0) raise_penalty(step);
+    if (trial > 0) {  // within a search the penalty only rises
+      const double penalty = penalty_;
+      raise_penalty(step);
+      penalty_ = std::max(penalty_, penalty);
+    }
     const double before = merit(value_, at_.c);
     const double slope = this->slope(step);
     const double length = step.d.size() == 0 ? 0.0 : step.d.cwiseAbs().maxCoeff();
@@ -130,6 +144,7 @@ bool Minimizer::bundle_search(Step step)
         }
         const bool kink = bundle_.add(problem_.scaled(x), problem_.residuals(x));
         rise_of_shift = kink ? shift_rise_kink : shift_rise;
+        jumped_ = jumped_ || (!kink && rise > jump * -slope);
       }
     }
     damping_ = std::min(rise_of_shift * damping_, largest_shift);

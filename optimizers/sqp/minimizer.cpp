@@ -15,6 +15,8 @@ constexpr int slow_limit = 3;
 /// A restart paid off when the objective or the violation fell by these parts since.
 constexpr double worthwhile_value = 1e-2;
 constexpr double worthwhile_violation = 0.5;
+/// Shift above which a model that promises nothing says nothing.
+constexpr double held = 1.0;
 /// Shift when the cuts of a bundle are dropped.
 constexpr double restart_shift = 1e-2;
 /// Violation that the relaxed model must be able to remove, or the iterate is a minimum of the violation.
@@ -93,8 +95,10 @@ void Minimizer::refresh_bundle()
 
 Step Minimizer::propose(const Linearisation& at) const
 {
-  const VectorXd lower = problem_.step_lower(x_).cwiseMax(-settings_.max_step);
-  const VectorXd upper = problem_.step_upper(x_).cwiseMin(settings_.max_step);
+  // The first curvature of BFGS holds its first step short; a Gauss-Newton step may be as long as it likes.
+  const double longest = least_squares() && iteration_ == 0 ? settings_.initial_step : settings_.max_step;
+  const VectorXd lower = problem_.step_lower(x_).cwiseMax(-longest);
+  const VectorXd upper = problem_.step_upper(x_).cwiseMin(longest);
   if (least_squares()) return bundle_.propose(at, lower, upper, damping_, penalty_);
   return propose_step(hessian_.matrix(), at, lower, upper, penalty_);
 }
@@ -126,6 +130,7 @@ bool Minimizer::converged(const Step& step) const
   // A gradient g promises g^2/(2 H); with H of the objective's size in scaled variables, the square root
   // makes both conditions ask for the same.
   const double scale = objective_scale();
+  if (least_squares() && damping_ > held) return false;  // the shift alone makes the promise small
   const bool no_step = step.d.size() == 0 || step.d.cwiseAbs().maxCoeff() < settings_.min_step;
   return (step.decrease <= settings_.tolerance * scale || no_step) &&
          optimality(step) <= std::sqrt(settings_.tolerance) * scale;
@@ -223,6 +228,10 @@ OptimizerResult Minimizer::finish(std::string status, std::string message) const
   if (best_.violation > settings_.constraint_tolerance) {
     if (status == "small_step") status = "infeasible";
     message += "; the constraints are violated by up to " + std::to_string(best_.violation);
+  }
+  if (status == "converged" && best_.value < value_ - settings_.tolerance * objective_scale()) {
+    status = "small_step";
+    message = "an earlier iterate, left by a step across a jump, is better than where the search ended";
   }
   result.status = std::move(status);
   result.message = std::move(message);

@@ -20,7 +20,7 @@ struct SqpSettings {
   double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
   double initial_step = 0.05;          ///< longest first step, part of a variable's range
   double max_step = 0.5;               ///< longest step, part of a variable's range
-  bool gauss_newton = true;            ///< use the problem's Gauss-Newton Hessian where it has one
+  bool gauss_newton = true;            ///< model residuals one by one where the problem has them
   double min_step = 1e-7;              ///< shortest step worth an evaluation, part of a variable's range
 };
 
@@ -82,6 +82,7 @@ class Minimizer {
   Bundle bundle_;          ///< of residuals; empty: BFGS is used
   double damping_ = 1e-2;  ///< Levenberg-Marquardt shift, relative to the bundle's curvature
   int creeping_ = 0;       ///< steps in a row that gained little
+  bool jumped_ = false;    ///< a trial was far higher than promised and no cut explained it
   int crossings_ = 0;      ///< steps taken across jumps
   bool dropped_ = false;   ///< the cuts were dropped and no step was accepted since
   double penalty_ = 0.0;   ///< of the l1 merit function

@@ -11,7 +11,8 @@
 
 namespace hauberk {
 
-/// Line-search SQP with a damped BFGS Hessian; see the README for the method. Immutable, thread safe.
+/// SQP with a bundle of residuals or a damped BFGS Hessian; see the README for the method. Immutable, thread
+/// safe.
 class Sqp final : public Optimizer {
  public:
   explicit Sqp(const SqpSettings& settings) : settings_(settings) {}

@@ -133,7 +133,7 @@ Search search(DesignProblem& problem, const Optimizer& optimizer, std::span<cons
   s.history = std::move(recorder.history);
   s.interrupted = recorder.interrupted;
   // The best point may not be the last accepted one.
-  if (!s.history.empty()) problem.accept(s.found.x);
+  if (!s.history.empty() && problem.evaluate(s.found.x, false).ok) problem.accept(s.found.x);
   return s;
 }
 
@@ -248,6 +248,9 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
   }
   result.objective_initial = objective(before);
   result.objective = objective(after);
+  if (result.objective > result.objective_initial) {
+    result.message += "; this design is worse than the initial one: allow more iterations or starts";
+  }
   result.initial_limits = initial;
 }
 

@@ -40,6 +40,32 @@ double shape_speed(const Body& a, const Body& b)
          (a.center - b.center).norm();
 }
 
+/// Largest relative motion, strain and change of shape included, of two elements that could meet, over the
+/// distance that their cores keep at least: the thickness of the thinnest tube twice.
+double farthest_relative_motion(const Model& m, const State& from, const State& to, const Vector& dy,
+                                const Model& changed)
+{
+  double thinnest = std::numeric_limits<double>::infinity();
+  std::vector<double> own(static_cast<std::size_t>(m.element_count()), 0.0);  // turning and shape
+  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
+    const Body& b = m.bodies[k];
+    thinnest = std::min({thinnest, b.r0, b.r1});
+    const double turn = dy.segment<3>(m.offset(b.element) + m.coordinate_count).norm();
+    double& most = own[static_cast<std::size_t>(b.element)];
+    most = std::max(most, turn * b.reach + shape_speed(b, changed.bodies[k]));
+  }
+  double farthest = 0.0;
+  for (const ElementPair& pair : near_pairs(m, from, 2.0 * thinnest)) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const Vec3 before =
+        image_pose(m, from, pair.i, {0, 0}).position - image_pose(m, from, pair.j, pair.image).position;
+    const Vec3 after =
+        image_pose(m, to, pair.i, {0, 0}).position - image_pose(m, to, pair.j, pair.image).position;
+    farthest = std::max(farthest, (after - before).norm() + own[i] + own[j]);
+  }
+  return farthest / (2.0 * thinnest);
+}
+
 /// Least-squares motion that keeps `gaps` of a point, per unit of the variables.
 Matrix gap_response(const DesignPoint& point, const std::vector<Gap>& gaps,
                     const std::vector<DesignVariable>& variables, bool strain_moves, double weight)
@@ -103,14 +129,8 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
   const double range = contact_range * warm.g_hat;
   const std::vector<Gap> gaps = find_gaps(m, warm.state, range, true);
   const Vector dy = gap_response(from, gaps, variables, true, follow_weight) * dx;
-  double shape = 0.0, thinnest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
-    shape = std::max(shape, shape_speed(m.bodies[k], to.model.bodies[k]));
-    thinnest = std::min({thinnest, m.bodies[k].r0, m.bodies[k].r1});
-  }
-  // Two cores are apart by both thicknesses; each moves by less than half of the thinner.
-  if (2.0 * (largest_motion(m, dy) + shape) > thinnest) return std::nullopt;
   const State s = advanced(m, warm.state, dy, 1.0);
+  if (farthest_relative_motion(m, warm.state, s, dy, to.model) > 1.0) return std::nullopt;
   if (!m.load->admissible({s.macro.data(), static_cast<std::size_t>(m.macro_count)})) return std::nullopt;
   if (smallest_gap(to.model, s, range) < open_enough * warm.g_hat || !links_kept(to.model, s))
     return std::nullopt;

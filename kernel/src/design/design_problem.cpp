@@ -138,11 +138,10 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   return p;
 }
 
-Locked DesignProblem::lock_target(const DesignPoint& p, std::size_t task, const Vector& load,
-                                  std::vector<WarmStart>& trail, long& evaluations) const
+Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
+                                  const std::vector<WarmStart>& warm, std::vector<WarmStart>& trail,
+                                  long& evaluations) const
 {
-  const std::vector<WarmStart> warm =
-      current_->warm.size() == tasks_.size() ? current_->warm[task] : std::vector<WarmStart>();
   const auto run = [&](const State& from, const Schedule& schedule) {
     Locked l = lock(p.model, from, load, limits_.contact, schedule, keep_going_);
     evaluations += l.evaluations;
@@ -162,6 +161,7 @@ Locked DesignProblem::lock_target(const DesignPoint& p, std::size_t task, const 
     const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
     loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed), schedule_);
   }
+  if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) return loose;
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
     const std::optional<State> start = followed(*current_, warm[j], p, design_.variables);
@@ -174,6 +174,11 @@ Locked DesignProblem::lock_target(const DesignPoint& p, std::size_t task, const 
                          load.dot(tight.state.macro) > load.dot(loose.state.macro) + same_value;
     if (!further) break;
     if (!loose.trail.empty()) trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
+    // Looser stages of the same state: the next change of parameters may be too large for the tightest.
+    for (std::size_t i = loose.trail.empty() ? 0 : 1; i < j; ++i) {
+      std::optional<State> s = followed(*current_, warm[i], p, design_.variables);
+      if (s) trail.push_back({warm[i].g_hat, std::move(*s)});
+    }
     enter(tight, trail);
     return tight;
   }
@@ -183,6 +188,8 @@ Locked DesignProblem::lock_target(const DesignPoint& p, std::size_t task, const 
 
 void DesignProblem::solve_targets(DesignPoint& p)
 {
+  std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself
+  warm.resize(tasks_.size());  // a starting design has none
   p.warm.assign(tasks_.size(), {});
   std::vector<Locked> locked(tasks_.size());
   std::vector<double> estimate(tasks_.size());
@@ -191,7 +198,7 @@ void DesignProblem::solve_targets(DesignPoint& p)
   const auto nv = static_cast<int>(design_.variables.size());
   parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
     const Vector load = load_vector(p.model, tasks_[k].direction_deg * degree, tasks_[k].sense);
-    locked[k] = lock_target(p, k, load, p.warm[k], evaluations[k]);
+    locked[k] = lock_target(p, load, warm[k], p.warm[k], evaluations[k]);
     const Locked& l = locked[k];
     if (l.status != LockStatus::locked) return;
     // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).

@@ -22,6 +22,13 @@ constexpr double quadrature_noise = 1e-9;
 /// There, steps that shrink the gradient by less than this only stir the rounding.
 constexpr double worthwhile = 0.7;
 
+/// Forces that miss the load by more than this part of it are not at their rounding yet, and may be improved
+/// by smaller factors, with steps of other lengths, so many times in a stage.
+constexpr double balanced = 1e-5;
+constexpr double noticed_gain = 0.98;
+constexpr double widen = 30.0;
+constexpr int most_rescues = 30;
+
 /// Shift that null directions carry, relative to the largest scaled diagonal of the Hessian (rounding) and
 /// to the load (curvatures below it do not matter).
 constexpr double rounding_shift = 1e-14;
@@ -54,7 +61,7 @@ class Newton {
     if (!now.admissible)
       return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
     double radius = first_radius, noticed = now.energy;
-    int rejected = 0, noticed_at = 0;
+    int rejected = 0, noticed_at = 0, rescues = 0;
     bool escaping = false;
     for (;;) {
       if (!keep_going_()) return finish(now, StageStatus::interrupted, "interrupted");
@@ -65,7 +72,7 @@ class Newton {
         noticed_at = result_.iterations;
       }
       const int idle = result_.iterations - noticed_at;
-      if (idle >= stage_.most_iterations || result_.iterations >= most_slides * stage_.most_iterations) {
+      if (idle >= stage_.most_iterations || result_.iterations / most_slides >= stage_.most_iterations) {
         return finish(
             now, StageStatus::iteration_limit,
             fmt::format("no minimum after {} Newton steps, the last {} without a noticeable decrease",
@@ -73,8 +80,16 @@ class Newton {
       }
       Step step = newton_step(now, radius);
       bool escape = false;
+      const double residual = dual_norm(now.gradient) / load_norm_;
       if (step.predicted < stage_.tolerance * stage_.mu || (escaping && rejected > 0)) {
         if (!step.shifted) return finish(now, StageStatus::minimum, "");
+        // A radius that shrank too far hides what is left to gain.
+        if (!escaping && residual > balanced && rescues < most_rescues &&
+            step_norm(m_, step.dy) > 0.5 * radius && radius < first_radius) {
+          ++rescues;
+          radius = std::min(first_radius, widen * radius);
+          continue;
+        }
         // Negative curvature that lowers the energy by nothing at any length was rounding.
         if (escaping && radius < smallest_escape) return finish(now, StageStatus::minimum, "");
         if (!saddle_step(now, radius, step)) return finish(now, StageStatus::minimum, "");
@@ -97,10 +112,19 @@ class Newton {
       }
       // Below the rounding of the energy the gradient decides.
       const bool tiny = std::abs(predicted) < 50.0 * rounding;
-      const bool better = alpha > 0.0 && next.admissible &&
-                          (tiny ? dual_norm(next.gradient) < worthwhile * dual_norm(now.gradient)
-                                : actual > 1e-3 * std::max(predicted, 0.0));
+      const bool better =
+          alpha > 0.0 && next.admissible &&
+          (tiny ? dual_norm(next.gradient) <
+                      (residual > balanced ? noticed_gain : worthwhile) * dual_norm(now.gradient)
+                : actual > 1e-3 * std::max(predicted, 0.0));
       if (!better) {
+        if (tiny && residual > balanced && rescues < most_rescues) {
+          // The energy is at its rounding, the forces are not at theirs: another length may balance them.
+          ++rescues;
+          radius = rescues % 2 == 1 && step.shifted ? std::min(first_radius, widen * radius)
+                                                    : 0.3 * std::max(alpha, 1e-3) * length;
+          continue;
+        }
         // Nothing more can be gained above rounding: a minimum unless the curvature says otherwise.
         if (tiny && next.admissible && (!step.shifted || !saddle_step(now, radius, step))) {
           return finish(now, StageStatus::minimum, "");

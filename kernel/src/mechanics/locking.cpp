@@ -1,11 +1,16 @@
 #include <hauberk/mechanics/locking.hpp>
 #include <hauberk/motion/advancement.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace hauberk {
 namespace {
 
+/// Forces of the last stage that miss the load by more than this part of it are worth a second attempt.
+constexpr double unbalanced = 5e-5;
+constexpr double reported = 1e-4;
 constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
 
@@ -87,6 +92,18 @@ class Path {
       f = Formulation::arc;
       r = attempt(before, g_hat, last, f);
     }
+    if (choice_ == ContactChoice::automatic && f == Formulation::nearest && last &&
+        r.status == StageStatus::minimum && r.residual > unbalanced) {
+      // Contacts that merge can leave forces on points that do not balance; spread forces do.
+      const State points = out_.state;
+      const StageResult spread = attempt(before, g_hat, last, Formulation::arc);
+      if (spread.status == StageStatus::minimum && spread.residual < r.residual) {
+        f = Formulation::arc;
+        r = spread;
+      } else {
+        out_.state = points;
+      }
+    }
     switch (r.status) {
       case StageStatus::minimum:
         break;
@@ -103,6 +120,8 @@ class Path {
       out_.message = r.message;
       return false;
     }
+    if (last && r.residual > reported)
+      out_.message = fmt::format("contact forces miss the load by {:.1e} of it", r.residual);
     out_.stage = make_stage(g_hat, last, f);
     StageRecord record;
     record.g_hat = g_hat;

@@ -94,6 +94,7 @@ bool any_failed(const RunResult& run)
 {
   const bool design =
       run.design && (run.design->status == "failed" || run.design->status == "interrupted" ||
+                     run.design->status == "infeasible" ||
                      std::any_of(run.design->initial_limits.begin(), run.design->initial_limits.end(),
                                  [](const LimitResult& l) { return !answered(l); }));
   return design || !std::all_of(run.limits.begin(), run.limits.end(), answered);

@@ -51,7 +51,7 @@ class DesignProblem final : public OptimizationProblem {
   std::shared_ptr<DesignPoint> make_point(std::span<const double> x);
   void solve_targets(DesignPoint& p);
   /// Furthest locked state of one task that the iterate's states lead to; appends its stages to `trail`.
-  Locked lock_target(const DesignPoint& p, std::size_t task, const Vector& load,
+  Locked lock_target(const DesignPoint& p, const Vector& load, const std::vector<WarmStart>& warm,
                      std::vector<WarmStart>& trail, long& evaluations) const;
   void list_constraints();
   double rest_target(const Model& m) const;

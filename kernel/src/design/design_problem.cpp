@@ -189,7 +189,7 @@ Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
 void DesignProblem::solve_targets(DesignPoint& p)
 {
   std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself
-  warm.resize(tasks_.size());  // a starting design has none
+  warm.resize(tasks_.size());                                 // a starting design has none
   p.warm.assign(tasks_.size(), {});
   std::vector<Locked> locked(tasks_.size());
   std::vector<double> estimate(tasks_.size());

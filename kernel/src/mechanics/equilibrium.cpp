@@ -27,7 +27,7 @@ constexpr double worthwhile = 0.7;
 constexpr double balanced = 1e-5;
 constexpr double noticed_gain = 0.98;
 constexpr double widen = 30.0;
-constexpr int most_rescues = 30;
+constexpr int most_rescues = 20;
 
 /// Shift that null directions carry, relative to the largest scaled diagonal of the Hessian (rounding) and
 /// to the load (curvatures below it do not matter).
@@ -80,12 +80,12 @@ class Newton {
       }
       Step step = newton_step(now, radius);
       bool escape = false;
-      const double residual = dual_norm(now.gradient) / load_norm_;
+      const bool rescue =
+          stage_.balance && rescues < most_rescues && dual_norm(now.gradient) > balanced * load_norm_;
       if (step.predicted < stage_.tolerance * stage_.mu || (escaping && rejected > 0)) {
         if (!step.shifted) return finish(now, StageStatus::minimum, "");
         // A radius that shrank too far hides what is left to gain.
-        if (!escaping && residual > balanced && rescues < most_rescues &&
-            step_norm(m_, step.dy) > 0.5 * radius && radius < first_radius) {
+        if (!escaping && rescue && step_norm(m_, step.dy) > 0.5 * radius && radius < first_radius) {
           ++rescues;
           radius = std::min(first_radius, widen * radius);
           continue;
@@ -114,11 +114,10 @@ class Newton {
       const bool tiny = std::abs(predicted) < 50.0 * rounding;
       const bool better =
           alpha > 0.0 && next.admissible &&
-          (tiny ? dual_norm(next.gradient) <
-                      (residual > balanced ? noticed_gain : worthwhile) * dual_norm(now.gradient)
+          (tiny ? dual_norm(next.gradient) < (rescue ? noticed_gain : worthwhile) * dual_norm(now.gradient)
                 : actual > 1e-3 * std::max(predicted, 0.0));
       if (!better) {
-        if (tiny && residual > balanced && rescues < most_rescues) {
+        if (tiny && rescue) {
           // The energy is at its rounding, the forces are not at theirs: another length may balance them.
           ++rescues;
           radius = rescues % 2 == 1 && step.shifted ? std::min(first_radius, widen * radius)
@@ -140,6 +139,7 @@ class Newton {
         continue;
       }
       rejected = 0;
+      if (tiny && rescue && dual_norm(next.gradient) > worthwhile * dual_norm(now.gradient)) ++rescues;
       if (escape) ++result_.escapes;
       const double ratio = tiny ? 1.0 : actual / std::max(predicted, 1e-300);
       if (ratio < 0.25) {

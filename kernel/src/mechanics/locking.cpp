@@ -69,6 +69,7 @@ class Path {
     Stage s;
     s.contact = {f, g_hat, m_.clearance};
     s.mu = schedule_.stiffness * g_hat * size_;
+    s.balance = last;
     s.tolerance = last ? schedule_.last_tolerance : schedule_.tolerance;
     s.most_iterations = schedule_.most_iterations;
     return s;

@@ -12,6 +12,7 @@ namespace hauberk {
 struct Stage {
   ContactSettings contact;
   double mu = 0.0;            ///< E has the unit of the value
+  bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
   double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
 };

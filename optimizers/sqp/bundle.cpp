@@ -59,7 +59,7 @@ void Bundle::clear()
 
 double Bundle::curvature() const
 {
-  const double largest = empty() ? 0.0 : at_.J.colwise().squaredNorm().maxCoeff();
+  const double largest = at_.J.colwise().squaredNorm().maxCoeff();
   return std::max(largest, std::numeric_limits<double>::min());
 }
 

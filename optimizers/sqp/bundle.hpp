@@ -35,9 +35,6 @@ class Bundle {
   void clear();
 
   bool empty() const { return at_.empty(); }
-  /// Largest diagonal entry of the Gauss-Newton Hessian: the unit of `shift` below.
-  double curvature() const;
-
   /// Minimises the model + 1/2 shift curvature() |d|^2 subject to the linearised constraints and bounds.
   Step propose(const Linearisation& at, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                double shift, double penalty) const;
@@ -55,6 +52,8 @@ class Bundle {
   };
 
   double sign(Eigen::Index i) const { return at_.r[i] < 0.0 ? -1.0 : 1.0; }
+  /// Largest diagonal entry of the Gauss-Newton Hessian: the unit of the shift.
+  double curvature() const;
   void keep(Cut cut);
   /// Pieces of cuts that count; those of the iterate are not among them.
   std::vector<Piece> pieces() const;

@@ -22,14 +22,16 @@ constexpr double shift_rise_kink = 1.5;
 constexpr double shift_rise = 4.0;
 constexpr double shift_rise_failure = 16.0;
 constexpr double least_shift = 1e-6;
-/// Steps in a row that each gain less than this part of the objective are creeping; what may then be done.
-constexpr double jump = 3.0;  ///< a rise by this many times the promised decrease, with nothing new to see
+constexpr double largest_shift = 1e9;
+/// A trial that rises by this many times the promised decrease, with nothing new to see, is beyond a jump.
+constexpr double jump = 3.0;
+/// So many steps in a row that each gain less than this part of the objective creep along it. Then one step
+/// across is tried, with this shift, that may raise the objective by this part; so often in a run.
 constexpr int creeping_limit = 2;
 constexpr double creeping_gain = 3e-3;
-constexpr int most_crossings = 8;
-constexpr double crossing_rise = 0.25;
 constexpr double crossing_shift = 1e-2;
-constexpr double largest_shift = 1e9;
+constexpr double crossing_rise = 0.25;
+constexpr int most_crossings = 8;
 /// Trial points of one search; each costs an evaluation.
 constexpr int max_trials = 12;
 /// A shorter step is this much shorter, at least and at most; and after an evaluation that failed.

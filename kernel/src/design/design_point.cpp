@@ -99,6 +99,12 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
   return s;
 }
 
+Vector change_of_variables(const DesignPoint& from, const DesignPoint& to)
+{
+  const auto n = static_cast<Eigen::Index>(from.x.size());
+  return Eigen::Map<const Vector>(to.x.data(), n) - Eigen::Map<const Vector>(from.x.data(), n);
+}
+
 Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
                               const std::vector<DesignVariable>& variables)
 {
@@ -124,8 +130,7 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
 {
   if (from.x == to.x) return warm.state;
   const Model& m = from.model;
-  Vector dx(static_cast<int>(from.x.size()));
-  for (std::size_t v = 0; v < from.x.size(); ++v) dx[static_cast<int>(v)] = to.x[v] - from.x[v];
+  const Vector dx = change_of_variables(from, to);
   const double range = contact_range * warm.g_hat;
   const std::vector<Gap> gaps = find_gaps(m, warm.state, range, true);
   const Vector dy = gap_response(from, gaps, variables, true, follow_weight) * dx;

@@ -1,9 +1,6 @@
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
 #include <hauberk/motion/advancement.hpp>
-#include <hauberk/parallel.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +14,6 @@ constexpr double constrained_range = 0.3;
 /// Gaps within this of the required clearance respond together when parameters change (L).
 constexpr double response_range = 0.03;
 constexpr double smallest_share = 1e-3;
-constexpr double same_value = 1e-9;    ///< two locked states closer than that are taken for one
-constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;
 constexpr int projection_sweeps = 200;
@@ -101,11 +96,11 @@ void DesignProblem::list_constraints()
 
 std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x)
 {
-  if (std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return current_;
-  if (std::equal(x.begin(), x.end(), last_->x.begin(), last_->x.end())) return last_;
-  for (const auto& known : accepted_) {
-    if (std::equal(x.begin(), x.end(), known->x.begin(), known->x.end())) return known;
-  }
+  const auto is_at = [x](const auto& p) { return std::equal(x.begin(), x.end(), p->x.begin(), p->x.end()); };
+  if (is_at(current_)) return current_;
+  if (is_at(last_)) return last_;
+  const auto known = std::find_if(accepted_.begin(), accepted_.end(), is_at);
+  if (known != accepted_.end()) return *known;
   auto p = std::make_shared<DesignPoint>();
   p->x = copy(x);
   p->spec = with_variables(scene_, design_.variables, x);
@@ -118,9 +113,7 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   }
   p->model.links = current_->model.links;  // found at the rest state, not at the reference positions
   // Rest: predicted along the response, then relaxed; both parts of the way are checked.
-  Vector dx(static_cast<int>(x.size()));
-  for (std::size_t k = 0; k < x.size(); ++k) dx[static_cast<int>(k)] = x[k] - current_->x[k];
-  const Vector dy = rest_response(*current_, design_.variables) * dx;
+  const Vector dy = rest_response(*current_, design_.variables) * change_of_variables(*current_, *p);
   if (safe_parameter_step(current_->model, p->model, current_->rest, dy) < 1.0) {
     p->why = "elements collide at rest on the way";
     return p;
@@ -136,118 +129,6 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   p->rest = r.state;
   p->rest_gaps = find_gaps(p->model, p->rest, rest_target(p->model) + response_range, true);
   return p;
-}
-
-Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
-                                  const std::vector<WarmStart>& warm, std::vector<WarmStart>& trail,
-                                  long& evaluations) const
-{
-  const auto run = [&](const State& from, const Schedule& schedule) {
-    Locked l = lock(p.model, from, load, limits_.contact, schedule, keep_going_);
-    evaluations += l.evaluations;
-    return l;
-  };
-  const auto enter = [](const Locked& l, std::vector<WarmStart>& out) {
-    for (std::size_t i = 0; i < l.trail.size(); ++i) out.push_back({l.stages[i].g_hat, l.trail[i]});
-  };
-  // A limit is the furthest locked state. One search starts loose, and may find another state than the
-  // iterate's; one follows the iterate's state, which may be further, as tightly as it can.
-  Locked loose;
-  if (!warm.empty()) {
-    const std::optional<State> start = followed(*current_, warm.front(), p, design_.variables);
-    if (start) loose = run(*start, schedule_);
-  }
-  for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
-    const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
-    loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed), schedule_);
-  }
-  if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) return loose;
-  for (std::size_t j = warm.size(); j-- > 1;) {
-    if (warm[j].g_hat < schedule_.last) continue;
-    const std::optional<State> start = followed(*current_, warm[j], p, design_.variables);
-    if (!start) continue;
-    Schedule schedule = schedule_;
-    schedule.first = warm[j].g_hat;
-    Locked tight = run(*start, schedule);
-    if (tight.status != LockStatus::locked) continue;
-    const bool further = loose.status != LockStatus::locked ||
-                         load.dot(tight.state.macro) > load.dot(loose.state.macro) + same_value;
-    if (!further) break;
-    if (!loose.trail.empty()) trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
-    // Looser stages of the same state: the next change of parameters may be too large for the tightest.
-    for (std::size_t i = loose.trail.empty() ? 0 : 1; i < j; ++i) {
-      std::optional<State> s = followed(*current_, warm[i], p, design_.variables);
-      if (s) trail.push_back({warm[i].g_hat, std::move(*s)});
-    }
-    enter(tight, trail);
-    return tight;
-  }
-  enter(loose, trail);
-  return loose;
-}
-
-void DesignProblem::solve_targets(DesignPoint& p)
-{
-  std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself
-  warm.resize(tasks_.size());                                 // a starting design has none
-  p.warm.assign(tasks_.size(), {});
-  std::vector<Locked> locked(tasks_.size());
-  std::vector<double> estimate(tasks_.size());
-  std::vector<long> evaluations(tasks_.size(), 0);
-  std::vector<Vector> gradient(tasks_.size());
-  const auto nv = static_cast<int>(design_.variables.size());
-  parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
-    const Vector load = load_vector(p.model, tasks_[k].direction_deg * degree, tasks_[k].sense);
-    locked[k] = lock_target(p, load, warm[k], p.warm[k], evaluations[k]);
-    const Locked& l = locked[k];
-    if (l.status != LockStatus::locked) return;
-    // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
-    Request request;
-    request.order = 1;
-    request.parameters = true;
-    const ContactEnergy e =
-        contact_energy(p.model, l.state, stage_pairs(p.model, l.state, l.stage), l.stage.contact, request);
-    const double scale = std::pow(p.model.length, load_.value_length_power());
-    const double sign = tasks_[k].sense == Sense::positive ? 1.0 : -1.0;
-    estimate[k] = sign * (load.dot(l.state.macro) - l.stage.mu * e.energy) * scale;
-    gradient[k] = Vector::Zero(nv);
-    for (int v = 0; v < nv; ++v) {
-      for (const auto& [element, parameter] : design_.variables[static_cast<std::size_t>(v)].entries) {
-        gradient[k][v] -= sign * l.stage.mu * e.parameters(parameter, element) * scale;
-      }
-    }
-  });
-  for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    evaluations_ += evaluations[k];
-    if (locked[k].status != LockStatus::locked) {
-      p.why = fmt::format("no limit at {} degrees: {}", tasks_[k].direction_deg, locked[k].message);
-      return;
-    }
-  }
-  const auto nt = static_cast<int>(design_.targets.size());
-  p.value_gradients = Matrix::Zero(nt, nv);
-  p.values.assign(design_.targets.size(), 0.0);
-  p.objective = 0.0;
-  p.gradient = Vector::Zero(nv);
-  for (int i = 0; i < nt; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (design_.quantity == DesignQuantity::eta) {
-      // eta = (s - c)/(1 + c)
-      const double s = estimate[2 * k], c = estimate[2 * k + 1];
-      p.values[k] = (s - c) / (1.0 + c);
-      p.value_gradients.row(i) =
-          (gradient[2 * k] / (1.0 + c) - gradient[2 * k + 1] * (1.0 + s) / ((1.0 + c) * (1.0 + c)))
-              .transpose();
-    } else {
-      p.values[k] = estimate[k];
-      p.value_gradients.row(i) = gradient[k].transpose();
-    }
-    const DesignTarget& t = design_.targets[k];
-    const double r = p.values[k] - t.value;
-    p.objective += 0.5 * t.weight * r * r;
-    p.gradient += t.weight * r * p.value_gradients.row(i).transpose();
-  }
-  p.evaluated = true;
 }
 
 OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> x, bool want_gradient)

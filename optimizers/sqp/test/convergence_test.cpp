@@ -217,23 +217,27 @@ void eight_residuals(const VectorXd& x, VectorXd& r, RowMajor& J)
   }
 }
 
-FunctionProblem least_squares()
+/// Half the sum of squares of residuals, which the optimizer sees only if `shown`.
+template <class Residuals>
+FunctionProblem sum_of_squares(FunctionProblem problem, int count, const Residuals& residuals, bool shown)
 {
-  FunctionProblem problem = box(24, 0.0, 1.0);
-  problem.objective = [](const VectorXd& x, VectorXd& g) {
-    VectorXd r;
-    RowMajor J;
-    eight_residuals(x, r, J);
+  problem.objective = [count, residuals](const VectorXd& x, VectorXd& g) {
+    VectorXd r(count);
+    RowMajor J(count, x.size());
+    residuals(x, r, J);
     g = J.transpose() * r;
     return 0.5 * r.squaredNorm();
   };
+  if (!shown) return problem;
+  problem.residual_number = count;
+  problem.residual_functions = residuals;
   return problem;
 }
 
 TEST(SqpConvergence, ManyLeastSquaresVariables)
 {
   // Far fewer evaluations than variables squared.
-  FunctionProblem problem = least_squares();
+  FunctionProblem problem = sum_of_squares(box(24, 0.0, 1.0), 8, eight_residuals, false);
   Recorder recorder;
   const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, SqpSettings{});
   EXPECT_EQ(r.status, "converged") << r.message;
@@ -243,9 +247,7 @@ TEST(SqpConvergence, ManyLeastSquaresVariables)
 
 TEST(SqpConvergence, ResidualsSaveEvaluations)
 {
-  FunctionProblem problem = least_squares();
-  problem.residual_number = 8;
-  problem.residual_functions = [](const VectorXd& x, VectorXd& r, RowMajor& J) { eight_residuals(x, r, J); };
+  FunctionProblem problem = sum_of_squares(box(24, 0.0, 1.0), 8, eight_residuals, true);
   Recorder recorder;
   const OptimizerResult r = minimise(problem, std::vector<double>(24, 0.3), recorder, SqpSettings{});
   EXPECT_EQ(r.status, "converged") << r.message;
@@ -297,16 +299,7 @@ void kinked(const VectorXd& x, VectorXd& r, RowMajor& J)
 
 TEST(SqpConvergence, KinkedResidualsAreFollowedAlongTheirKinks)
 {
-  FunctionProblem problem = box(6, -2.0, 3.0);
-  problem.objective = [](const VectorXd& x, VectorXd& g) {
-    VectorXd r(12);
-    RowMajor J(12, 6);
-    kinked(x, r, J);
-    g = J.transpose() * r;
-    return 0.5 * r.squaredNorm();
-  };
-  problem.residual_number = 12;
-  problem.residual_functions = kinked;
+  FunctionProblem problem = sum_of_squares(box(6, -2.0, 3.0), 12, kinked, true);
   const std::vector<double> start = {-1.0, 2.0, 0.3, -0.7, 1.4, 0.1};
   const double t = 1.4 / (1.96 + 0.25);
   const double least = 3.0 * ((1.4 * t - 1.0) * (1.4 * t - 1.0) + 0.25 * t * t);
@@ -315,10 +308,7 @@ TEST(SqpConvergence, KinkedResidualsAreFollowedAlongTheirKinks)
   EXPECT_NEAR(r.value, least, 1e-6 * least);
   for (const double v : r.x) EXPECT_NEAR(v, t, 1e-3);
   // Without residuals the search sees one gradient at a time.
-  FunctionProblem blind = problem;
-  blind.residual_number = 0;
-  blind.evaluated.clear();
-  blind.accepted.clear();
+  FunctionProblem blind = sum_of_squares(box(6, -2.0, 3.0), 12, kinked, false);
   Recorder other;
   const OptimizerResult slow = minimise(blind, start, other, SqpSettings{});
   EXPECT_GE(slow.value, r.value - 1e-9);
@@ -328,20 +318,11 @@ TEST(SqpConvergence, KinkedResidualsAreFollowedAlongTheirKinks)
 TEST(SqpConvergence, AJumpIsCrossed)
 {
   // Along the way down to x = 0 the residual jumps up by 10 % at x = 1.
-  FunctionProblem problem = box(2, -4.0, 4.0);
   const auto residual = [](const VectorXd& x, VectorXd& r, RowMajor& J) {
     r << x[0] + (x[0] < 1.0 && x[0] > -0.5 ? 0.1 : 0.0), 0.1 * (x[1] - 1.0);
     J << 1.0, 0.0, 0.0, 0.1;
   };
-  problem.objective = [residual](const VectorXd& x, VectorXd& g) {
-    VectorXd r(2);
-    RowMajor J(2, 2);
-    residual(x, r, J);
-    g = J.transpose() * r;
-    return 0.5 * r.squaredNorm();
-  };
-  problem.residual_number = 2;
-  problem.residual_functions = residual;
+  FunctionProblem problem = sum_of_squares(box(2, -4.0, 4.0), 2, residual, true);
   Recorder recorder;
   const OptimizerResult r = minimise(problem, {1.05, -3.0}, recorder, SqpSettings{});
   EXPECT_LT(r.value, 1e-6 * recorder.iterates.front().value) << r.message;

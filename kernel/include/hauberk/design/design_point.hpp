@@ -37,6 +37,9 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
 /// variables, rows unknowns.
 Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables);
 
+/// to.x - from.x.
+Vector change_of_variables(const DesignPoint& from, const DesignPoint& to);
+
 /// Warm start of design `to` from a stage of design `from`: the state moved by the least-squares response of
 /// all unknowns, strain included, that keeps the gaps in contact. Null where that is not a state of the same
 /// fabric: some gap is closed, a link is lost, or the change is so large that cores could have crossed

@@ -227,11 +227,14 @@ OptimizerResult Minimizer::finish(std::string status, std::string message) const
   result.evaluations = problem_.evaluations();
   if (best_.violation > settings_.constraint_tolerance) {
     if (status == "small_step") status = "infeasible";
-    message += "; the constraints are violated by up to " + std::to_string(best_.violation);
+    message +=
+        "; the constraints are violated by up to " + std::to_string(best_.violation) + " in their own scale";
   }
   if (status == "converged" && best_.value < value_ - settings_.tolerance * objective_scale()) {
     status = "small_step";
-    message = "an earlier iterate, left by a step across a jump, is better than where the search ended";
+    message =
+        "the result is an earlier iterate: the search stepped across a jump and ended further from the "
+        "minimum";
   }
   result.status = std::move(status);
   result.message = std::move(message);

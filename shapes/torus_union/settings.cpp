@@ -1,39 +1,16 @@
 #include "torus_union.hpp"
 
+#include <hauberk/suggestion.hpp>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 namespace hauberk {
 namespace {
-
-/// Number of single-character changes between two words (Levenshtein).
-std::size_t edit_distance(const std::string& a, const std::string& b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& known)
-{
-  return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(word, a) < edit_distance(word, b);
-  });
-}
 
 /// Names become parts of variable names such as 3/ring.R and */ring.R, so '/', '*' and '.' must not be in
 /// them.
@@ -115,8 +92,7 @@ class Reader {
       }
       const auto at = std::find(parameters_.begin(), parameters_.end(), term.string);
       if (at == parameters_.end()) {
-        problems_.add(term, "unknown parameter '" + term.string + "'; did you mean '" +
-                                nearest(term.string, parameters_) + "'?");
+        problems_.add(term, "unknown parameter '" + term.string + "'" + suggestion(term.string, parameters_));
         continue;
       }
       torus.weights.resize(parameters_.size(), 0.0);
@@ -213,7 +189,12 @@ void torus_union_fields(std::vector<Field>& out)
   Field torus = named("", Field::Kind::object, "A torus.");
   torus.children = {name, named("group", Field::Kind::string, "Tori of one group share their parameters."),
                     position_field(), axis_field()};
-  Field tori = named("tori", Field::Kind::list, "The tori of the element; they may overlap each other.");
+  Field tori =
+      named("tori", Field::Kind::list,
+            "The tori of the element; they may overlap each other. Each group, and each torus without "
+            "one, has the parameters <name>.R (radius of the ring), <name>.r0 and <name>.r1 "
+            "(half-widths of the cross-section in the ring's plane and along its axis); "
+            "`parameters` gives all of them.");
   tori.required = true;
   tori.min_items = 1;
   tori.children = {torus};

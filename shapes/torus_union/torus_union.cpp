@@ -2,6 +2,7 @@
 
 #include <hauberk/error.hpp>
 
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -11,9 +12,8 @@ namespace {
 // Radii are positive and finite; the range only has to be wide enough for any unit of length.
 constexpr double smallest_length = 1e-12;
 constexpr double largest_length = 1e12;
-// A ring whose hole takes four cross-sections side by side, as usual in chainmail.
-constexpr double default_R = 1.0;
-constexpr double default_r = 0.2;
+// No radius is a good guess for every ring: a forgotten one is an error.
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -24,9 +24,9 @@ TorusUnion::TorusUnion(const std::vector<std::string>& prefixes, std::vector<Tor
     parameters_.push_back({name, "length", value, smallest_length, largest_length, doc, true});
   };
   for (const std::string& prefix : prefixes) {
-    add(prefix + ".R", default_R, "radius of the ring, from its centre to the centre of the cross-section");
-    add(prefix + ".r0", default_r, "half-width of the cross-section in the plane of the ring");
-    add(prefix + ".r1", default_r, "half-width of the cross-section along the axis of the ring");
+    add(prefix + ".R", none, "radius of the ring, from its centre to the centre of the cross-section");
+    add(prefix + ".r0", none, "half-width of the cross-section in the plane of the ring");
+    add(prefix + ".r1", none, "half-width of the cross-section along the axis of the ring");
   }
 }
 

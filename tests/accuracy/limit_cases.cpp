@@ -7,7 +7,7 @@ std::vector<LimitResult> limits(const SceneSpec& scene, const std::vector<LimitT
 {
   const test::Sheet sheet(2);
   const Model m = make_model(scene, sheet, clearance);
-  return compute_limits(m, scene, tasks, settings, threads, [](std::size_t, std::size_t) { return true; });
+  return compute_limits(m, scene, tasks, settings, threads);
 }
 
 LimitResult limit(const SceneSpec& scene, double direction, Sense sense, const LimitSettings& settings,

@@ -39,10 +39,9 @@ TEST(BadInput, EveryProblemAtOnce)
   expect_refused(with(with(with(chain_text(), R"("preset")", R"("prest")"), R"("stretch")", R"("strech")"),
                       R"("ring.R": 5.0)", R"("ring.R": "5")"),
                  {"5: /elements/link/parameters/ring.R: expected a number, found \"5\"",
-                  "11: /load_case/senses/0: expected one of stretch, compress, found \"strech\"; the nearest "
-                  "known value "
-                  "is 'stretch'",
-                  "12: /solver/prest: unknown key 'prest'; the nearest known key is 'preset'"});
+                  "11: /load_case/senses/0: expected one of stretch, compress, found \"strech\"; did you "
+                  "mean 'stretch'?",
+                  "12: /solver/prest: unknown key 'prest'; did you mean 'preset'?"});
 }
 
 TEST(BadInput, Syntax)
@@ -70,28 +69,30 @@ TEST(BadInput, Numbers)
 
 TEST(BadInput, OverlapAtRest)
 {
-  expect_refused("[6, 0, 0]", "[9.2, 0, 0]",
-                 "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) overlap at rest by 0.6; move "
-                 "them apart, "
-                 "make them thinner, or set cell.relax to true");
+  expect_refused(
+      "[6, 0, 0]", "[9.2, 0, 0]",
+      "6: /cell: element 0 (ring of link) and element 1 (ring of link) overlap at rest by 0.6 mm; move "
+      "them apart, "
+      "make them thinner, or set cell.relax to true");
 }
 
 TEST(BadInput, CoresThatCrossExactly)
 {
-  expect_refused("[12, 0]", "[16, 0]",
-                 "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) of image [-1, 0] overlap at "
-                 "rest by 1.4; move them apart, make them thinner, or set cell.relax to true");
+  expect_refused(
+      "[12, 0]", "[16, 0]",
+      "6: /cell: element 0 (ring of link) and element 1 (ring of link) of image [-1, 0] overlap at "
+      "rest by 1.4 mm; move them apart, make them thinner, or set cell.relax to true");
 }
 
 TEST(BadInput, GapBelowTheClearance)
 {
-  const std::string less = " apart at rest, less than solver.clearance 2.7" + way_out;
+  const std::string less = " apart at rest, less than solver.clearance 2.7 mm" + way_out;
   expect_refused(
       with(with(chain_text(), R"("preset": "accurate")", R"("clearance": 2.7)"), "[12, 0]", "[13, 0]"),
-      {"6: /cell: element 0 (primitive 0) and element 0 (primitive 0) of image [1, 0] are 1.6" + less,
-       "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) of image [-1, 0] are 1.6" + less,
-       "6: /cell: element 0 (primitive 0) and element 1 (primitive 0) are 2.6" + less,
-       "6: /cell: element 1 (primitive 0) and element 1 (primitive 0) of image [1, 0] are 1.6" + less});
+      {"6: /cell: element 0 (ring of link) and element 0 (ring of link) of image [1, 0] are 1.6 mm" + less,
+       "6: /cell: element 0 (ring of link) and element 1 (ring of link) of image [-1, 0] are 1.6 mm" + less,
+       "6: /cell: element 0 (ring of link) and element 1 (ring of link) are 2.6 mm" + less,
+       "6: /cell: element 1 (ring of link) and element 1 (ring of link) of image [1, 0] are 1.6 mm" + less});
 }
 
 TEST(BadInput, NothingLinked)
@@ -147,9 +148,8 @@ TEST(BadInput, ValuesOfTheCommandLineAreNamedAsSuch)
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=fats"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.err,
-            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; the "
-            "nearest known value "
-            "is 'fast'\n");
+            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; did you "
+            "mean 'fast'?\n");
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

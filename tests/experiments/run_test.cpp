@@ -119,8 +119,9 @@ TEST(Run, FolderWithResultsIsRefusedWithoutForce)
   const std::string before = read_text(folder / "out/results.json");
   const Outcome refused = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=fast"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_EQ(refused.err, "hauberk: " + (folder / "out") +
-                             ": holds results already; give another folder with -o, or --force\n");
+  EXPECT_EQ(refused.err,
+            "hauberk: " + (folder / "out") +
+                ": holds results already (results.json); give another folder with -o, or --force\n");
   EXPECT_EQ(read_text(folder / "out/results.json"), before);
   EXPECT_EQ(run_program({"run", file, "-o", folder / "out", "--force", "--set", "/solver/preset=fast",
                          "--set", "/expect=[]"})

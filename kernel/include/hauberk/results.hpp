@@ -32,7 +32,7 @@ struct LockedState {
   double value = 0.0;
   std::vector<double> macro;
   double z_range = 0.0;
-  std::uint64_t seed = 0;  ///< of the first start that reached it
+  std::uint64_t seed = 0;  ///< of the start that came furthest to it (the first of equals)
   int count = 0;
 };
 

@@ -36,6 +36,7 @@ struct SceneSpec {
   std::vector<PlacedElement> elements;
   std::vector<Vec3> lattice;  ///< two vectors of the supercell when periodic, else empty
   double length = 0.0;        ///< characteristic length L; 0: median ring radius of the elements
+  std::string length_unit;    ///< of the file, for messages; may be empty
 };
 
 /// Median ring radius R over all primitives of the scene, file units.

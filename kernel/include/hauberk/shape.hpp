@@ -14,9 +14,9 @@ namespace hauberk {
 /// One design parameter of a shape. Lengths are in the unit of the experiment file.
 struct ParameterInfo {
   std::string name;
-  std::string unit;  ///< "length", "degree" or "1"
-  double default_value = 0.0;
-  double lower = 0.0;  ///< values outside [lower, upper] are refused
+  std::string unit;            ///< "length", "degree" or "1"
+  double default_value = 0.0;  ///< NaN: none, every experiment must give a value
+  double lower = 0.0;          ///< values outside [lower, upper] are refused
   double upper = 0.0;
   std::string doc;
   bool smooth = true;  ///< primitives depend on it with continuous derivative

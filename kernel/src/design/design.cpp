@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -137,11 +138,16 @@ Search search(DesignProblem& problem, const Optimizer& optimizer, std::span<cons
   return s;
 }
 
-void enter(DesignResult& out, const DesignProblem& problem, const DesignSpec& design, const Search& s)
+void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, const Search& s)
 {
   const DesignPoint& p = problem.current();
   out.status = s.interrupted ? "interrupted" : s.found.status;
   out.message = s.found.message;
+  std::vector<double> room(static_cast<std::size_t>(problem.constraint_count()));
+  problem.constraints(s.found.x, room, {});
+  const double missing = room.empty() ? 0.0 : -*std::min_element(room.begin(), room.end()) * p.model.length;
+  if (out.status == "infeasible")
+    out.message += fmt::format("; the design misses a clearance by {:.3g} {}", missing, p.spec.length_unit);
   out.objective = s.found.value;
   const std::vector<double> initial = problem.scene_variables();
   for (std::size_t v = 0; v < design.variables.size(); ++v) {
@@ -249,7 +255,9 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
   result.objective_initial = objective(before);
   result.objective = objective(after);
   if (result.objective > result.objective_initial) {
-    result.message += "; this design is worse than the initial one: allow more iterations or starts";
+    result.message +=
+        "; the initial design is closer to the targets: it violates a clearance, or the search needs more "
+        "iterations or starts";
   }
   result.initial_limits = initial;
 }

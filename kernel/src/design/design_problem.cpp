@@ -2,6 +2,8 @@
 #include <hauberk/error.hpp>
 #include <hauberk/motion/advancement.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +49,8 @@ DesignProblem::DesignProblem(const SceneSpec& scene, const LoadCase& load, doubl
   p->model = make_model(scene_, load_, clearance_);
   const Relaxed r = relax(p->model, rest_state(p->model), rest_target(p->model));
   if (!r.problem.empty())
-    throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem);
+    throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem +
+                     tightest_pair(scene_, p->model, r.state));
   p->rest = r.state;
   p->rest_gaps = find_gaps(p->model, p->rest, rest_target(p->model) + response_range, true);
   p->warm.resize(tasks_.size());
@@ -159,18 +162,50 @@ bool DesignProblem::residuals(std::span<const double> x, std::span<double> r, st
   return true;
 }
 
+double DesignProblem::hole_room(const Model& m, const Hole& h) const
+{
+  const Body& ring = m.bodies[static_cast<std::size_t>(h.ring)];
+  const Body& thread = m.bodies[static_cast<std::size_t>(h.thread)];
+  return ring.R - ring.r0 - (h.size_index == 4 ? thread.r0 : thread.r1) - design_.hole_clearance / m.length;
+}
+
+std::string DesignProblem::impossible_hole()
+{
+  const std::size_t nv = lower_.size();
+  std::vector<double> c(static_cast<std::size_t>(constraint_count())), jacobian(c.size() * nv);
+  constraints(current_->x, c, jacobian);
+  double least = 0.0;
+  std::string text;
+  for (std::size_t row = 0; row < holes_.size(); ++row) {
+    std::vector<double> x = current_->x;
+    for (std::size_t v = 0; v < nv; ++v) {
+      const double slope = jacobian[row * nv + v];
+      if (slope != 0.0) x[v] = slope > 0.0 ? upper_[v] : lower_[v];
+    }
+    const Model most = make_model(with_variables(scene_, design_.variables, x), load_, clearance_);
+    const double room = hole_room(most, holes_[row]);
+    if (room >= least) continue;
+    least = room;
+    const Gap pair{holes_[row].ring, holes_[row].thread, {}, 0.0, {}, {}, {}};
+    text = fmt::format(
+        "{0:.6g} {1} is more than the bounds of the variables allow: at most {2:.6g} {1} are left in the "
+        "hole "
+        "of the first of {3}; widen the bounds, or lower it",
+        design_.hole_clearance, scene_.length_unit, room * most.length + design_.hole_clearance,
+        pair_name(scene_, most, pair));
+  }
+  return text;
+}
+
 void DesignProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
 {
   const std::shared_ptr<DesignPoint> p = make_point(x);
   const auto nv = static_cast<int>(design_.variables.size());
   std::fill(jacobian.begin(), jacobian.end(), 0.0);
   const Model& m = p->model.bodies.empty() ? current_->model : p->model;
-  const double L = m.length;
   std::size_t row = 0;
   for (const Hole& h : holes_) {
-    const Body& ring = m.bodies[static_cast<std::size_t>(h.ring)];
-    const Body& thread = m.bodies[static_cast<std::size_t>(h.thread)];
-    c[row] = ring.R - ring.r0 - (h.size_index == 4 ? thread.r0 : thread.r1) - design_.hole_clearance / L;
+    c[row] = hole_room(m, h);
     if (!jacobian.empty()) {
       const auto add = [&](int body, int quantity, double factor) {
         const int element = m.bodies[static_cast<std::size_t>(body)].element;

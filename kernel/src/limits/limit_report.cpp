@@ -12,6 +12,8 @@ namespace {
 
 /// Range in which the smallest gap is searched, L.
 constexpr double gap_range = 0.2;
+/// Forces that miss the load by more than this part of it are said so.
+constexpr double unbalanced = 3e-5;
 /// States closer than this in value, invariants of the strain and height are one.
 constexpr double same_state = 1e-5;
 
@@ -75,6 +77,10 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   r.direction_deg = task.direction_deg;
   r.sense = task.sense == Sense::positive ? names.first : names.second;
   r.measure = m.load->measure();
+  // Their names only: there is no state yet.
+  const State rest = rest_state(m);
+  r.companions = m.load->companions(task.direction_deg * degree, macro_span(m, rest));
+  for (auto& [name, value] : r.companions) value = std::numeric_limits<double>::quiet_NaN();
   return r;
 }
 
@@ -148,6 +154,9 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   const Vector load = load_vector(m, theta, task.sense);
   r.force_balance = force_balance(m, s, load, e.points, l.stage.mu);
+  if (l.status == LockStatus::locked && *r.force_balance > unbalanced)
+    r.message = fmt::format(
+        "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   r.contact = l.stage.contact.formulation == Formulation::arc ? "arc" : "nearest";
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
@@ -186,6 +195,7 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   s.z_range = z_range(m, l.state) * m.length;
   s.seed = seed;
   s.count = 1;
+  const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
   // Mirror images have the same value, height and metric norm of the macroscopic state.
   const auto norm = [&m](const std::vector<double>& x) {
     double n = 0.0;
@@ -196,7 +206,12 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
     if (std::abs(o.value - s.value) < same_state * scale &&
         std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale &&
         std::abs(o.z_range - s.z_range) < 100 * same_state * m.length) {
-      ++o.count;
+      // The furthest of them stands for all: it is the value of the limit where it is the best state.
+      s.count = o.count + 1;
+      if (sign * s.value > sign * o.value)
+        o = s;
+      else
+        o.count = s.count;
       return;
     }
   }

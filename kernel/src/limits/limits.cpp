@@ -1,13 +1,6 @@
 #include "limit_report.hpp"
 
 #include <hauberk/limits/limits.hpp>
-#include <hauberk/parallel.hpp>
-
-#include <fmt/format.h>
-
-#include <atomic>
-#include <chrono>
-#include <cmath>
 
 namespace hauberk {
 namespace {
@@ -63,43 +56,6 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
   }
   r.better_state = any && best != 0;
   return r;
-}
-
-std::vector<LimitResult> compute_limits(const Model& m, const SceneSpec& spec,
-                                        const std::vector<LimitTask>& tasks, const LimitSettings& settings,
-                                        unsigned threads, const LimitProgress& progress)
-{
-  std::vector<std::optional<LimitResult>> decided(tasks.size());
-  for (std::size_t k = 0; k < tasks.size(); ++k) decided[k] = decided_by_links(m, tasks[k]);
-  const auto n = static_cast<std::size_t>(std::max(1, settings.starts));
-  std::vector<Locked> found(tasks.size() * n);
-  std::vector<double> seconds(found.size(), 0.0);
-  std::atomic<bool> going{true};
-  std::atomic<std::size_t> done{0};
-  parallel_for(found.size(), threads, [&](std::size_t i) {
-    const std::size_t task = i / n;
-    found[i].status = LockStatus::interrupted;
-    found[i].state = rest_state(m);
-    if (!decided[task] && going) {
-      const auto t0 = std::chrono::steady_clock::now();
-      found[i] =
-          limit_from_start(m, tasks[task], settings, static_cast<int>(i % n), [&] { return going.load(); });
-      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-    }
-    if (!progress(++done, found.size())) going = false;
-  });
-  std::vector<LimitResult> out(tasks.size());
-  parallel_for(tasks.size(), threads, [&](std::size_t k) {
-    if (decided[k]) {
-      out[k] = *decided[k];
-      return;
-    }
-    const std::vector<Locked> mine(found.begin() + static_cast<std::ptrdiff_t>(k * n),
-                                   found.begin() + static_cast<std::ptrdiff_t>((k + 1) * n));
-    out[k] = summarize(m, spec, tasks[k], settings, mine);
-    for (std::size_t i = 0; i < n; ++i) out[k].seconds += seconds[k * n + i];
-  });
-  return out;
 }
 
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,

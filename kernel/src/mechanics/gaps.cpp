@@ -155,6 +155,37 @@ double smallest_gap(const Model& m, const State& s, double range)
   return g;
 }
 
+namespace {
+
+std::string body_name(const SceneSpec& spec, const Body& body)
+{
+  const PlacedElement& element = spec.elements[static_cast<std::size_t>(body.element)];
+  const ElementType& type = spec.types[static_cast<std::size_t>(element.type)];
+  const std::vector<Primitive> primitives = type.shape->primitives(element.parameters);
+  return fmt::format("element {} ({} of {})", body.element,
+                     primitives[static_cast<std::size_t>(body.index)].name, type.name);
+}
+
+}  // namespace
+
+std::string pair_name(const SceneSpec& spec, const Model& m, const Gap& g)
+{
+  std::string text = body_name(spec, m.bodies[static_cast<std::size_t>(g.a)]) + " and " +
+                     body_name(spec, m.bodies[static_cast<std::size_t>(g.b)]);
+  if (g.image != Image{0, 0}) text += fmt::format(" of image [{}, {}]", g.image[0], g.image[1]);
+  return text;
+}
+
+std::string tightest_pair(const SceneSpec& spec, const Model& m, const State& s)
+{
+  const std::vector<Gap> gaps = find_gaps(m, s, 1.0, false);
+  const auto least =
+      std::min_element(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.gap < b.gap; });
+  if (least == gaps.end()) return "";
+  return "; the tightest are " + pair_name(spec, m, *least) +
+         (spec.length_unit.empty() ? "" : " (lengths in " + spec.length_unit + ")");
+}
+
 Relaxed relax(const Model& m, const State& start, double target)
 {
   Relaxed out;

@@ -10,7 +10,6 @@ namespace {
 
 /// Forces of the last stage that miss the load by more than this part of it are worth a second attempt.
 constexpr double unbalanced = 5e-5;
-constexpr double reported = 1e-4;
 constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
 
@@ -121,8 +120,6 @@ class Path {
       out_.message = r.message;
       return false;
     }
-    if (last && r.residual > reported)
-      out_.message = fmt::format("contact forces miss the load by {:.1e} of it", r.residual);
     out_.stage = make_stage(g_hat, last, f);
     StageRecord record;
     record.g_hat = g_hat;

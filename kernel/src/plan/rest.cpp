@@ -17,16 +17,6 @@ constexpr double opened = 1e-3;
 /// Less room that is tried where that much does not exist, in steps of ten down to this, L.
 constexpr double least_opened = 1e-7;
 
-std::string where(const Model& m, const Gap& g)
-{
-  const Body& a = m.bodies[static_cast<std::size_t>(g.a)];
-  const Body& b = m.bodies[static_cast<std::size_t>(g.b)];
-  std::string text = fmt::format("element {} (primitive {}) and element {} (primitive {})", a.element,
-                                 a.index, b.element, b.index);
-  if (g.image != Image{0, 0}) text += fmt::format(" of image [{}, {}]", g.image[0], g.image[1]);
-  return text;
-}
-
 /// Pairs so deep in each other that no minimum of the distance is left: their certified bound tells.
 void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
 {
@@ -56,7 +46,7 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
 
 }  // namespace
 
-std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool relax_allowed)
+std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bool relax_allowed)
 {
   std::vector<std::string> out;
   if (m.links.empty()) {
@@ -79,18 +69,19 @@ std::vector<std::string> rest_problems(const SceneSpec&, const Model& m, bool re
     }
   }
   add_deep_overlaps(m, worst);
+  const std::string unit = spec.length_unit.empty() ? "" : " " + spec.length_unit;
   for (const Gap& g : worst) {
     if (g.gap >= -touching) continue;
     const double distance = (g.gap + m.clearance) * m.length;
     if (distance < -touching * m.length) {
       out.push_back(fmt::format(
-          "{} overlap at rest by {:.6g}; move them apart, make them thinner, or set cell.relax to true",
-          where(m, g), -distance));
+          "{} overlap at rest by {:.6g}{}; move them apart, make them thinner, or set cell.relax to true",
+          pair_name(spec, m, g), -distance, unit));
     } else {
       out.push_back(fmt::format(
-          "{} are {:.6g} apart at rest, less than solver.clearance {:.6g}; move them apart, lower "
+          "{} are {:.6g}{} apart at rest, less than solver.clearance {:.6g}{}; move them apart, lower "
           "the clearance, or set cell.relax to true",
-          where(m, g), std::max(distance, 0.0), m.clearance * m.length));
+          pair_name(spec, m, g), std::max(distance, 0.0), unit, m.clearance * m.length, unit));
     }
   }
   return out;
@@ -110,7 +101,8 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
     r = relax(m, rest, room);
     room *= 0.1;
   } while (!r.problem.empty() && room >= least_opened);
-  if (!r.problem.empty()) throw InputError("the rest state has no room nearby: " + r.problem);
+  if (!r.problem.empty())
+    throw InputError("the rest state has no room nearby: " + r.problem + tightest_pair(spec, m, r.state));
   const std::vector<Pose> p = poses(m, r.state);
   for (std::size_t k = 0; k < p.size(); ++k)
     out.scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};

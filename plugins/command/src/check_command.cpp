@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace hauberk::command {
 
 int check_command(const std::vector<std::string>& words)
@@ -12,8 +14,11 @@ int check_command(const std::vector<std::string>& words)
   options.add_experiment_options();
   options.parse(words);
   const Loaded loaded = load(options);
-  fmt::print("{}: no problems; {} elements, {} limits{}\n", options.positional(), loaded.plan.elements,
+  const auto unbounded = std::count_if(loaded.plan.bounded.begin(), loaded.plan.bounded.end(),
+                                       [](const auto& task) { return task.second == "unbounded"; });
+  fmt::print("{}: no problems; {} elements, {} limits{}{}\n", options.positional(), loaded.plan.elements,
              loaded.tasks.size(),
+             unbounded > 0 ? fmt::format(" ({} unbounded: links do not hold them)", unbounded) : "",
              loaded.design ? fmt::format(", {} design variables", loaded.design->variables.size()) : "");
   return exit_done;
 }

@@ -62,12 +62,12 @@ class DesignRun {
 
  private:
   std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene,
-                                  std::vector<LimitTask> tasks, const LimitsObserver& observer)
+                                  std::vector<LimitTask> tasks, const LimitsSink& sink)
   {
     const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
     LimitsJob job{&model, &scene, std::move(tasks), loaded_.settings, experiment_.load_case_plugin, threads_,
                   label,  {}};
-    std::vector<LimitResult> out = run_limits(job, progress_, observer);
+    std::vector<LimitResult> out = run_limits(job, progress_, sink);
     progress_.clear();
     return out;
   }

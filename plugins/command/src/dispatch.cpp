@@ -2,7 +2,7 @@
 #include "options.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
 #include <hauberk/version.hpp>
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ int run(const std::vector<std::string>& words)
     if (name == c.name) return c.run({words.begin() + 1, words.end()});
     known.emplace_back(c.name);
   }
-  throw UsageError(fmt::format("unknown command '{}'{}", name, nearest_hint("command", name, known)), help());
+  throw UsageError(fmt::format("unknown command '{}'{}", name, did_you_mean(name, known)), help());
 }
 
 int fail(int code, const std::string& message) noexcept

@@ -27,11 +27,10 @@ struct LimitsJob {
 };
 
 /// All limits so far; those not finished have status interrupted.
-using LimitsObserver = std::function<void(const std::vector<LimitResult>&)>;
+using LimitsSink = std::function<void(const std::vector<LimitResult>&)>;
 
-/// Computes all tasks, every start an item of its own for the threads, until done or interrupted. Results do
-/// not depend on `threads`. `observer` is called after every finished limit, one call at a time. Errors of
-/// one limit are its result (status failed) and do not stop the others.
-std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsObserver& observer);
+/// Computes all tasks until done or interrupted by a signal, under the progress display. `sink` is called
+/// after every finished limit, one call at a time.
+std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink);
 
 }  // namespace hauberk::command

@@ -116,8 +116,10 @@ void prepare_design(Loaded& loaded, Diagnostics& diagnostics)
   const Experiment& e = loaded.experiment;
   check_targets(loaded, diagnostics);
   attempt(diagnostics, e, "/design", [&] {
-    const DesignProblem problem(loaded.scene, *e.load_case, e.solver.clearance, loaded.settings,
-                                *loaded.design, 1, [] { return true; });
+    DesignProblem problem(loaded.scene, *e.load_case, e.solver.clearance, loaded.settings, *loaded.design, 1,
+                          [] { return true; });
+    if (const std::string impossible = problem.impossible_hole(); !impossible.empty())
+      diagnostics.problems.add(nearest_node(e.resolved, "/design/hole_clearance"), impossible);
     loaded.design_scene = with_rest(problem.current().spec, problem.current().model, problem.current().rest);
   });
 }

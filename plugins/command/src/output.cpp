@@ -69,7 +69,7 @@ void Output::write(const RunResult& run)
   for (std::size_t k = 0; k < kept_.size() && k < limits.size(); ++k) {
     if (!kept_[k].is_null()) limits[k] = kept_[k];
   }
-  write_results(directory_, document_, run, experiment_json_, labels_);
+  write_results(directory_, document_, run, experiment_json_, names_, labels_);
   last_ = std::chrono::steady_clock::now();
 }
 

@@ -1,9 +1,9 @@
 #include "dispatch.hpp"
 #include "loading.hpp"
 
-#include <hauberk/experiment/nearest.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
@@ -67,8 +67,8 @@ int describe(const Registry& registry, const std::string& id)
     return exit_done;
   }
   for (const auto& folder : registry.directories()) searched.push_back(folder.string());
-  throw InputError(fmt::format("no plugin '{}'{} (searched: {})", id, nearest_hint("plugin", id, known),
-                               fmt::join(searched, ", ")));
+  throw InputError(
+      fmt::format("no plugin '{}'{} (searched: {})", id, suggestion(id, known), fmt::join(searched, ", ")));
 }
 
 }  // namespace

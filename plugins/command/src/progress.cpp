@@ -88,6 +88,20 @@ void Progress::limits(const std::string& label, std::size_t done, std::size_t to
   last_ = now;
 }
 
+namespace {
+
+std::string clearances(const DesignIterate& it)
+{
+  constexpr double visible = 1e-6;
+  std::string text = std::isfinite(it.min_gap) ? fmt::format("smallest distance at rest {:.4g}", it.min_gap)
+                                               : std::string("nothing close at rest");
+  if (it.constraint_violation > visible)
+    text += fmt::format(", clearances violated by {:.2g}", it.constraint_violation);
+  return text;
+}
+
+}  // namespace
+
 void Progress::design(const DesignProgress& progress, const DesignSpec& design, bool final)
 {
   if (mode_ == Mode::quiet) return;
@@ -99,13 +113,12 @@ void Progress::design(const DesignProgress& progress, const DesignSpec& design, 
   if (mode_ == Mode::plain) {
     std::vector<std::string> values;
     for (const double v : it.values) values.push_back(fmt::format("{:.4f}", v));
-    put(fmt::format("{}, step {:.2g}, smallest distance at rest {:.4g}, {}: {} ({:.1f} s)\n", head, it.step,
-                    it.min_gap, design.quantity_name, fmt::join(values, " "), seconds()));
+    put(fmt::format("{}, step {:.2g}, {}, {}: {} ({:.1f} s)\n", head, it.step, clearances(it),
+                    design.quantity_name, fmt::join(values, " "), seconds()));
     return;
   }
   std::vector<std::string> lines{
-      fmt::format("{}  {:.1f} s", head, seconds()),
-      fmt::format("  step {:.2g}, smallest distance at rest {:.4g}", it.step, it.min_gap),
+      fmt::format("{}  {:.1f} s", head, seconds()), fmt::format("  step {:.2g}, {}", it.step, clearances(it)),
       fmt::format("  {:>10} {:>10} {:>10} {:>9}", "direction", "target", design.quantity_name, "off by")};
   for (std::size_t k = 0; k < it.values.size() && k < design.targets.size(); ++k) {
     const DesignTarget& t = design.targets[k];

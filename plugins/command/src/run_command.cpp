@@ -154,7 +154,8 @@ int run_command(const std::vector<std::string>& words)
     }
   }
   if (resumed.complete) return already_complete(loaded, resumed, folder);
-  prepare_output_directory(folder, options.has("force") || resuming);
+  // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
+  prepare_output_directory(folder, options.has("force") || options.has("resume"));
 
   Progress progress(Progress::detect(options.has("quiet")));
   if (options.has("resume")) {

@@ -61,15 +61,33 @@ std::string design_table(const DesignResult& d, int starts)
                         cell(t.initial), cell(t.provisional), cell(t.recomputed), verdict);
     met += t.met ? 1 : 0;
   }
-  return text + fmt::format("{} of {} targets met\n", met, d.targets.size());
+  text += fmt::format("{} of {} targets met\n", met, d.targets.size());
+  return text;
 }
 
-/// A line for each limit that is not an answer.
+/// What was designed, and which bounds hold it.
+std::string variables_table(const DesignResult& d, const std::string& unit)
+{
+  constexpr double at_bound = 1e-6;  // of the width of the bounds
+  std::size_t width = 8;
+  for (const DesignVariableResult& v : d.variables) width = std::max(width, v.name.size());
+  std::string text = fmt::format("{:<{}} {:>12} {:>12}  {}\n", "variable", width, "initial", "final", unit);
+  for (const DesignVariableResult& v : d.variables) {
+    const double room = at_bound * (v.upper - v.lower);
+    const char* bound = v.final <= v.lower + room   ? "  at its lower bound"
+                        : v.final >= v.upper - room ? "  at its upper bound"
+                                                    : "";
+    text += fmt::format("{:<{}} {:>12.6g} {:>12.6g}{}\n", v.name, width, v.initial, v.final, bound);
+  }
+  return text;
+}
+
+/// A line for each limit that is not an answer, or that has a reservation.
 std::string remarks(const RunResult& run)
 {
   std::string text;
   for (const LimitResult& l : run.limits) {
-    if (answered(l)) continue;
+    if (answered(l) && (l.status != LimitStatus::locked || l.message.empty())) continue;
     text += fmt::format("{} at {:g} degrees: {}{}{}\n", l.sense, l.direction_deg, to_string(l.status),
                         l.message.empty() ? "" : ": ", l.message);
   }
@@ -85,7 +103,10 @@ std::string summary(const Loaded& loaded, const RunResult& run)
     text +=
         fmt::format("The rest state touches itself and was relaxed: elements moved by up to {:.3g} {}.\n\n",
                     loaded.moved, loaded.experiment.length_unit);
-  if (run.design) text += design_table(*run.design, loaded.design->starts) + "\n";
+  if (run.design) {
+    text += design_table(*run.design, loaded.design->starts) + "\n";
+    text += variables_table(*run.design, loaded.experiment.length_unit) + "\n";
+  }
   if (!run.profiles.empty()) text += limits_table(loaded, run);
   return text + remarks(run);
 }

@@ -2,7 +2,7 @@
 #include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/jsonc.hpp>
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,7 @@ class Checker {
   {
     if (std::find(field.choices.begin(), field.choices.end(), node.string) != field.choices.end())
       return true;
-    return mismatch(node, field, nearest_hint("value", node.string, field.choices));
+    return mismatch(node, field, did_you_mean(node.string, field.choices));
   }
 
   bool check_count(const Node& node, const Field& field, std::size_t count)
@@ -169,7 +169,7 @@ class Checker {
       const auto child =
           std::find_if(children.begin(), children.end(), [&](const Field& f) { return f.name == key; });
       if (child != children.end()) return !check(value, *child);
-      if (!extra.open) problems_.add(value, "unknown key '" + key + "'" + nearest_hint("key", key, known));
+      if (!extra.open) problems_.add(value, "unknown key '" + key + "'" + suggestion(key, known));
       return !extra.open;
     });
     for (const Field& child : children) {

@@ -12,6 +12,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 
@@ -111,6 +112,8 @@ std::string read_text_file(const std::string& path)
 {
   constexpr std::streamsize largest = 64 << 20;
   const auto refuse = [&](const std::string& why) { throw InputError("cannot read '" + path + "': " + why); };
+  std::error_code unknown;  // then opening tells
+  if (std::filesystem::is_directory(path, unknown)) refuse("it is a folder; give the experiment file in it");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(errno != 0 ? std::generic_category().message(errno) : "it cannot be opened");

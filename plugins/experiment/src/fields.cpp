@@ -99,8 +99,8 @@ Field solver_field()
               with_default(at_least(integer("starts", "Perturbed starts per limit."), 1), "1"),
               with_default(
                   at_least(number("perturbation",
-                                  "Size of the random displacement of a start, in characteristic lengths "
-                                  "and radians.",
+                                  "Size of the random displacement of the first start, in characteristic "
+                                  "lengths and radians; further starts take at least 0.1.",
                                   "1"),
                            0.0),
                   "0.01"),
@@ -160,11 +160,16 @@ Field design_field()
        at_least(number("rest_clearance",
                        "Least surface distance of every pair at rest; absent: solver.clearance.", "length"),
                 0.0),
-       with_default(at_least(integer("starts", "Perturbed starting designs."), 1), "1"),
+       with_default(
+           at_least(
+               integer("starts",
+                       "Starting designs, the first one included: each is the given one moved at random."),
+               1),
+           "1"),
        with_default(
            at_least(number("perturbation",
                            "Size of the random change of a starting design, as a fraction of the distance "
-                           "between the bounds.",
+                           "between the bounds; 0 starts from the design as given.",
                            "1"),
                     0.0),
            "0.02"),

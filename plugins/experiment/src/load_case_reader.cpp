@@ -2,7 +2,7 @@
 #include "sections.hpp"
 
 #include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ void read_senses(Node& section, const LoadCase& load_case, Problems& problems, s
     if (item.string != positive && item.string != negative) {
       problems.add(
           item, fmt::format("expected one of {}, {}, found {}{}", positive, negative, quote_json(item.string),
-                            nearest_hint("value", item.string, {positive, negative})));
+                            did_you_mean(item.string, {positive, negative})));
       continue;
     }
     const Sense sense = item.string == positive ? Sense::positive : Sense::negative;

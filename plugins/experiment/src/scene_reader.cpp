@@ -6,7 +6,7 @@
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/experiment/jsonc.hpp>
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +28,8 @@ class SceneReader {
 
   SceneSpec read()
   {
+    if (const Node* unit = find_typed(root_, "length_unit", Node::Type::string))
+      spec_.length_unit = unit->string;
     if (Node* elements = find_mutable(root_, "elements")) {
       for (auto& [name, element] : elements->members) read_type(name, element);
     }
@@ -83,8 +85,7 @@ class SceneReader {
     for (const auto& [name, value] : map->members) {
       const int index = parameter_index(shape, name);
       if (index < 0) {
-        problems_.add(value, "unknown parameter '" + name + "'" +
-                                 nearest_hint("parameter", name, parameter_names(shape)));
+        problems_.add(value, "unknown parameter '" + name + "'" + suggestion(name, parameter_names(shape)));
         good = false;
         continue;
       }
@@ -223,8 +224,7 @@ class SceneReader {
     for (const ElementType& type : spec_.types) names.push_back(type.name);
     const auto found = std::find(names.begin(), names.end(), name.string);
     if (found != names.end()) return static_cast<int>(found - names.begin());
-    problems_.add(name,
-                  "unknown element '" + name.string + "'" + nearest_hint("element", name.string, names));
+    problems_.add(name, "unknown element '" + name.string + "'" + suggestion(name.string, names));
     return -1;
   }
 

@@ -3,7 +3,7 @@
 #include "sections.hpp"
 
 #include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -125,8 +125,8 @@ class VariablesReader {
     if (std::find(known.begin(), known.end(), name.string) != known.end()) return true;
     // A shape that could not be made may be the one that has it.
     if (all_shapes) {
-      problems_.add(name, "no element has a parameter '" + name.string + "'" +
-                              nearest_hint("parameter", name.string, known));
+      problems_.add(name,
+                    "no element has a parameter '" + name.string + "'" + suggestion(name.string, known));
     }
     return false;
   }

@@ -1,10 +1,9 @@
+#include <hauberk/error.hpp>
 #include <hauberk/host/registry.hpp>
-
-#include "nearest.hpp"
+#include <hauberk/suggestion.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <hauberk/error.hpp>
 
 #include <algorithm>
 #include <set>
@@ -127,11 +126,7 @@ void Registry::report_missing(PluginKind kind, std::string_view id) const
     if (entry.table && entry.table->kind == kind) known.push_back(entry.id);
   }
   std::string message = fmt::format("no {} '{}' found", plain(kind), id);
-  if (const std::string nearest = nearest_id(id, known); !nearest.empty()) {
-    message += fmt::format("; did you mean '{}'?", nearest);
-  } else if (!known.empty()) {
-    message += fmt::format("; known: {}", fmt::join(known, ", "));
-  }
+  message += suggestion(id, known);
   std::vector<std::string> searched;
   for (const fs::path& folder : directories_) searched.push_back(folder.native());
   message += fmt::format(" (searched: {})", fmt::join(searched, ", "));

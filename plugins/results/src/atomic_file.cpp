@@ -1,5 +1,6 @@
 #include <hauberk/error.hpp>
 #include <hauberk/results/atomic_file.hpp>
+#include <hauberk/results/write_results.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -83,8 +84,11 @@ void write_file_atomically(const fs::path& path, std::string_view content)
 void prepare_output_directory(const fs::path& directory, bool force)
 {
   std::error_code error;
-  if (fs::exists(directory / "results.json", error) && !force)
-    throw InputError(directory.string() + ": holds results already; give another folder with -o, or --force");
+  for (const char* name : {results_file, limits_file, profile_file, designed_file}) {
+    if (!force && fs::exists(directory / name, error))
+      throw InputError(fmt::format("{}: holds results already ({}); give another folder with -o, or --force",
+                                   directory.string(), name));
+  }
   fs::create_directories(directory, error);
   if (error) throw InputError(directory.string() + ": this output folder cannot be made: " + error.message());
   const fs::path probe = directory / fmt::format(".hauberk-write-test.{}", ::getpid());

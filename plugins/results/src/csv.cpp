@@ -47,9 +47,9 @@ std::string line(const std::vector<std::string>& cells)
 
 }  // namespace
 
-std::string limits_csv(std::span<const LimitResult> limits)
+std::string limits_csv(std::span<const LimitResult> limits, const std::vector<std::string>& macro_names)
 {
-  std::vector<std::string> companions, macros;
+  std::vector<std::string> companions, macros = macro_names;
   for (const LimitResult& limit : limits) {
     collect(limit.companions, companions);
     collect(limit.macro, macros);

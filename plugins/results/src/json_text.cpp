@@ -154,7 +154,11 @@ json::value read_json_file(const std::string& path)
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file) throw InputError(path + ": cannot be read");
-  return parse_json(text.str(), path);
+  try {
+    return parse_json(text.str(), path);
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + "; expected a file as `hauberk run` writes it");
+  }
 }
 
 std::string number_text(double x)

@@ -64,6 +64,18 @@ class Diagram {
       for (const double turn : {0.0, 180.0}) draw_marker(svg_, at(degrees + turn, value), curve);
   }
 
+  /// Infinity signs in the curve's colour, inside the outermost ring; `row` keeps those of several curves
+  /// apart.
+  void endless(const Curve& curve, int row) const
+  {
+    const double value = rings_ * step_ * (1.0 - (10.0 + 15.0 * row) / radius);
+    for (const double degrees : curve.endless)
+      for (const double turn : {0.0, 180.0}) {
+        const Point2 p = at(degrees + turn, value);
+        svg_.text({p.x, p.y + 5.0}, "\u221e", 15, "middle", true, true, curve.stroke.colour);
+      }
+  }
+
   static void draw_marker(Svg& svg, Point2 p, const Curve& curve)
   {
     switch (curve.marker) {
@@ -134,7 +146,8 @@ void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves)
   for (const Curve& curve : curves) {
     if (curve.joined) svg.line({corner.x, y}, {corner.x + 44.0, y}, curve.stroke);
     Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve);
-    svg.text({corner.x + 54.0, y + 4.0}, curve.label, 12);
+    svg.text({corner.x + 54.0, y + 4.0}, curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)"),
+             12);
     y += legend_line;
   }
 }
@@ -156,6 +169,9 @@ void draw_panel(Svg& svg, Point2 corner, const Panel& panel)
   const Diagram diagram(svg, centre, largest);
   diagram.grid();
   for (const Curve& curve : panel.curves) diagram.curve(curve);
+  int row = 0;
+  for (const Curve& curve : panel.curves)
+    if (!curve.endless.empty()) diagram.endless(curve, row++);
   diagram.ring_labels();
   draw_legend(svg, {centre.x - radius + 30.0, centre.y + radius + label_margin + 14.0}, panel.curves);
 }

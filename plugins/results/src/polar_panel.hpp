@@ -19,6 +19,8 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
   /// Directions that were asked for but have no value: the curve is interrupted there.
   std::vector<double> holes;
+  /// Those of the holes where there is no limit at all: marked at the rim.
+  std::vector<double> endless;
 };
 
 struct Panel {

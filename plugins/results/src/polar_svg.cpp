@@ -50,8 +50,25 @@ void fill(Curve& curve, const std::vector<ProfilePoint>& profile, Quantity quant
   }
 }
 
+/// Directions in which one of the limits that make up `quantity` is unbounded.
+std::vector<double> endless(const std::vector<LimitResult>& limits, Quantity quantity,
+                            const PlotLabels& labels)
+{
+  std::vector<double> out;
+  for (const LimitResult& limit : limits) {
+    const bool part = quantity == &ProfilePoint::eta ||
+                      limit.sense == (quantity == &ProfilePoint::e_s ? labels.positive : labels.negative);
+    const double degrees = reduced(limit.direction_deg);
+    if (part && limit.status == LimitStatus::unbounded &&
+        std::find(out.begin(), out.end(), degrees) == out.end())
+      out.push_back(degrees);
+  }
+  return out;
+}
+
 /// Adds the curve of one quantity, before and after; nothing when there are no values.
-void add(Panel& panel, const RunResult& run, Quantity quantity, const std::string& name, Curve style)
+void add(Panel& panel, const RunResult& run, const PlotLabels& labels, Quantity quantity,
+         const std::string& name, Curve style)
 {
   if (run.design) {
     Curve before = style;
@@ -64,6 +81,7 @@ void add(Panel& panel, const RunResult& run, Quantity quantity, const std::strin
   }
   style.label = run.design ? name + ", after" : name;
   fill(style, run.profiles.empty() ? profile_of(run.limits) : run.profiles, quantity);
+  style.endless = endless(run.limits, quantity, labels);
   if (!style.points.empty()) panel.curves.push_back(std::move(style));
 }
 
@@ -74,7 +92,8 @@ void add_targets(Panel& panel, const DesignResult& design)
                 .marker = Curve::Marker::target,
                 .joined = false,
                 .points = {},
-                .holes = {}};
+                .holes = {},
+                .endless = {}};
   for (const DesignTargetResult& t : design.targets)
     targets.points.emplace_back(reduced(t.direction_deg), std::abs(t.target));
   if (!targets.points.empty()) panel.curves.push_back(std::move(targets));
@@ -87,7 +106,8 @@ Curve style(const char* colour, double width, const char* dash, Curve::Marker ma
           .marker = marker,
           .joined = true,
           .points = {},
-          .holes = {}};
+          .holes = {},
+          .endless = {}};
 }
 
 }  // namespace
@@ -95,10 +115,12 @@ Curve style(const char* colour, double width, const char* dash, Curve::Marker ma
 std::string polar_svg(const RunResult& run, const PlotLabels& labels)
 {
   Panel eta{"\u03b7 = (e_s \u2212 e_c) / (1 + e_c), dimensionless", {}};
-  add(eta, run, &ProfilePoint::eta, "\u03b7", style("#111", 2.2, "", Curve::Marker::dot));
+  add(eta, run, labels, &ProfilePoint::eta, "\u03b7", style("#111", 2.2, "", Curve::Marker::dot));
   Panel limits{labels.positive + " and " + labels.negative + " limits (magnitude, " + labels.unit + ")", {}};
-  add(limits, run, &ProfilePoint::e_s, labels.positive, style("#1f4e79", 2.2, "", Curve::Marker::dot));
-  add(limits, run, &ProfilePoint::e_c, labels.negative, style("#c55a11", 2.2, "7,4", Curve::Marker::square));
+  add(limits, run, labels, &ProfilePoint::e_s, labels.positive,
+      style("#1f4e79", 2.2, "", Curve::Marker::dot));
+  add(limits, run, labels, &ProfilePoint::e_c, labels.negative,
+      style("#c55a11", 2.2, "7,4", Curve::Marker::square));
   if (run.design && run.design->quantity == "eta") add_targets(eta, *run.design);
   if (run.design && run.design->quantity != "eta") add_targets(limits, *run.design);
 

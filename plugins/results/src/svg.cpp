@@ -79,7 +79,7 @@ void Svg::path(std::span<const Point2> points, bool closed, const Stroke& stroke
 }
 
 void Svg::text(Point2 at, std::string_view content, double size, const std::string& anchor, bool bold,
-               bool halo)
+               bool halo, const std::string& colour)
 {
   const std::string common =
       fmt::format(R"(<text x="{:.2f}" y="{:.2f}" font-size="{:.0f}" text-anchor="{}"{})", at.x, at.y, size,
@@ -87,7 +87,7 @@ void Svg::text(Point2 at, std::string_view content, double size, const std::stri
   const std::string escaped = xml_escape(content);
   if (halo)
     body_ += fmt::format("{} fill=\"#fff\" stroke=\"#fff\" stroke-width=\"4\">{}</text>\n", common, escaped);
-  body_ += fmt::format("{} fill=\"#222\">{}</text>\n", common, escaped);
+  body_ += fmt::format("{} fill=\"{}\">{}</text>\n", common, colour, escaped);
 }
 
 }  // namespace hauberk::detail

@@ -28,7 +28,7 @@ class Svg {
   void path(std::span<const Point2> points, bool closed, const Stroke& stroke);
   /// `anchor`: start, middle or end. With `halo`, a white rim keeps the text readable on top of lines.
   void text(Point2 at, std::string_view content, double size, const std::string& anchor = "start",
-            bool bold = false, bool halo = false);
+            bool bold = false, bool halo = false, const std::string& colour = "#222");
 
   /// The whole file.
   std::string str() const { return body_ + "</svg>\n"; }

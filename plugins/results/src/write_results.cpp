@@ -22,9 +22,10 @@ std::vector<std::pair<std::string, std::string>> result_files(const RunResult& r
 }
 
 void write_results(const std::filesystem::path& directory, const boost::json::object& document,
-                   const RunResult& run, const std::string& experiment_json, const PlotLabels& labels)
+                   const RunResult& run, const std::string& experiment_json, const ResultNames& names,
+                   const PlotLabels& labels)
 {
-  write_file_atomically(directory / limits_file, limits_csv(run.limits));
+  write_file_atomically(directory / limits_file, limits_csv(run.limits, names.macro));
   write_file_atomically(directory / profile_file, polar_svg(run, labels));
   if (has_designed_scene(run))
     write_file_atomically(directory / designed_file,

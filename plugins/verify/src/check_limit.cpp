@@ -79,8 +79,10 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
   const bool has_state = !limit.poses.empty();
   if (!has_state || !limit.macro) {
     const bool may_lack = !has_state && limit.status != "locked" && !limit.value;
-    return {may_lack, limit.label + ": " + limit.status +
-                          (may_lack ? ", no state to check" : ", but no state is given")};
+    return {
+        may_lack,
+        limit.label + ": " + limit.status + (may_lack ? ", no state to check" : ", but no state is given"),
+        false};
   }
   if (limit.poses.size() != scene.elements.size())
     return {false, fmt::format("{}: {} poses for {} elements", limit.label, limit.poses.size(),

@@ -41,6 +41,8 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
 void check_document(const json::value& results, const VerifyTolerances& tolerances,
                     std::vector<VerifyLine>& lines)
 {
+  if (!results.is_object() || !results.as_object().contains("format"))
+    throw Malformed("/format: missing; these are no results: give the results.json that `hauberk run` wrote");
   if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
   const Setting setting = read_setting(member(results, "experiment", ""));
@@ -66,7 +68,8 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
 std::string VerifyReport::text() const
 {
   std::string out;
-  for (const VerifyLine& line : lines) out += (line.ok ? "PASS " : "FAIL ") + line.text + '\n';
+  for (const VerifyLine& line : lines)
+    out += (!line.ok ? "FAIL " : line.checked ? "PASS " : "NONE ") + line.text + '\n';
   return out;
 }
 

@@ -107,6 +107,23 @@ TEST(DesignConstraints, HolesAreThePublishedOnes)
   EXPECT_NEAR(J[3] * 4.9, -1.0, 1e-12);
 }
 
+TEST(DesignConstraints, HolesThatNoDesignHasAreNamed)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  // Widest hole within the bounds: R - r_0 - r_1 = 6 - 0.6 - 0.6.
+  for (const double clearance : {4.8 - 1e-9, 4.8 + 1e-6}) {
+    DesignSpec design = spec();
+    design.hole_clearance = clearance;
+    DesignProblem problem(scene, load, 0.0, {}, design, 1, [] { return true; });
+    const std::string impossible = problem.impossible_hole();
+    if (clearance < 4.8)
+      EXPECT_EQ(impossible, "");
+    else
+      EXPECT_NE(impossible.find("at most 4.8 "), std::string::npos) << impossible;
+  }
+}
+
 TEST(DesignConstraints, RestGapsFollowTheirLinearisation)
 {
   // At a new design the rest state is predicted, and relaxed only where a gap is too small: with room, the

@@ -33,8 +33,7 @@ TEST(Meaning, Plugins)
 TEST(Meaning, Elements)
 {
   EXPECT_EQ(after("\"ring.r\": 0.7", "\"ring.q\": 0.7"),
-            "t.json:5: /elements/link/parameters/ring.q: unknown parameter 'ring.q'; the nearest known "
-            "parameter is 'ring.R'");
+            "t.json:5: /elements/link/parameters/ring.q: unknown parameter 'ring.q'; did you mean 'ring.R'?");
   EXPECT_EQ(after("\"ring.r\": 0.7", "\"ring.r\": -0.7"),
             "t.json:5: /elements/link/parameters/ring.r: expected a number in [0, 1000000], found -0.7");
   EXPECT_EQ(after("\"ring.r\": 0.7", "\"ring.r\": 5.0"),
@@ -53,7 +52,7 @@ TEST(Meaning, AMistakeInAShapeHidesNoOther)
 {
   const std::string text = with(valid_text(), "\"name\": \"ring\"", "\"name\": \"ring\", \"colour\": 1");
   EXPECT_EQ(problems_of(with(text, "\"ring.r\": 0.7", "\"ring.r\": -0.7")),
-            "t.json:4: /elements/link/rings/0/colour: unknown key 'colour'; the nearest known key is 'name'\n"
+            "t.json:4: /elements/link/rings/0/colour: unknown key 'colour'; known: 'name'\n"
             "t.json:5: /elements/link/parameters/ring.r: expected a number in [0, 1000000], found -0.7");
   // Without its rings nothing can be said about the shape's parameters.
   const std::string broken = with(valid_text(), "\"name\": \"ring\"", "\"name\": 3");
@@ -64,8 +63,7 @@ TEST(Meaning, AMistakeInAShapeHidesNoOther)
 TEST(Meaning, Placement)
 {
   EXPECT_EQ(after("\"position\": [0, 0, 0]", "\"position\": [0, 0, 0], \"parameters\": { \"ring.x\": 1 }"),
-            "t.json:10: /cell/place/0/parameters/ring.x: unknown parameter 'ring.x'; the nearest known "
-            "parameter is 'ring.R'");
+            "t.json:10: /cell/place/0/parameters/ring.x: unknown parameter 'ring.x'; did you mean 'ring.R'?");
   EXPECT_EQ(after("\"position\": [0, 0, 0]", "\"position\": [0, 0, 0], \"parameters\": { \"ring.r\": 6 }"),
             "t.json:10: /cell/place/0/parameters: ring 'ring' has no hole");
   EXPECT_EQ(after("\"axis\": [1, 0, 0]", "\"axis\": [0, 0, 0]"),
@@ -102,16 +100,17 @@ TEST(Meaning, TaskAndLoadCase)
             "t.json:13: /load_case/directions_deg/1: direction -10 is the same as 170: directions count "
             "modulo 180 degrees");
   EXPECT_EQ(after("[0, 30]", "[0, 30], \"senses\": [\"stretch\", \"compres\", \"stretch\"]"),
-            "t.json:13: /load_case/senses/1: expected one of stretch, compress, found \"compres\"; the "
-            "nearest known value is "
-            "'compress'\n"
+            "t.json:13: /load_case/senses/1: expected one of stretch, compress, found \"compres\"; did you "
+            "mean 'compress'?\n"
             "t.json:13: /load_case/senses/2: sense 'stretch' is given twice");
   EXPECT_EQ(after("\"pair\"", "\"\""), "t.json:2: /name: expected a name, found \"\"");
   const std::string text =
       with(valid_text(), "\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"design\"");
   EXPECT_EQ(problems_of(with(text, "\"design\": {", "\"x\": {")),
             "t.json:1: missing key 'design': task design needs it\n"
-            "t.json:15: /x: unknown key 'x'; the nearest known key is 'name'");
+            "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
+            "'seed', "
+            "'elements', 'cell', 'load_case', 'solver', 'design', 'expect'");
 }
 
 TEST(Meaning, DesignQuantityAndTargets)
@@ -149,9 +148,8 @@ TEST(Meaning, DesignClearances)
 TEST(Meaning, DesignVariables)
 {
   EXPECT_EQ(design("{ \"parameters\": \"ring.q\", \"lower\": 4, \"upper\": 6 }"),
-            "t.json:17: /design/variables/0/parameters: no element has a parameter 'ring.q'; the nearest "
-            "known parameter is "
-            "'ring.R'");
+            "t.json:17: /design/variables/0/parameters: no element has a parameter 'ring.q'; did you mean "
+            "'ring.R'?");
   EXPECT_EQ(design("{ \"parameters\": \"ring.R\", \"lower\": 6, \"upper\": 6 }"),
             "t.json:17: /design/variables/0: expected lower < upper, found lower 6 and upper 6");
   EXPECT_EQ(design("{ \"parameters\": \"ring.R\", \"lower\": 5.5, \"upper\": 6 }"),

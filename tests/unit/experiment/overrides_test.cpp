@@ -39,11 +39,10 @@ TEST(Overrides, CreatesSectionsOnTheWay)
 TEST(Overrides, AreCheckedLikeTheFile)
 {
   EXPECT_EQ(with_set({"/solver/preset=fats"}),
-            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; the "
-            "nearest known value is "
-            "'fast'");
+            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; did you "
+            "mean 'fast'?");
   EXPECT_EQ(with_set({"/sovler/preset=fast"}),
-            "command line: /sovler: unknown key 'sovler'; the nearest known key is 'solver'");
+            "command line: /sovler: unknown key 'sovler'; did you mean 'solver'?");
   EXPECT_EQ(with_set({"/elements/link/parameters/ring.R=-1"}),
             "command line: /elements/link/parameters/ring.R: expected a number in [0, 1000000], found -1");
   EXPECT_EQ(with_set({"/load_case/directions_deg=[0,180]"}),

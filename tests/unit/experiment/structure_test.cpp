@@ -2,7 +2,7 @@
 
 #include "fake_plugins.hpp"
 
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <gtest/gtest.h>
 
@@ -35,9 +35,8 @@ TEST(Structure, WrongTypes)
 TEST(Structure, RangesAndChoices)
 {
   EXPECT_EQ(after("\"fast\"", "\"fats\""),
-            "t.json:14: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; the nearest "
-            "known value "
-            "is 'fast'");
+            "t.json:14: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; did you "
+            "mean 'fast'?");
   EXPECT_EQ(after("\"preset\": \"fast\"", "\"clearance\": -0.1"),
             "t.json:14: /solver/clearance: expected a number >= 0, found -0.1");
   EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 0"),
@@ -57,14 +56,14 @@ TEST(Structure, RangesAndChoices)
 TEST(Structure, UnknownKeysNameTheNearest)
 {
   EXPECT_EQ(after("\"preset\"", "\"prest\""),
-            "t.json:14: /solver/prest: unknown key 'prest'; the nearest known key is 'preset'");
+            "t.json:14: /solver/prest: unknown key 'prest'; did you mean 'preset'?");
   EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"Seed\": 1"),
-            "t.json:2: /Seed: unknown key 'Seed'; the nearest known key is 'seed'");
+            "t.json:2: /Seed: unknown key 'Seed'; did you mean 'seed'?");
   // A key of a plugin counts as known.
   EXPECT_EQ(after("\"directions_deg\"", "\"mesure\": \"paper\", \"directions_deg\""),
-            "t.json:13: /load_case/mesure: unknown key 'mesure'; the nearest known key is 'measure'");
+            "t.json:13: /load_case/mesure: unknown key 'mesure'; did you mean 'measure'?");
   EXPECT_EQ(after("\"search\"", "\"search\", \"step\": 5"),
-            "t.json:16: /design/optimizer/step: unknown key 'step'; the nearest known key is 'steps'");
+            "t.json:16: /design/optimizer/step: unknown key 'step'; did you mean 'steps'?");
 }
 
 TEST(Structure, MissingKeys)
@@ -123,7 +122,9 @@ TEST(Structure, NumbersThatAreNotFiniteAreReportedOnce)
 TEST(Structure, ProblemsStayOnOneLineEach)
 {
   EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"a\\nb\\u001b\": 1"),
-            "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; the nearest known key is 'name'");
+            "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; known: '$schema', 'name', 'description', "
+            "'task', 'length_unit', 'seed', "
+            "'elements', 'cell', 'load_case', 'solver', 'design', 'expect'");
 }
 
 TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)
@@ -138,11 +139,11 @@ TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)
   text = with(text, "\"value\": 0.05", "\"value\": -0.05");
   EXPECT_EQ(problems_of(text),
             "t.json:5: /elements/link/parameters/ring.R: expected a number in [0, 1000000], found -5\n"
-            "t.json:11: /cell/place/1/element: unknown element 'lnk'; the nearest known element is 'link'\n"
+            "t.json:11: /cell/place/1/element: unknown element 'lnk'; did you mean 'link'?\n"
             "t.json:13: /load_case/directions_deg/2: direction 210 is the same as 30: directions count "
             "modulo 180 degrees\n"
             "t.json:14: /solver/preset: duplicate key 'preset': first given on line 14\n"
-            "t.json:14: /solver/contakt: unknown key 'contakt'; the nearest known key is 'contact'\n"
+            "t.json:14: /solver/contakt: unknown key 'contakt'; did you mean 'contact'?\n"
             "t.json:17: /design/variables/0: expected lower < upper, found lower 7 and upper 6.5\n"
             "t.json:18: /design/targets/0/value: expected a number >= 0 for eta, found -0.05");
 }
@@ -155,6 +156,11 @@ TEST(Nearest, CountsHalfSteps)
   EXPECT_EQ(edit_distance("Ab", "ab"), 1u);
   EXPECT_EQ(nearest_name("Ring.r", {"Ring.R", "Xing.r"}), "Ring.R");
   EXPECT_EQ(nearest_name("x", {}), "");
+  // Up to a third of the letters may be wrong: "bar" is no slip of the pen for "ring".
+  EXPECT_EQ(nearest_name("bar", {"ring", "solver"}), "");
+  EXPECT_EQ(suggestion("bar", {"ring", "solver"}), "; known: 'ring', 'solver'");
+  EXPECT_EQ(suggestion("rong", {"ring", "solver"}), "; did you mean 'ring'?");
+  EXPECT_EQ(did_you_mean("bar", {"ring"}), "");
 }
 
 }  // namespace

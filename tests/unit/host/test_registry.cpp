@@ -78,7 +78,7 @@ TEST_F(RegistryTest, Missing)
   EXPECT_EQ(find_error(PluginKind::shape, "god_shape"),
             "no shape 'god_shape' found; did you mean 'good_shape'?" + searched_);
   EXPECT_EQ(find_error(PluginKind::optimizer, "sqp"),
-            "no optimizer 'sqp' found; known: hasty_optimizer" + searched_);
+            "no optimizer 'sqp' found; known: 'hasty_optimizer'" + searched_);
   EXPECT_EQ(find_error(PluginKind::load_case, "in_plane"), "no load case 'in_plane' found" + searched_);
 }
 

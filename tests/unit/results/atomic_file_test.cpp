@@ -103,10 +103,13 @@ TEST_F(AtomicFile, OutputFolderIsPreparedOrRefused)
     prepare_output_directory(out, false);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_EQ(error.what(),
-              out.string() + ": holds results already; give another folder with -o, or --force");
+    EXPECT_EQ(
+        error.what(),
+        out.string() + ": holds results already (results.json); give another folder with -o, or --force");
   }
   EXPECT_NO_THROW(prepare_output_directory(out, true));
+  write_file_atomically(folder_ / "limits.csv", "somebody's");
+  EXPECT_THROW(prepare_output_directory(folder_, false), InputError);
   EXPECT_EQ(content(out / "results.json"), "{}");
   write_file_atomically(folder_ / "file", "");
   EXPECT_THROW(prepare_output_directory(folder_ / "file", false), InputError);

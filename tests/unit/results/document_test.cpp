@@ -114,11 +114,27 @@ TEST(Csv, OneRowPerLimitWithExactNumbers)
   run.limits[1].macro[0].second = 1.0 / 3.0;
   run.limits[1].load_case = "a,\"b\"";
   EXPECT_EQ(
-      limits_csv(run.limits),
+      limits_csv(run.limits, {"exx", "eyy", "exy"}),
       "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
       "seconds,min_gap,error_estimate,links_kept,z_range,better_state,force_balance,starts,contacts\n"
       "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n"
       "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,,1,1\n");
+}
+
+TEST(Csv, HasAllColumnsWhereNoLimitHasAState)
+{
+  RunResult run = test::sample_run();
+  run.limits.resize(1);
+  LimitResult& limit = run.limits[0];
+  limit = {};
+  limit.load_case = "in_plane_periodic";
+  limit.status = LimitStatus::unbounded;
+  limit.companions = {{"line_stretch", std::numeric_limits<double>::quiet_NaN()}};
+  EXPECT_EQ(
+      limits_csv(run.limits, {"exx", "eyy", "exy"}),
+      "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
+      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,force_balance,starts,contacts\n"
+      "in_plane_periodic,0,,,,,,,,unbounded,0,0,0,,,false,0,false,,0,0\n");
 }
 
 TEST(DesignedExperiment, DescribesTheFinalSceneAlone)

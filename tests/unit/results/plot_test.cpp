@@ -51,6 +51,22 @@ TEST(PolarPlot, SingleDirectionIsDotsAndEmptyResultsSaySo)
   EXPECT_EQ(count(polar_svg(run, {}), "No direction has a limit to show."), 1u);
 }
 
+TEST(PolarPlot, UnboundedDirectionsAreMarked)
+{
+  RunResult run = test::sample_run();
+  PlotLabels labels;
+  labels.positive = "stretch";
+  labels.negative = "compress";
+  EXPECT_EQ(count(polar_svg(run, labels), "\u221e"), 0u);
+  run.limits[0].sense = "stretch";
+  run.limits[0].direction_deg = 200.0;  // the same as 20
+  run.limits[0].status = LimitStatus::unbounded;
+  const std::string svg = polar_svg(run, labels);
+  EXPECT_EQ(count(svg, "fill=\"#1f4e79\">\u221e</text>"), 2u) << "stretch, at 20 and 200 degrees";
+  EXPECT_EQ(count(svg, "fill=\"#111\">\u221e</text>"), 2u) << "eta";
+  EXPECT_EQ(count(svg, "(\u221e: no limit)"), 2u) << "both legends";
+}
+
 TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
 {
   char name[] = "/tmp/hauberk-test-XXXXXX";
@@ -59,8 +75,8 @@ TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
   const RunResult run = test::sample_design();
   const auto document = results_document(run, test::sample_experiment(), test::sample_provenance(),
                                          {.files = result_files(run)});
-  write_results(folder, document, run, test::sample_experiment(), {"chain", "tensor"});
-  write_results(folder, document, run, test::sample_experiment(), {"chain", "tensor"});
+  write_results(folder, document, run, test::sample_experiment(), {}, {"chain", "tensor"});
+  write_results(folder, document, run, test::sample_experiment(), {}, {"chain", "tensor"});
   const auto back = read_json_file((folder / "results.json").string());
   EXPECT_EQ(write_json(back), write_json(document));
   EXPECT_EQ(back.at("files").as_object().size(), 3u);

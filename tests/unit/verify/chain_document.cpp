@@ -110,8 +110,7 @@ json::value chain_document(const Chain& chain)
 std::string limit_line(const json::value& document)
 {
   const VerifyReport report = verify(document);
-  return report.lines.empty() ? std::string("no line")
-                              : (report.lines[0].ok ? "PASS " : "FAIL ") + report.lines[0].text;
+  return report.lines.empty() ? std::string("no line") : report.text().substr(0, report.text().find('\n'));
 }
 
 }  // namespace hauberk::test

@@ -4,6 +4,8 @@
 #include <hauberk/design/design_point.hpp>
 
 #include <map>
+#include <string>
+#include <vector>
 
 namespace hauberk {
 
@@ -34,6 +36,11 @@ class DesignProblem final : public OptimizationProblem {
   /// Moves the start along d as far as nothing collides and every constraint holds; returns the design.
   std::vector<double> feasible_towards(std::span<const double> d);
   long evaluations() const { return evaluations_; }
+  /// The hole that misses the hole clearance most in every design within the bounds, a sentence; empty when
+  /// none does. Each hole is measured at the bounds that the derivatives at the current design point to
+  /// (exact for sizes that are monotone in the variables). Throws InputError when that design is
+  /// inadmissible.
+  std::string impossible_hole();
   /// Smallest surface distance at rest of the current design, file units.
   double rest_distance() const;
 
@@ -55,6 +62,8 @@ class DesignProblem final : public OptimizationProblem {
                      std::vector<WarmStart>& trail, long& evaluations) const;
   void list_constraints();
   double rest_target(const Model& m) const;
+  /// Room of a hole around its thread beyond the hole clearance, scaled.
+  double hole_room(const Model& m, const Hole& h) const;
 
   SceneSpec scene_;
   const LoadCase& load_;

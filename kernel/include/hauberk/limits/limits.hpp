@@ -4,7 +4,11 @@
 #include <hauberk/mechanics/locking.hpp>
 #include <hauberk/results.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
 
 namespace hauberk {
 
@@ -41,14 +45,24 @@ LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask
 /// Result for a task that the links leave unbounded or not attained, or null if it is to be solved.
 std::optional<LimitResult> decided_by_links(const Model& model, const LimitTask& task);
 
-/// Called after each start of each task; must be thread safe. Returns false to interrupt.
-using LimitProgress = std::function<bool(std::size_t done, std::size_t total)>;
+/// Who follows a computation of limits. Empty functions are not called.
+struct LimitsObserver {
+  /// False: stop as soon as possible. Called from all threads.
+  std::function<bool()> keep_going;
+  /// After each start of each task, one call at a time.
+  std::function<void(std::size_t done, std::size_t total)> on_start;
+  /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
+  std::function<void(const std::vector<LimitResult>&)> on_limit;
+};
 
-/// All tasks, starts in parallel. Results do not depend on `threads`. On interruption, tasks that were not
-/// finished have status `interrupted`.
+/// All tasks, every start an item of its own for the threads; results do not depend on `threads`. `known`:
+/// results that are there already, by task; empty: none. What one limit throws is its result (status failed)
+/// and does not stop the others. Tasks that were not finished when `keep_going` said no are `interrupted`,
+/// with the best of the starts that were done. What the observer throws is rethrown.
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,
-                                        unsigned threads, const LimitProgress& progress);
+                                        unsigned threads, const LimitsObserver& observer = {},
+                                        const std::vector<std::optional<LimitResult>>& known = {});
 
 /// Stretch and compression of equal directions joined: e_s, e_c, eta = (e_s - e_c)/(1 + e_c).
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,

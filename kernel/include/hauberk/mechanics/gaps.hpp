@@ -23,6 +23,13 @@ std::vector<Gap> find_gaps(const Model& model, const State& state, double range,
 /// Smallest gap over all pairs within `range`, infinity if none.
 double smallest_gap(const Model& model, const State& state, double range);
 
+/// "element 3 (side_1 of threefold) and element 0 (ring of link) of image [1, 0]": numbers as in the results,
+/// names as in the experiment.
+std::string pair_name(const SceneSpec& spec, const Model& model, const Gap& gap);
+
+/// "; the tightest are ...", for messages; empty where no pair is closer than one L.
+std::string tightest_pair(const SceneSpec& spec, const Model& model, const State& state);
+
 /// Outcome of `relax`.
 struct Relaxed {
   State state;

@@ -27,6 +27,7 @@ std::vector<std::pair<std::string, std::string>> result_files(const RunResult& r
 /// replaced atomically; throws ComputationError naming the file that could not be written, which then is as
 /// before. The folder must exist.
 void write_results(const std::filesystem::path& directory, const boost::json::object& document,
-                   const RunResult& run, const std::string& experiment_json, const PlotLabels& labels);
+                   const RunResult& run, const std::string& experiment_json, const ResultNames& names,
+                   const PlotLabels& labels);
 
 }  // namespace hauberk

@@ -38,13 +38,14 @@ struct VerifyTolerances {
 /// One line of the report.
 struct VerifyLine {
   bool ok = true;
-  std::string text;  ///< without the leading PASS or FAIL
+  std::string text;     ///< without the leading PASS, FAIL or NONE
+  bool checked = true;  ///< false: there was nothing to check
 };
 
 struct VerifyReport {
   bool ok = true;
   std::vector<VerifyLine> lines;
-  /// One line each, "PASS ..." or "FAIL ...", ended by newlines.
+  /// One line each, "PASS ...", "FAIL ..." or "NONE ..." (nothing to check), ended by newlines.
   std::string text() const;
 };
 

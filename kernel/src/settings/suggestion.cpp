@@ -1,10 +1,15 @@
-#include <hauberk/experiment/nearest.hpp>
+#include <hauberk/suggestion.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 namespace hauberk {
-
 namespace {
+
+/// More names than this are not listed.
+constexpr std::size_t longest_list = 24;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -38,18 +43,31 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates)
 {
-  const auto best = std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
-  return best == candidates.end() ? std::string() : *best;
+  std::string best;
+  std::size_t least = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    const std::size_t letters = std::max<std::size_t>(1, std::max(name.size(), candidate.size()) / 3);
+    if (distance > 2 * letters || (!best.empty() && distance >= least)) continue;
+    best = candidate;
+    least = distance;
+  }
+  return best;
 }
 
-std::string nearest_hint(std::string_view what, std::string_view name,
-                         const std::vector<std::string>& candidates)
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates)
 {
   const std::string nearest = nearest_name(name, candidates);
-  if (nearest.empty()) return "";
-  return "; the nearest known " + std::string(what) + " is '" + nearest + "'";
+  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates)
+{
+  std::string near = did_you_mean(name, candidates);
+  if (!near.empty() || candidates.empty()) return near;
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(candidates.size(), longest_list));
+  return fmt::format("; known: '{}'{}", fmt::join(candidates.begin(), candidates.begin() + shown, "', '"),
+                     candidates.size() > longest_list ? ", ..." : "");
 }
 
 }  // namespace hauberk

@@ -12,6 +12,12 @@ int check_command(const std::vector<std::string>& words)
   options.add_experiment_options();
   options.parse(words);
   const Loaded loaded = load(options);
+  if (!loaded.stability.empty()) {
+    fmt::print("{}: no problems; {} families, {} methods, {} scenes to solve\n", options.positional(),
+               loaded.experiment.stability->families.size(), loaded.experiment.stability->methods.size(),
+               loaded.stability.size());
+    return exit_done;
+  }
   fmt::print("{}: no problems; {} elements, {} limits{}\n", options.positional(), loaded.plan.elements,
              loaded.tasks.size(),
              loaded.design ? fmt::format(", {} design variables", loaded.design->variables.size()) : "");

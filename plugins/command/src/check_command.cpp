@@ -14,6 +14,12 @@ int check_command(const std::vector<std::string>& words)
   options.add_experiment_options();
   options.parse(words);
   const Loaded loaded = load(options);
+  if (!loaded.stability.empty()) {
+    fmt::print("{}: no problems; {} families, {} methods, {} scenes to solve\n", options.positional(),
+               loaded.experiment.stability->families.size(), loaded.experiment.stability->methods.size(),
+               loaded.stability.size());
+    return exit_done;
+  }
   const auto unbounded = std::count_if(loaded.plan.bounded.begin(), loaded.plan.bounded.end(),
                                        [](const auto& task) { return task.second == "unbounded"; });
   fmt::print("{}: no problems; {} elements, {} limits{}{}\n", options.positional(), loaded.plan.elements,

@@ -1,5 +1,6 @@
 #include "loading.hpp"
 #include "presets.hpp"
+#include "stability_loading.hpp"
 #include "tasks.hpp"
 
 #include <hauberk/design/design_problem.hpp>
@@ -161,6 +162,11 @@ Loaded load(const Options& options)
     diagnostics.problems.add(nearest_node(e.resolved, "/solver/preset"), problem);
   if (!prepare_scene(loaded, diagnostics)) stop_on_problems();
 
+  if (e.task == Task::stability) {
+    loaded.stability =
+        load_stability(*e.stability, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+    stop_on_problems();
+  }
   loaded.settings = limit_settings(e.solver);
   loaded.tasks = profile_tasks(e);
   if (e.task == Task::design) {

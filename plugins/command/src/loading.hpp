@@ -16,6 +16,14 @@
 
 namespace hauberk::command {
 
+/// One member of a family by one method.
+struct StabilityItem {
+  std::size_t family = 0, member = 0, method = 0;
+  std::optional<Experiment> experiment;  ///< null: refused
+  std::string refusal;
+  std::size_t scene = 0;  ///< equal numbers: the same scene and load, whatever the solver's settings
+};
+
 /// An experiment that passed every check.
 struct Loaded {
   std::shared_ptr<const Registry> registry;
@@ -24,9 +32,10 @@ struct Loaded {
   SceneSpec scene;     ///< rest as used: relaxed where elements touched
   double moved = 0.0;  ///< farthest that relaxation moved an element, file units
   LimitSettings settings;
-  std::vector<LimitTask> tasks;      ///< those of the results; of a design: targets first
-  std::optional<DesignSpec> design;  ///< task design only
-  SceneSpec design_scene;            ///< rest with the design's clearance; task design only
+  std::vector<LimitTask> tasks;          ///< those of the results; of a design: targets first
+  std::optional<DesignSpec> design;      ///< task design only
+  SceneSpec design_scene;                ///< rest with the design's clearance; task design only
+  std::vector<StabilityItem> stability;  ///< by family, member, method; task stability only
   Plan plan;
 };
 

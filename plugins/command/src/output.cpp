@@ -73,9 +73,25 @@ void Output::write(const RunResult& run)
   last_ = std::chrono::steady_clock::now();
 }
 
+void Output::write(const RunResult& run, const StabilityMap& map)
+{
+  names_.files = stability_files();
+  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_["stability"] = stability_json(map);
+  write_stability(directory_, document_, map, labels_.title);
+  last_ = std::chrono::steady_clock::now();
+}
+
+bool Output::is_time() const { return std::chrono::steady_clock::now() - last_ >= write_interval; }
+
 void Output::write_sometimes(const RunResult& run)
 {
-  if (std::chrono::steady_clock::now() - last_ >= write_interval) write(run);
+  if (is_time()) write(run);
+}
+
+void Output::write_sometimes(const RunResult& run, const StabilityMap& map)
+{
+  if (is_time()) write(run, map);
 }
 
 }  // namespace hauberk::command

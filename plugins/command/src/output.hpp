@@ -23,14 +23,19 @@ class Output {
 
   /// Writes everything. Throws ComputationError naming the file that cannot be written.
   void write(const RunResult& run);
+  /// The same for a stability experiment; `run` describes the base scene.
+  void write(const RunResult& run, const StabilityMap& map);
   /// Writes if the last time was a few seconds ago.
   void write_sometimes(const RunResult& run);
+  void write_sometimes(const RunResult& run, const StabilityMap& map);
 
   /// The document that was written last.
   const boost::json::object& document() const { return document_; }
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
+  bool is_time() const;
+
   std::filesystem::path directory_;
   std::string experiment_json_;
   Provenance provenance_;

@@ -1,5 +1,6 @@
 #include "resume.hpp"
 #include "output.hpp"
+#include "stability_run.hpp"
 
 #include <hauberk/design/design_point.hpp>
 #include <hauberk/experiment/json_writer.hpp>
@@ -133,6 +134,53 @@ void read_design(const json::value& document, const Loaded& loaded, Resumed& out
   if (!resumed.history.empty()) out.design = std::move(resumed);
 }
 
+bool same_case(const json::object& entry, const StabilityMap& map, const StabilityCase& c)
+{
+  return text(entry.at("family")) == map.families[c.family].name &&
+         text(entry.at("member")) == map.families[c.family].labels[c.member] &&
+         text(entry.at("method")) == map.methods[c.method] &&
+         (c.sense.empty()
+              ? entry.at("sense").is_null()
+              : text(entry.at("sense")) == c.sense && number(entry.at("direction_deg")) == c.direction_deg);
+}
+
+void take_case(const json::object& entry, StabilityCase& c)
+{
+  for (const Outcome outcome : outcomes) {
+    if (to_string(outcome) == text(entry.at("outcome"))) c.outcome = outcome;
+  }
+  if (c.outcome == Outcome::interrupted) return;
+  c.status = text(entry.at("status"));
+  c.message = text(entry.at("message"));
+  c.contact = text(entry.at("contact"));
+  c.value = optional_number(entry.at("value"));
+  c.slack = number(entry.at("slack"));
+  c.checked = entry.at("checked").as_bool();
+  c.check = text(entry.at("check"));
+  c.min_gap = optional_number(entry.at("min_gap"));
+  c.error_estimate = optional_number(entry.at("error_estimate"));
+  c.force_balance = optional_number(entry.at("force_balance"));
+  c.iterations = static_cast<int>(number(entry.at("iterations")));
+  c.evaluations = static_cast<long>(number(entry.at("evaluations")));
+  c.seconds = number(entry.at("seconds"));
+}
+
+/// The experiment is the same, so its cases are the same and in the same order.
+void read_stability(const json::value& document, const Loaded& loaded, Resumed& out)
+{
+  out.stability = empty_map(loaded);
+  const json::array& entries = document.at("stability").at("cases").as_array();
+  if (entries.size() != out.stability->cases.size()) throw InputError("its cases are not complete");
+  out.complete = true;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    StabilityCase& c = out.stability->cases[k];
+    const json::object& entry = entries[k].as_object();
+    if (!same_case(entry, *out.stability, c)) throw InputError("its cases are in another order");
+    take_case(entry, c);
+    out.complete = out.complete && c.outcome != Outcome::interrupted;
+  }
+}
+
 void check_origin(const json::value& document, const Loaded& loaded)
 {
   const Provenance now = provenance(loaded, 1);
@@ -157,7 +205,10 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
   try {
     json::value document = read_json_file(file.string());
     check_origin(document, loaded);
-    read_limits(document, loaded, out);
+    if (loaded.experiment.task == Task::stability)
+      read_stability(document, loaded, out);
+    else
+      read_limits(document, loaded, out);
     if (loaded.design) read_design(document, loaded, out);
     if (out.complete) out.document = std::move(document);
   } catch (const InputError& error) {

@@ -3,6 +3,8 @@
 
 #include "loading.hpp"
 
+#include <hauberk/results/stability.hpp>
+
 #include <boost/json/value.hpp>
 
 #include <filesystem>
@@ -23,8 +25,9 @@ struct Resumed {
   std::vector<std::optional<LimitResult>> limits;
   std::vector<boost::json::value> entries;
   std::optional<ResumedDesign> design;
-  bool complete = false;        ///< nothing is left to be done
-  boost::json::value document;  ///< of a complete run
+  std::optional<StabilityMap> stability;  ///< with the finished cases; task stability only
+  bool complete = false;                  ///< nothing is left to be done
+  boost::json::value document;            ///< of a complete run
 };
 
 /// Reads `directory`/results.json; nothing when it is not there. Throws InputError when it cannot be read, or

@@ -3,6 +3,8 @@
 #include "interrupt.hpp"
 #include "limits_run.hpp"
 #include "plan_text.hpp"
+#include "stability_run.hpp"
+#include "stability_summary.hpp"
 #include "summary.hpp"
 
 #include <hauberk/experiment/expect.hpp>
@@ -85,11 +87,35 @@ bool report_expectations(const Experiment& experiment, const boost::json::value&
   return !failures.empty();
 }
 
-void print_files(const Output& output, const RunResult& run)
+constexpr const char* interrupted_note = "interrupted: these results are partial; go on with --resume\n";
+
+void print_files(const Output& output, const std::vector<std::pair<std::string, std::string>>& files)
 {
   std::string names = results_file;
-  for (const auto& [what, name] : result_files(run)) names += ", " + name;
+  for (const auto& [what, name] : files) names += ", " + name;
   fmt::print("results in {}: {}\n", output.directory().string(), names);
+}
+
+/// Whole run of a stability experiment. Cases that fail are what it is for: they do not fail the run, but an
+/// `expect` about their counts may.
+int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
+                       Output& output, const RunResult& base)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  StabilityMap map = resumed.stability ? std::move(*resumed.stability) : empty_map(loaded);
+  run_stability(loaded, threads, progress, map,
+                [&](const StabilityMap& so_far) { output.write_sometimes(base, so_far); });
+  progress.clear();
+  output.write(base, map);
+  fmt::print("{}\n\n{}", loaded.experiment.name, stability_summary(map));
+  fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
+  print_files(output, stability_files());
+  if (interrupted()) {
+    fmt::print("{}", interrupted_note);
+    return exit_interrupted;
+  }
+  return missed ? exit_failed : exit_done;
 }
 
 /// Everything after the first file was written: from here on nothing is bad input.
@@ -115,12 +141,12 @@ int finish(const Loaded& loaded, const Output& output, const RunResult& run, dou
   fmt::print("{}", summary(loaded, run));
   fmt::print("{:.2f} s\n", seconds);
   if (interrupted()) {
-    print_files(output, run);
-    fmt::print("interrupted: these results are partial; go on with --resume\n");
+    print_files(output, result_files(run));
+    fmt::print("{}", interrupted_note);
     return exit_interrupted;
   }
   const bool missed = report_expectations(loaded.experiment, output.document());
-  print_files(output, run);
+  print_files(output, result_files(run));
   return missed || any_failed(run) ? exit_failed : exit_done;
 }
 
@@ -162,13 +188,16 @@ int run_command(const std::vector<std::string>& words)
     progress.note(!resuming ? "nothing to resume: starting anew"
                   : loaded.design && resumed.design
                       ? "resuming from the best design so far; other starts are not repeated"
-                  : loaded.design ? "the search had not begun: starting anew"
-                                  : "resuming: finished limits are kept");
+                  : loaded.design     ? "the search had not begun: starting anew"
+                  : resumed.stability ? "resuming: finished cases are kept"
+                                      : "resuming: finished limits are kept");
   }
   Output output(folder, loaded, threads);
   RunResult run;
   run.plan_json = write_json(boost::json::value(plan_json(loaded)));
   run.scene = loaded.scene;
+  if (loaded.experiment.task == Task::stability)
+    return run_stability_task(loaded, threads, resumed, progress, output, run);
   compute(loaded, threads, resumed, progress, output, run);
   progress.clear();
   output.write(run);

@@ -27,9 +27,13 @@ void read_task(const Node& root, Problems& problems, Experiment& experiment)
   if (task->string == "design") {
     experiment.task = Task::design;
     if (root.find("design") == nullptr) problems.add(root, "missing key 'design': task design needs it");
+  } else if (task->string == "stability") {
+    experiment.task = Task::stability;
+    if (root.find("stability") == nullptr)
+      problems.add(root, "missing key 'stability': task stability needs it");
   } else if (task->string != "limits") {
-    problems.add(*task,
-                 "task '" + task->string + "' is not supported yet by this version; use limits or design");
+    problems.add(*task, "task '" + task->string +
+                            "' is not supported yet by this version; use limits, design or stability");
   }
 }
 
@@ -74,12 +78,24 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   std::optional<Node> root = read_jsonc(source.text, problems);
   if (!root) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
+  return read_tree(std::move(*root), lookup, diagnostics);
+}
+
+std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diagnostics& diagnostics,
+                                    bool* well_formed)
+{
+  Problems& problems = diagnostics.problems;
+  if (well_formed) *well_formed = false;
+  std::optional<Node> root(std::move(given));
+  // Members of a stability experiment start from what is written, not from defaults that follow from it.
+  const Node base = root->find("stability") != nullptr ? *root : Node{};
 
   PluginResolver plugins(lookup);
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };
   if (!check_fields(*root, experiment_fields(), problems, extra)) return std::nullopt;
+  if (well_formed) *well_formed = problems.empty();
 
   Experiment experiment;
   experiment.name = string_or(*root, "name", "");
@@ -99,6 +115,8 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   if (Node* design = find_mutable(*root, "design")) {
     experiment.design = read_design(*design, plugins, problems, experiment, scene_complete);
   }
+  if (const Node* stability = root->find("stability"))
+    experiment.stability = read_stability(*stability, base, problems);
   complete_directions(*root, problems, experiment);
   if (const Node* expect = find_typed(*root, "expect", Node::Type::array)) {
     experiment.expect = read_expectations(*expect, problems);

@@ -1,6 +1,7 @@
 #include <hauberk/experiment/fields.hpp>
 
 #include "field_helpers.hpp"
+#include "stability_fields.hpp"
 
 #include <algorithm>
 
@@ -199,18 +200,19 @@ Field expect_field()
 
 Field experiment_fields()
 {
-  return object("experiment", "A Hauberk experiment.",
-                {string("$schema", "Place of the schema file, for editors."),
-                 required(string("name", "Name of the experiment.")), string("description", "What it shows."),
-                 with_default(choice("task", "What is computed. This version does limits and design.",
-                                     {"limits", "design", "sweep", "chart", "stability"}),
-                              "\"limits\""),
-                 with_default(choice("length_unit",
-                                     "What lengths in this file mean; a label in everything that is written.",
-                                     {"m", "mm", "um"}),
-                              "\"mm\""),
-                 with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(),
-                 cell_field(), load_case_field(), solver_field(), design_field(), expect_field()});
+  return object(
+      "experiment", "A Hauberk experiment.",
+      {string("$schema", "Place of the schema file, for editors."),
+       required(string("name", "Name of the experiment.")), string("description", "What it shows."),
+       with_default(choice("task", "What is computed. This version does limits, design and stability.",
+                           {"limits", "design", "sweep", "chart", "stability"}),
+                    "\"limits\""),
+       with_default(
+           choice("length_unit", "What lengths in this file mean; a label in everything that is written.",
+                  {"m", "mm", "um"}),
+           "\"mm\""),
+       with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(), cell_field(),
+       load_case_field(), solver_field(), design_field(), stability_field(), expect_field()});
 }
 
 std::optional<PluginSection> plugin_section(const Field& object)

@@ -62,7 +62,50 @@ Node parse_value(const std::string& text)
   return node;
 }
 
+/// Where a pointer leads.
+struct Reached {
+  Node* node = nullptr;             ///< null: it leads nowhere
+  std::string first_created;        ///< pointer of the first place that did not exist
+  std::string stopped_at, problem;  ///< when it leads nowhere
+};
+
+Reached reach(Node& root, const std::string& pointer)
+{
+  Reached out;
+  Node* node = &root;
+  for (const std::string& key : split_pointer(pointer)) {
+    const Node& parent = *node;
+    bool created = false;
+    Node* next = step_into(*node, key, created);
+    if (next == nullptr) {
+      const bool array = parent.is(Node::Type::array);
+      out.stopped_at = parent.pointer;
+      out.problem = "cannot reach '" + key + "'" +
+                    (array ? ": expected an index from 0 to " + std::to_string(parent.items.size())
+                           : std::string(": there is no object or array here"));
+      return out;
+    }
+    node = next;
+    if (created && out.first_created.empty()) out.first_created = node->pointer;
+  }
+  out.node = node;
+  return out;
+}
+
 }  // namespace
+
+std::string set_value(Node& root, const std::string& pointer, const Node& value)
+{
+  if (!pointer.starts_with('/'))
+    return "expected a JSON pointer such as /solver/preset, found '" + pointer + "'";
+  const Reached reached = reach(root, pointer);
+  if (reached.node == nullptr)
+    return (reached.stopped_at.empty() ? "" : reached.stopped_at + ": ") + reached.problem;
+  const std::string place = reached.node->pointer;
+  *reached.node = value;
+  relocate(*reached.node, place, value.line);
+  return {};
+}
 
 void apply_override(Node& root, const std::string& assignment, Diagnostics& diagnostics)
 {
@@ -75,27 +118,15 @@ void apply_override(Node& root, const std::string& assignment, Diagnostics& diag
     refuse("", "--set expects POINTER=VALUE, as in /solver/preset=fast; found '" + assignment + "'");
     return;
   }
-  Node* node = &root;
-  std::string first_created;
-  for (const std::string& key : split_pointer(assignment.substr(0, equals))) {
-    const Node& parent = *node;
-    bool created = false;
-    Node* next = step_into(*node, key, created);
-    if (next == nullptr) {
-      const bool array = parent.is(Node::Type::array);
-      refuse(parent.pointer,
-             "--set cannot reach '" + key + "'" +
-                 (array ? ": expected an index from 0 to " + std::to_string(parent.items.size())
-                        : std::string(": there is no object or array here")));
-      return;
-    }
-    node = next;
-    if (created && first_created.empty()) first_created = node->pointer;
+  const Reached reached = reach(root, assignment.substr(0, equals));
+  if (reached.node == nullptr) {
+    refuse(reached.stopped_at, "--set " + reached.problem);
+    return;
   }
-  const std::string pointer = node->pointer;
-  *node = parse_value(assignment.substr(equals + 1));
-  relocate(*node, pointer, 0);
-  diagnostics.overridden.push_back(first_created.empty() ? pointer : first_created);
+  const std::string pointer = reached.node->pointer;
+  *reached.node = parse_value(assignment.substr(equals + 1));
+  relocate(*reached.node, pointer, 0);
+  diagnostics.overridden.push_back(reached.first_created.empty() ? pointer : reached.first_created);
 }
 
 }  // namespace hauberk

@@ -29,6 +29,14 @@ ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& p
 std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec& scene, bool scene_complete,
                                                Problems& problems);
 
+/// stability; `base` is the whole file before it was checked.
+ExperimentStability read_stability(const Node& section, const Node& base, Problems& problems);
+
+/// Everything from a tree with values in place to an experiment. `well_formed`, when wanted: nothing was
+/// wrong with its form (keys, types, ranges).
+std::optional<Experiment> read_tree(Node root, const PluginLookup& lookup, Diagnostics& diagnostics,
+                                    bool* well_formed = nullptr);
+
 /// expect.
 std::vector<Expectation> read_expectations(const Node& list, Problems& problems);
 

@@ -1,5 +1,6 @@
 #include <hauberk/results/csv.hpp>
-#include <hauberk/results/json_text.hpp>
+
+#include "csv_cells.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -7,23 +8,10 @@
 namespace hauberk {
 namespace {
 
+using detail::csv_line;
+using detail::number_cell;
+using detail::text_cell;
 using Named = std::vector<std::pair<std::string, double>>;
-
-/// RFC 4180: quotes around text that holds a separator, quote or line end; inner quotes doubled.
-std::string text_cell(const std::string& text)
-{
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
-std::string number_cell(const std::optional<double>& x)
-{
-  if (!x) return {};
-  const std::string text = number_text(*x);
-  return text == "null" ? std::string() : text;
-}
 
 std::string named_cell(const Named& values, const std::string& name)
 {
@@ -36,13 +24,6 @@ void collect(const Named& values, std::vector<std::string>& names)
 {
   for (const auto& [name, value] : values)
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-std::string line(const std::vector<std::string>& cells)
-{
-  std::string out;
-  for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
-  return out + '\n';
 }
 
 }  // namespace
@@ -61,7 +42,7 @@ std::string limits_csv(std::span<const LimitResult> limits, const std::vector<st
                            "links_kept", "z_range", "better_state", "force_balance", "starts", "contacts"})
     header.emplace_back(name);
 
-  std::string out = line(header);
+  std::string out = csv_line(header);
   for (const LimitResult& limit : limits) {
     std::vector<std::string> row{text_cell(limit.load_case), number_cell(limit.direction_deg),
                                  text_cell(limit.sense), text_cell(limit.measure), number_cell(limit.value)};
@@ -73,7 +54,7 @@ std::string limits_csv(std::span<const LimitResult> limits, const std::vector<st
                 limit.links_kept ? "true" : "false", number_cell(limit.z_range),
                 limit.better_state ? "true" : "false", number_cell(limit.force_balance),
                 std::to_string(limit.starts.size()), std::to_string(limit.contacts.size())});
-    out += line(row);
+    out += csv_line(row);
   }
   return out;
 }

@@ -33,4 +33,17 @@ void write_results(const std::filesystem::path& directory, const boost::json::ob
   write_file_atomically(directory / results_file, write_json(document));
 }
 
+std::vector<std::pair<std::string, std::string>> stability_files()
+{
+  return {{"stability", stability_file}, {"picture", stability_picture_file}};
+}
+
+void write_stability(const std::filesystem::path& directory, const boost::json::object& document,
+                     const StabilityMap& map, const std::string& title)
+{
+  write_file_atomically(directory / stability_file, stability_csv(map));
+  write_file_atomically(directory / stability_picture_file, stability_svg(map, title));
+  write_file_atomically(directory / results_file, write_json(document));
+}
+
 }  // namespace hauberk

@@ -2,6 +2,7 @@
 #include "checks.hpp"
 #include "links.hpp"
 #include "neighbours.hpp"
+#include "saddle.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -100,6 +101,13 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
       std::none_of(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end(),
                    [](const std::string& p) { return p.find("no such") != std::string::npos; });
   if (readable) found.push_back(check_balance(scene, setting, limit, tolerances, problems));
+  // Only where everything else is in order: it moves the state along its contacts.
+  if (problems.empty() && limit.status == "locked") {
+    if (const auto further = further_nearby(scene, setting, limit))
+      problems.push_back(fmt::format(
+          "a saddle, not a locked state: moved by {:.2g} it goes further by {:.3g} without intersection",
+          further->away, further->gain));
+  }
   const Sentences& said = problems.empty() ? found : problems;
   return {problems.empty(), fmt::format("{}: {} {}: {}", limit.label, limit.status, show(limit.value),
                                         fmt::join(said, problems.empty() ? ", " : "; "))};

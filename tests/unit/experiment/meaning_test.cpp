@@ -90,8 +90,9 @@ TEST(Meaning, Cell)
 
 TEST(Meaning, TaskAndLoadCase)
 {
-  EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"sweep\""),
-            "t.json:2: /task: task 'sweep' is not supported yet by this version; use limits or design");
+  EXPECT_EQ(
+      after("\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"sweep\""),
+      "t.json:2: /task: task 'sweep' is not supported yet by this version; use limits, design or stability");
   EXPECT_EQ(after(", \"directions_deg\": [0, 30]", ""),
             "t.json:13: /load_case: missing key 'directions_deg': expected an array of at least 1 numbers");
   EXPECT_EQ(after("[0, 30]", "[0, 30, 0]"),

@@ -20,7 +20,7 @@ namespace hauberk {
 using PluginLookup =
     std::function<const PluginTable*(PluginKind kind, const std::string& id, std::string& error)>;
 
-enum class Task { limits, design };
+enum class Task { limits, design, stability };
 
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
@@ -65,6 +65,35 @@ struct ExperimentDesign {
   std::optional<double> tolerance;  ///< relative deviation at which a target counts as reached
 };
 
+/// A value put at a place of the file, as --set does.
+struct Assignment {
+  std::string pointer;
+  Node value;
+};
+
+/// A way of solving: what it sets, usually below /solver.
+struct StabilityMethod {
+  std::string name;
+  std::vector<Assignment> set;
+};
+
+/// Variants of one scene, from easy to hard.
+struct StabilityFamily {
+  std::string name, why;
+  std::vector<std::string> labels;               ///< of the members
+  std::vector<std::vector<Assignment>> members;  ///< what makes each of them out of the base scene
+  std::vector<std::optional<double>> exact;      ///< of the members; null: not known
+  bool solvable = true;                          ///< there is a locked state to find
+};
+
+/// The section `stability`.
+struct ExperimentStability {
+  double tolerance = 0.0;  ///< of 1 + value
+  std::vector<StabilityMethod> methods;
+  std::vector<StabilityFamily> families;
+  Node base;  ///< the file as given, without this section, design and expect
+};
+
 struct Experiment {
   std::string name;
   Task task = Task::limits;
@@ -77,7 +106,8 @@ struct Experiment {
   std::vector<double> directions_deg;  ///< as given; of the final profile for a design
   std::vector<Sense> senses;           ///< as given; both when absent
   ExperimentSolver solver;
-  std::optional<ExperimentDesign> design;  ///< set whenever the file has the section
+  std::optional<ExperimentDesign> design;        ///< set whenever the file has the section
+  std::optional<ExperimentStability> stability;  ///< likewise
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
 };
@@ -93,6 +123,19 @@ struct ExperimentSource {
 /// Thread safe as far as the lookup is.
 std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& lookup,
                                           Diagnostics& diagnostics);
+
+/// One member of a family, by one method, as an experiment of its own.
+struct StabilityReading {
+  std::optional<Experiment> experiment;  ///< null: it makes no sense, and `refusal` says why
+  std::string refusal;
+};
+
+/// Makes the ordinary experiment (task limits) of a member and a method and reads it. A mistake in the form
+/// of the file (an unknown key, a value of the wrong type, a pointer that leads nowhere) goes to
+/// `diagnostics`; a member whose values make no scene is no mistake but an answer: that input is refused.
+StabilityReading read_stability_member(const ExperimentStability& stability, std::size_t family,
+                                       std::size_t member, std::size_t method, const PluginLookup& lookup,
+                                       Diagnostics& diagnostics);
 
 /// Text of a file. Throws InputError "cannot read 'x.json': ..." when it cannot be read or is beyond 64 MB.
 std::string read_text_file(const std::string& path);

@@ -1,5 +1,5 @@
 #pragma once
-/// Values given on the command line: --set /solver/preset=fast.
+/// Values put at places of the file: by --set /solver/preset=fast, or by members of a stability experiment.
 
 #include <hauberk/settings.hpp>
 
@@ -14,5 +14,9 @@ struct Diagnostics;
 /// when it is JSON, else it is a string. What is set gets line 0 and is noted in `diagnostics.overridden`.
 /// An assignment that cannot be applied is reported there.
 void apply_override(Node& root, const std::string& assignment, Diagnostics& diagnostics);
+
+/// Puts `value` at `pointer` by the same rules; it keeps its line. Returns what is wrong, empty when nothing
+/// is.
+std::string set_value(Node& root, const std::string& pointer, const Node& value);
 
 }  // namespace hauberk

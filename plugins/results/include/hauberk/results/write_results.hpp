@@ -3,6 +3,7 @@
 
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/polar_svg.hpp>
+#include <hauberk/results/stability.hpp>
 
 #include <boost/json/object.hpp>
 
@@ -17,6 +18,9 @@ inline constexpr const char* limits_file = "limits.csv";
 inline constexpr const char* profile_file = "profile.svg";
 inline constexpr const char* designed_file = "designed.json";
 
+inline constexpr const char* stability_file = "stability.csv";
+inline constexpr const char* stability_picture_file = "stability.svg";
+
 /// The files that `write_results` makes for `run`, for ResultNames::files: limits, profile and, for a design
 /// of a periodic cell, designed.
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run);
@@ -29,5 +33,12 @@ std::vector<std::pair<std::string, std::string>> result_files(const RunResult& r
 void write_results(const std::filesystem::path& directory, const boost::json::object& document,
                    const RunResult& run, const std::string& experiment_json, const ResultNames& names,
                    const PlotLabels& labels);
+
+/// Those of a stability experiment: stability and picture.
+std::vector<std::pair<std::string, std::string>> stability_files();
+
+/// Writes stability.csv, stability.svg and, last, results.json, under the same rules.
+void write_stability(const std::filesystem::path& directory, const boost::json::object& document,
+                     const StabilityMap& map, const std::string& title);
 
 }  // namespace hauberk

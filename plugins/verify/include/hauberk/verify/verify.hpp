@@ -66,7 +66,8 @@ struct VerifyReport {
 /// - value, companions and starts are what macro says; F is positive definite; the mean translation is
 /// rest's;
 ///   heights keep to `out_of_plane`.
-/// Never throws for a bad document: what is missing or malformed is a failing line. Thread safe.
+/// - a locked state is no saddle: no state nearby goes further (second-order condition, then an actual
+/// motion). Never throws for a bad document: what is missing or malformed is a failing line. Thread safe.
 VerifyReport verify(const boost::json::value& results, const VerifyTolerances& tolerances = {});
 
 }  // namespace hauberk

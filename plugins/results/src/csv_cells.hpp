@@ -1,0 +1,17 @@
+#pragma once
+/// Cells and lines of comma-separated tables (RFC 4180).
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk::detail {
+
+/// Quotes around text that holds a separator, quote or line end; inner quotes doubled.
+std::string text_cell(const std::string& text);
+/// Reads back exactly; empty where there is no (finite) number.
+std::string number_cell(const std::optional<double>& x);
+/// Cells joined, with a line end.
+std::string csv_line(const std::vector<std::string>& cells);
+
+}  // namespace hauberk::detail

@@ -1,0 +1,132 @@
+#include "moving.hpp"
+
+#include "neighbours.hpp"
+#include "separation.hpp"
+#include "surface.hpp"
+#include "touching.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace hauberk::verification {
+namespace {
+
+constexpr Eigen::Index strains = 3, per_element = 6;
+
+Eigen::Index first_of(int element) { return strains + per_element * element; }
+
+/// The two tori of a pair, in space.
+struct PlacedPair {
+  Torus first, second;
+};
+
+PlacedPair placed_pair(const Scene& scene, const MovedState& state, int k, int l, int p, int q,
+                       const std::array<int, 2>& image)
+{
+  Place at = state.places[static_cast<std::size_t>(l)];
+  at.position += translation(scene, state.macro.deformation(), image);
+  const auto& a = scene.elements[static_cast<std::size_t>(k)].tori[static_cast<std::size_t>(p)];
+  const auto& b = scene.elements[static_cast<std::size_t>(l)].tori[static_cast<std::size_t>(q)];
+  return {placed(a, state.places[static_cast<std::size_t>(k)]), placed(b, at)};
+}
+
+GapRow pair_row(const Scene& scene, const Setting& setting, const MovedState& state, int k, int l,
+                const std::array<int, 2>& image, const Touching& touching)
+{
+  const double L = scene.length;
+  const auto a = static_cast<std::size_t>(k), b = static_cast<std::size_t>(l);
+  const Vec3& n = touching.normal;
+  const Vec3 T = translation(scene, Mat3::Identity(), image);
+  const Vec3 FT = translation(scene, state.macro.deformation(), image);
+  GapRow row{(touching.distance - setting.clearance) / L, Vector::Zero(unknowns(scene))};
+  const Vec3 Y = (scene.elements[b].rest.position + T - scene.elements[a].rest.position) / L;
+  row.gradient.head<3>() = Vec3(n.x() * Y.x(), n.y() * Y.y(), n.x() * Y.y() + n.y() * Y.x());
+  row.gradient.segment<3>(first_of(k)) -= n;
+  row.gradient.segment<3>(first_of(l)) += n;
+  row.gradient.segment<3>(first_of(k) + 3) -= (touching.on_a - state.places[a].position).cross(n) / L;
+  row.gradient.segment<3>(first_of(l) + 3) += (touching.on_b - state.places[b].position - FT).cross(n) / L;
+  if (setting.half_height == 0.0) row.gradient[first_of(k) + 2] = row.gradient[first_of(l) + 2] = 0.0;
+  return row;
+}
+
+double height(const Scene& scene, const MovedState& state, std::size_t k)
+{
+  return state.places[k].position.z() - scene.elements[k].rest.position.z();
+}
+
+/// The wall above (+1) or below (-1) an element, at a fixed distance from the mean of all heights.
+GapRow wall_row(const Scene& scene, const Setting& setting, const MovedState& state, int k, double side)
+{
+  const auto n = static_cast<double>(scene.elements.size());
+  GapRow row{0.0, Vector::Zero(unknowns(scene))};
+  double mean = 0.0;
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+    mean += height(scene, state, e) / n;
+    row.gradient[first_of(static_cast<int>(e)) + 2] = side / n;
+  }
+  row.gap = (setting.half_height - side * (height(scene, state, static_cast<std::size_t>(k)) - mean)) /
+            scene.length;
+  row.gradient[first_of(k) + 2] -= side;
+  return row;
+}
+
+}  // namespace
+
+Eigen::Index unknowns(const Scene& scene)
+{
+  return strains + per_element * static_cast<Eigen::Index>(scene.elements.size());
+}
+
+MovedState moved(const Scene& scene, const Setting& setting, const MovedState& state, const Vector& y)
+{
+  MovedState out = state;
+  out.macro.exx += y[0];
+  out.macro.eyy += y[1];
+  out.macro.exy += y[2];
+  const Mat3 change = out.macro.deformation() - state.macro.deformation();
+  for (std::size_t k = 0; k < out.places.size(); ++k) {
+    Vec3 u = scene.length * y.segment<3>(first_of(static_cast<int>(k)));
+    if (setting.half_height == 0.0) u.z() = 0.0;
+    out.places[k].position += change * scene.elements[k].rest.position + u;
+    const Vec3 w = y.segment<3>(first_of(static_cast<int>(k)) + 3);
+    if (w.norm() > 0.0)
+      out.places[k].rotation = Eigen::AngleAxisd(w.norm(), w.normalized()) * out.places[k].rotation;
+  }
+  return out;
+}
+
+GapRow row_of(const Scene& scene, const Setting& setting, const MovedState& state, const Contact& contact)
+{
+  const auto [k, l] = contact.elements;
+  if (!contact.wall.empty()) return wall_row(scene, setting, state, k, contact.normal.z());
+  const PlacedPair pair =
+      placed_pair(scene, state, k, l, contact.primitives[0], contact.primitives[1], contact.image);
+  return pair_row(scene, setting, state, k, l, contact.image,
+                  touching_near(pair.first, pair.second, 0.5 * (contact.points[0] + contact.points[1])));
+}
+
+std::vector<GapRow> all_rows(const Scene& scene, const Setting& setting, const MovedState& state,
+                             double range)
+{
+  const double reach = setting.clearance + range * scene.length;
+  std::vector<GapRow> rows;
+  for (const Neighbour& n : neighbours(scene, state.places, state.macro.deformation(), reach)) {
+    const auto k = static_cast<std::size_t>(n.first), l = static_cast<std::size_t>(n.second);
+    for (std::size_t p = 0; p < scene.elements[k].tori.size(); ++p)
+      for (std::size_t q = 0; q < scene.elements[l].tori.size(); ++q) {
+        const PlacedPair pair =
+            placed_pair(scene, state, n.first, n.second, static_cast<int>(p), static_cast<int>(q), n.image);
+        for (const Touching& t : touchings(pair.first, pair.second, reach))
+          rows.push_back(pair_row(scene, setting, state, n.first, n.second, n.image, t));
+      }
+  }
+  if (std::isfinite(setting.half_height) && setting.half_height > 0.0) {
+    for (std::size_t k = 0; k < scene.elements.size(); ++k)
+      for (const double side : {1.0, -1.0})
+        rows.push_back(wall_row(scene, setting, state, static_cast<int>(k), side));
+  }
+  return rows;
+}
+
+}  // namespace hauberk::verification

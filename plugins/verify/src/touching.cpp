@@ -1,0 +1,154 @@
+#include "touching.hpp"
+
+#include "surface.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hauberk::verification {
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+
+Touching flipped(const Touching& t) { return {t.distance, -t.normal, t.on_b, t.on_a}; }
+
+/// Angles of the surface point nearest to x; v is exact for circular sections and close enough to start from
+/// else.
+Eigen::Vector2d angles(const Torus& torus, const Vec3& x)
+{
+  const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
+  const double p = std::hypot(local.x(), local.y()) - torus.R;
+  return {std::atan2(local.y(), local.x()), std::atan2(local.z() * torus.r0, p * torus.r1)};
+}
+
+/// Distance of b to the core circle of a tube at u, and its derivative.
+struct OnCore {
+  double value, slope;
+  Vec3 outward;
+};
+
+OnCore on_core(const Torus& tube, const Torus& b, double u)
+{
+  OnCore out{};
+  const Vec3 tangent = tube.place.rotation * Vec3(-tube.R * std::sin(u), tube.R * std::cos(u), 0.0);
+  out.value = signed_distance(b, core_point(tube, u), &out.outward);
+  out.slope = out.outward.dot(tangent);
+  return out;
+}
+
+/// Walks downhill until the slope changes sign, then halves the bracket: nothing is assumed about curvature.
+Touching descend_tube(const Torus& tube, const Torus& b, double u)
+{
+  constexpr double first_step = 1e-4, growth = 1.6;
+  double step = on_core(tube, b, u).slope > 0.0 ? -first_step : first_step;
+  double low = u, high = u + step;
+  while (on_core(tube, b, high).slope * step < 0.0 && std::abs(high - u) < full_turn) {
+    low = high;
+    step *= growth;
+    high += step;
+  }
+  for (int k = 0; k < 60 && std::abs(high - low) > 1e-15; ++k) {
+    const double middle = 0.5 * (low + high);
+    (on_core(tube, b, middle).slope * step < 0.0 ? low : high) = middle;
+  }
+  const OnCore end = on_core(tube, b, 0.5 * (low + high));
+  const Vec3 core = core_point(tube, 0.5 * (low + high));
+  return {end.value - tube.r0, -end.outward, core - tube.r0 * end.outward, core - end.value * end.outward};
+}
+
+/// Derivatives of the distance of b to the surface of a by a's angles.
+Eigen::Vector2d slope_on_surface(const Torus& a, const Torus& b, const Eigen::Vector2d& at)
+{
+  const double cu = std::cos(at[0]), su = std::sin(at[0]), cv = std::cos(at[1]), sv = std::sin(at[1]);
+  const double rho = a.R + a.r0 * cv;
+  Vec3 outward;
+  signed_distance(b, surface_point(a, at[0], at[1]), &outward);
+  const Vec3 local = a.place.rotation.transpose() * outward;
+  return {local.dot(Vec3(-rho * su, rho * cu, 0.0)),
+          local.dot(Vec3(-a.r0 * sv * cu, -a.r0 * sv * su, a.r1 * cv))};
+}
+
+/// Newton's method with differences of the slope, made positive definite, and halved steps.
+Touching descend_surface(const Torus& a, const Torus& b, Eigen::Vector2d at)
+{
+  constexpr double h = 1e-6;
+  const auto value = [&](const Eigen::Vector2d& x) {
+    return signed_distance(b, surface_point(a, x[0], x[1]));
+  };
+  double now = value(at);
+  for (int k = 0; k < 60; ++k) {
+    const Eigen::Vector2d slope = slope_on_surface(a, b, at);
+    Eigen::Matrix2d curvature;
+    for (int j = 0; j < 2; ++j) {
+      const Eigen::Vector2d e = h * Eigen::Vector2d::Unit(j);
+      curvature.col(j) = (slope_on_surface(a, b, at + e) - slope_on_surface(a, b, at - e)) / (2.0 * h);
+    }
+    curvature = 0.5 * (curvature + curvature.transpose()).eval();
+    const double mean = 0.5 * curvature.trace();
+    const double lowest = mean - std::hypot(0.5 * (curvature(0, 0) - curvature(1, 1)), curvature(0, 1));
+    const double least = 1e-6 * (std::abs(mean) + a.r0);
+    if (lowest < least) curvature += (least - lowest) * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d step = -curvature.inverse() * slope;
+    double length = 1.0;
+    while (length > 1e-10 && value(at + length * step) > now) length *= 0.5;
+    if (length <= 1e-10) break;
+    at += length * step;
+    now = value(at);
+    if (length * step.norm() < 1e-14) break;
+  }
+  Vec3 outward;
+  const Vec3 point = surface_point(a, at[0], at[1]);
+  const double distance = signed_distance(b, point, &outward);
+  return {distance, -outward, point, point - distance * outward};
+}
+
+}  // namespace
+
+Touching touching_near(const Torus& a, const Torus& b, const Vec3& near)
+{
+  if (a.r0 == a.r1) return descend_tube(a, b, angles(a, near)[0]);
+  if (b.r0 == b.r1) return flipped(descend_tube(b, a, angles(b, near)[0]));
+  return descend_surface(a, b, angles(a, near));
+}
+
+std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
+{
+  if (a.r0 != a.r1 && b.r0 == b.r1) {
+    std::vector<Touching> out = touchings(b, a, range);
+    for (Touching& t : out) t = flipped(t);
+    return out;
+  }
+  const bool tube = a.r0 == a.r1;
+  constexpr int around = 96, across = 24;
+  const int nv = tube ? 1 : across;
+  const auto u = [](int i) { return i * full_turn / around; };
+  const auto v = [](int j) { return j * full_turn / across; };
+  std::vector<double> f(static_cast<std::size_t>(around * nv));
+  const auto at = [&](int i, int j) -> double& {
+    return f[static_cast<std::size_t>((i + around) % around * nv + (j + nv) % nv)];
+  };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < nv; ++j)
+      at(i, j) =
+          signed_distance(b, tube ? core_point(a, u(i)) : surface_point(a, u(i), v(j))) - (tube ? a.r0 : 0.0);
+  // A minimum between samples is lower than they are by at most half a cell.
+  const double cell = 0.5 * (a.R + a.r0) * full_turn / around;
+  std::vector<Touching> out;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < nv; ++j) {
+      if (at(i, j) > range + cell) continue;
+      bool lowest = true;
+      for (int di = -1; di <= 1; ++di)
+        for (int dj = tube ? 0 : -1; dj <= (tube ? 0 : 1); ++dj)
+          lowest = lowest && at(i, j) <= at(i + di, j + dj);
+      if (!lowest) continue;
+      const Touching t = tube ? descend_tube(a, b, u(i)) : descend_surface(a, b, {u(i), v(j)});
+      if (t.distance < range) out.push_back(t);
+    }
+  return out;
+}
+
+}  // namespace hauberk::verification

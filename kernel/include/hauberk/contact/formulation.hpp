@@ -5,7 +5,7 @@
 
 namespace hauberk {
 
-enum class Formulation { nearest, arc };
+enum class Formulation { nearest, arc, published };
 
 /// Activation distance and clearance, scaled by L.
 struct ContactSettings {
@@ -28,6 +28,13 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
 template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
              SideTerms& out);
+
+/// The published contact: the barrier of the squared gap of every local minimum, faded where the minimum is
+/// about to merge with another or to vanish (paper equations (4) and (9) to (11)); see published.hpp. In
+/// units of d_hat^2 = g_hat^4. `dim` says which probe set of P finds the minima.
+template <int dim>
+void add_published(const PairFrame& frame, const ContactSettings& settings, const Request& request,
+                   SideTerms& out);
 
 /// A local minimum of the distance of P's probe set to F.
 struct Minimum {

@@ -143,15 +143,10 @@ class Contact {
     const GapJet distance = GapJet::variable(gap_ + settings_.clearance, 0);
     const GapJet e =
         faded_barrier(distance * distance, GapJet(lambda_), GapJet(settings_.clearance), settings_.g_hat);
-    const auto surface_point = [](const Vec3& a, const Vec3& e1, const Vec3& e2, const Vec3& e3,
-                                  const Body& b, double u, double v) {
-      return Vec3(a + (b.R + b.r0 * std::cos(v)) * (std::cos(u) * e1 + std::sin(u) * e2) +
-                  b.r1 * std::sin(v) * e3);
-    };
     ContactPoint p;
-    p.on_p = surface_point(frame_.a, frame_.e1, frame_.e2, frame_.e3, *frame_.P, m_.c[0], m_.c[1]);
-    p.on_f =
-        surface_point(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), *frame_.F, m_.c[2], m_.c[3]);
+    const Vec3 local = chart_point(*frame_.P, m_.c[0], m_.c[1]);
+    p.on_p = frame_.a + local.x() * frame_.e1 + local.y() * frame_.e2 + local.z() * frame_.e3;
+    p.on_f = chart_point(*frame_.F, m_.c[2], m_.c[3]);
     p.normal = (p.on_p - p.on_f).normalized();
     p.gap = gap_;
     p.force = -e.g[0];
@@ -218,15 +213,23 @@ template <int dim>
 void add_published(const PairFrame& frame, const ContactSettings& settings, const Request& request,
                    SideTerms& out)
 {
+  const auto add = [&](const ChartMinimum& m) {
+    const double gap = std::sqrt(m.d) - settings.clearance;
+    if (m.converged && gap > 0.0 && gap < settings.g_hat) Contact(frame, settings, m).add(request, out);
+  };
+  if (settings.search == MinimaSearch::sampled) {
+    for (const ChartMinimum& m : published::sampled_minima(frame, out.evaluations)) {
+      out.min_gap = std::min(out.min_gap, std::sqrt(m.d) - settings.clearance);
+      add(m);
+    }
+    return;
+  }
   const ChartPair<double> pair = chart_pair(frame);
   for (const Minimum& found :
        local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
     out.min_gap = std::min(out.min_gap, found.distance - settings.clearance);
     if (found.distance <= settings.clearance) continue;  // min_gap tells
-    const ChartMinimum m = published::refine(pair, chart_start<dim>(frame, found), out.evaluations);
-    const double gap = std::sqrt(m.d) - settings.clearance;
-    if (!m.converged || gap <= 0.0 || gap >= settings.g_hat) continue;
-    Contact(frame, settings, m).add(request, out);
+    add(published::refine(pair, chart_start<dim>(frame, found), out.evaluations));
   }
 }
 

@@ -148,7 +148,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   const Vector load = load_vector(m, theta, task.sense);
   r.force_balance = force_balance(m, s, load, e.points, l.stage.mu);
-  r.contact = l.stage.contact.formulation == Formulation::arc ? "arc" : "nearest";
+  r.contact = name_of(l.stage.contact.formulation);
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
   r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;
@@ -161,7 +161,10 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     }
   }
   r.certificate =
-      fmt::format("path from rest certified free of intersections; {} links kept; smallest gap {:.3g}",
+      fmt::format("{}; {} links kept; smallest gap {:.3g}",
+                  l.stage.ccd == CollisionCheck::certified
+                      ? "path from rest certified free of intersections"
+                      : "path from rest checked for intersections at sampled points, nothing certified",
                   m.links.size(), *r.min_gap);
   if (!r.links_kept) {
     r.status = LimitStatus::failed;

@@ -88,6 +88,13 @@ struct ChartPair {
   }
 };
 
+/// V(u, v) of a body in its own frame, equation (1).
+inline Vec3 chart_point(const Body& b, double u, double v)
+{
+  const double w = b.R + b.r0 * std::cos(v);
+  return {w * std::cos(u), w * std::sin(u), b.r1 * std::sin(v)};
+}
+
 /// The pair as it stands.
 ChartPair<double> chart_pair(const PairFrame& frame);
 

@@ -7,11 +7,29 @@ namespace hauberk {
 
 enum class Formulation { nearest, arc, published };
 
+/// Its name in experiment files and results.
+inline const char* name_of(Formulation f)
+{
+  switch (f) {
+    case Formulation::nearest:
+      return "nearest";
+    case Formulation::arc:
+      return "arc";
+    case Formulation::published:
+      return "published";
+  }
+  return "";
+}
+
+/// How local minima of the distance are found: none missed, or from samples as published (`published` only).
+enum class MinimaSearch { certified, sampled };
+
 /// Activation distance and clearance, scaled by L.
 struct ContactSettings {
   Formulation formulation = Formulation::arc;
   double g_hat = 0.05;
   double clearance = 0.0;
+  MinimaSearch search = MinimaSearch::certified;
 };
 
 /// Sum of the clamped log barrier over every local minimum of the distance with gap < g_hat (paper eq. (4),

@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <vector>
+
 namespace hauberk::published {
 
 /// Thresholds of the paper: lambda_bar = 1e-9, d_1 = 1e-12 and d_2 = 4e-12 beside d_hat = 1e-8, all in m^2.
@@ -13,6 +15,9 @@ namespace hauberk::published {
 inline constexpr double lambda_bar = 0.1;
 inline constexpr double d1 = 1e-4;
 inline constexpr double d2 = 4e-4;
+
+/// Squared distance at which a step counts as a collision: 1e-20 m^2, in d_hat.
+inline constexpr double d_th = 1e-12;
 
 /// Width of the smooth minimum of two eigenvalues, see `soft_minimum`, in lambda_bar.
 inline constexpr double eigenvalue_width = 0.01;
@@ -64,13 +69,14 @@ S soft_minimum(const S& a, const S& b, const S& c, double width)
   return 0.5 * (a + c) - sqrt(half * half + b * b + width * width);
 }
 
-/// The 2 x 2 matrix whose eigenvalues are the two smallest of H(z), to second order in z, from the
-/// eigenvectors V and values l of H(0), l_0 <= l_1 < l_2 <= l_3: with A = V^T H V, i and j of {0, 1},
+/// The 2 x 2 matrix whose eigenvalues are the two smallest of H(z), from the eigenvectors V and values l of
+/// H(0), l_0 <= l_1 < l_2 <= l_3: with A = V^T H V, i of {0, 1},
 ///
-///   B_ij = A_ij + 1/2 sum_{k = 2, 3} A_ik A_kj (1/(l_i - l_k) + 1/(l_j - l_k))
+///   B_ii = A_ii + sum_{k = 2, 3} A_ik^2/(l_i - l_k),   B_01 = A_01
 ///
 /// (quasi-degenerate perturbation theory: H in a basis turned by exp(K), K chosen to first order so that the
-/// blocks decouple; the trace and determinant of B have errors of third order, also where l_0 = l_1).
+/// blocks decouple). B_01 vanishes at z = 0 and counts as its square, so its first order suffices: trace and
+/// determinant of B have errors of third order, also where l_0 = l_1.
 ///
 /// The two groups are apart: J = (V_P,u, V_P,v, -V_F,u, -V_F,v) has rank two at a minimum, where both tangent
 /// planes are parallel, and H = 2 J^T J + O(gap). So l_2 is of the order of the squared tube radii, while
@@ -94,13 +100,11 @@ std::array<S, 3> lowest_block(const std::array<std::array<S, 4>, 4>& H, const Ei
       for (int r = 1; r < 4; ++r) x += V(r, k) * Hv[static_cast<std::size_t>(r)];
     }
   }
-  const auto apart = [&](int i, int k) { return 1.0 / std::min(l[i] - l[k], -least); };
   std::array<S, 3> B{A[0][0], A[0][1], A[1][1]};
-  for (int k = 2; k < 4; ++k) {
-    const auto c = static_cast<std::size_t>(k);
-    B[0] += apart(0, k) * (A[0][c] * A[0][c]);
-    B[1] += (0.5 * (apart(0, k) + apart(1, k))) * (A[0][c] * A[1][c]);
-    B[2] += apart(1, k) * (A[1][c] * A[1][c]);
+  for (std::size_t k = 2; k < 4; ++k) {
+    const double lk = l[static_cast<int>(k)];
+    B[0] += (1.0 / std::min(l[0] - lk, -least)) * (A[0][k] * A[0][k]);
+    B[2] += (1.0 / std::min(l[1] - lk, -least)) * (A[1][k] * A[1][k]);
   }
   return B;
 }
@@ -116,5 +120,9 @@ struct ChartMinimum {
 
 /// Full Newton steps from `c` until the norm of the gradient decreases no further (paper, below eq. (3)).
 ChartMinimum refine(const ChartPair<double>& pair, ChartPoint<double> c, int& evaluations);
+
+/// The paper's search: samples of both surfaces as starting points, Newton's method from those that are
+/// locally nearest. Nothing certifies that no minimum is missed. Nearest first; never empty.
+std::vector<ChartMinimum> sampled_minima(const PairFrame& frame, int& evaluations);
 
 }  // namespace hauberk::published

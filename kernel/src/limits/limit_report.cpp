@@ -157,7 +157,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   if (l.status == LockStatus::locked && *r.force_balance > unbalanced)
     r.message = fmt::format(
         "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
-  r.contact = l.stage.contact.formulation == Formulation::arc ? "arc" : "nearest";
+  r.contact = name_of(l.stage.contact.formulation);
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
   r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;
@@ -170,7 +170,10 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     }
   }
   r.certificate =
-      fmt::format("path from rest certified free of intersections; {} links kept; smallest gap {:.3g}",
+      fmt::format("{}; {} links kept; smallest gap {:.3g}",
+                  l.stage.ccd == CollisionCheck::certified
+                      ? "path from rest certified free of intersections"
+                      : "path from rest checked for intersections at sampled points, nothing certified",
                   m.links.size(), *r.min_gap);
   if (!r.links_kept) {
     r.status = LimitStatus::failed;

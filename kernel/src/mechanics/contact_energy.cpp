@@ -124,6 +124,12 @@ class Assembler {
       } else {
         add_arc<2>(frame, settings_, request_, share, t);
       }
+    } else if (settings_.formulation == Formulation::published) {
+      if (P.is_tube()) {
+        add_published<1>(frame, settings_, request_, t);
+      } else {
+        add_published<2>(frame, settings_, request_, t);
+      }
     } else if (P.is_tube()) {
       add_nearest<1>(frame, settings_, request_, t);
     } else {

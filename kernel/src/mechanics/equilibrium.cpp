@@ -1,5 +1,5 @@
+#include <hauberk/contact/published.hpp>
 #include <hauberk/mechanics/equilibrium.hpp>
-#include <hauberk/motion/advancement.hpp>
 
 #include <fmt/format.h>
 
@@ -15,7 +15,10 @@ constexpr double smallest_radius = 1e-13;
 constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
 constexpr double keep_gap = 0.1;          ///< a step may use up this much less than all of any gap
 constexpr int most_slides = 50;           ///< times `most_iterations`: the most steps of a stage
-constexpr double noise = 1e-15;           ///< relative rounding of energies
+/// The published fade makes valleys along which rings roll on towards ever smaller eigenvalues, downhill by
+/// next to nothing: so many escapes without a noticeable decrease are enough there.
+constexpr int most_idle_escapes = 20;
+constexpr double noise = 1e-15;  ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
 constexpr double quadrature_noise = 1e-9;
@@ -61,7 +64,7 @@ class Newton {
     if (!now.admissible)
       return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
     double radius = first_radius, noticed = now.energy;
-    int rejected = 0, noticed_at = 0, rescues = 0;
+    int rejected = 0, noticed_at = 0, rescues = 0, escapes_then = 0;
     bool escaping = false;
     for (;;) {
       if (!keep_going_()) return finish(now, StageStatus::interrupted, "interrupted");
@@ -70,6 +73,7 @@ class Newton {
       if (now.energy < noticed - stage_.mu) {
         noticed = now.energy;
         noticed_at = result_.iterations;
+        escapes_then = result_.escapes;
       }
       const int idle = result_.iterations - noticed_at;
       if (idle >= stage_.most_iterations || result_.iterations / most_slides >= stage_.most_iterations) {
@@ -93,6 +97,10 @@ class Newton {
         // Negative curvature that lowers the energy by nothing at any length was rounding.
         if (escaping && radius < smallest_escape) return finish(now, StageStatus::minimum, "");
         if (!saddle_step(now, radius, step)) return finish(now, StageStatus::minimum, "");
+        if (stage_.contact.formulation == Formulation::published &&
+            result_.escapes - escapes_then >= most_idle_escapes) {
+          return finish(now, StageStatus::minimum, "");
+        }
         escape = true;
       }
       escaping = escape;
@@ -233,7 +241,7 @@ class Newton {
       alpha *= 0.5;
       trial = advanced(m_, state_, dy, alpha);
     }
-    const SafeStep safe = largest_safe_step(m_, state_, alpha * dy, keep_gap);
+    const SafeStep safe = checked_step(m_, state_, alpha * dy, keep_gap, stage_);
     result_.evaluations += safe.evaluations;
     if (safe.alpha <= 0.0) return 0.0;
     if (safe.alpha < 1.0) {
@@ -264,6 +272,12 @@ class Newton {
 };
 
 }  // namespace
+
+SafeStep checked_step(const Model& m, const State& from, const Vector& dy, double keep, const Stage& stage)
+{
+  if (stage.ccd == CollisionCheck::certified) return largest_safe_step(m, from, dy, keep);
+  return sampled_safe_step(m, from, dy, std::sqrt(published::d_th) * stage.contact.g_hat);
+}
 
 std::vector<ElementPair> stage_pairs(const Model& m, const State& s, const Stage& stage)
 {

@@ -1,5 +1,4 @@
 #include <hauberk/mechanics/locking.hpp>
-#include <hauberk/motion/advancement.hpp>
 
 #include <fmt/format.h>
 
@@ -66,7 +65,8 @@ class Path {
   Stage make_stage(double g_hat, bool last, Formulation f) const
   {
     Stage s;
-    s.contact = {f, g_hat, m_.clearance};
+    s.contact = {f, g_hat, m_.clearance, schedule_.search};
+    s.ccd = schedule_.ccd;
     s.mu = schedule_.stiffness * g_hat * size_;
     s.balance = last;
     s.tolerance = last ? schedule_.last_tolerance : schedule_.tolerance;
@@ -77,6 +77,7 @@ class Path {
   Formulation formulation(double g_hat) const
   {
     if (choice_ == ContactChoice::nearest) return Formulation::nearest;
+    if (choice_ == ContactChoice::published) return Formulation::published;
     if (arc_to_the_end_) return Formulation::arc;
     return g_hat > schedule_.change * 1.001 ? Formulation::arc : Formulation::nearest;
   }
@@ -155,7 +156,7 @@ class Path {
       return;
     const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
     const Vector dy = ((g_hat - b) / (b - a)) * difference(m_, *previous_, s);
-    const SafeStep safe = largest_safe_step(m_, s, dy, 0.05);
+    const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(g_hat, false, f));
     out_.evaluations += safe.evaluations;
     const State next = advanced(m_, s, dy, safe.alpha);
     if (m_.load->admissible({next.macro.data(), static_cast<std::size_t>(m_.macro_count)})) s = next;

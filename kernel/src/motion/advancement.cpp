@@ -1,3 +1,5 @@
+#include "track.hpp"
+
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/motion/advancement.hpp>
 
@@ -11,45 +13,6 @@ constexpr double pi = std::numbers::pi;
 constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advances are not worth their cost
 constexpr int most_advances = 4000;
 constexpr double smallest_panel = 1e-9;  ///< radians
-
-/// Rigid motion of one element (image) over the step.
-struct Track {
-  const Model* m;
-  const State* from;
-  const Vector* dy;
-  int element;
-  Image image;
-  Vec3 w;               ///< rotation vector of the whole step
-  double acceleration;  ///< bound of |x''|
-
-  Track(const Model& model, const State& state, const Vector& step, int k, const Image& im)
-      : m(&model), from(&state), dy(&step), element(k), image(im)
-  {
-    const int nc = m->coordinate_count, o = m->offset(k);
-    w = step.segment<3>(o + nc);
-    const auto n = static_cast<std::size_t>(nc), nm = static_cast<std::size_t>(m->macro_count);
-    acceleration = m->load->acceleration_bound(
-        {state.macro.data(), nm}, {step.data(), nm}, {state.e.data() + k * nc, n}, {step.data() + o, n},
-        m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
-  }
-
-  /// Pose and velocity at s.
-  void at(double s, Pose& pose, Vec3& velocity) const
-  {
-    const int nc = m->coordinate_count, nm = m->macro_count, o = m->offset(element);
-    std::array<double, max_macro> macro{};
-    std::array<double, max_coordinates> e{};
-    for (int k = 0; k < nm; ++k) macro[static_cast<std::size_t>(k)] = from->macro[k] + s * (*dy)[k];
-    for (int k = 0; k < nc; ++k)
-      e[static_cast<std::size_t>(k)] = from->e[element * nc + k] + s * (*dy)[o + k];
-    PositionMap map;
-    const auto i = static_cast<std::size_t>(element);
-    m->load->position({macro.data(), static_cast<std::size_t>(nm)}, {e.data(), static_cast<std::size_t>(nc)},
-                      m->rest[i].position, m->translation(image), map);
-    pose = {map.x, rotation_exp(s * w) * from->rotation[i]};
-    velocity = map.J.leftCols(nm) * dy->head(nm) + map.J.middleCols(nm, nc) * dy->segment(o, nc);
-  }
-};
 
 /// Certifies one pair of bodies, P probing F, over the remaining step.
 template <int dim>
@@ -169,43 +132,16 @@ class PairAdvance {
 SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep)
 {
   SafeStep out;
-  // Walls are linear: exact.
-  for (const LinearInequality& w : m.walls) {
-    double g = w.offset, rate = 0.0;
-    for (const auto& t : w.terms) {
-      g += t.coefficient * from.e[t.element * m.coordinate_count + t.coordinate];
-      rate += t.coefficient * dy[m.offset(t.element) + t.coordinate];
-    }
-    if (rate < 0.0) out.alpha = std::min(out.alpha, std::max(0.0, (1.0 - keep) * g / -rate));
-  }
-
-  // Candidate pairs: anything that the whole step can bring together. The relative motion of a pair is at
-  // most the elements' own motion plus dF times their distance; both ends of the step are searched.
-  const State to = advanced(m, from, dy, 1.0);
-  const double own = 2.0 * largest_motion(m, dy);
-  const double strain = dy.head(m.macro_count).cwiseAbs().sum();
-  double widest = 0.0;
-  for (const double r : m.reach) widest = std::max(widest, r);
-  const double smin =
-      std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
-               m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
-  const double margin = m.clearance + own + strain * 2.0 * (2.0 * widest + own) / std::max(smin, 1e-3);
-
-  for (const ElementPair& pair : near_pairs(m, from, margin)) {
-    const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
-    Pose pi, pj;
-    Vec3 vi, vj;
-    ti.at(0.0, pi, vi);
-    tj.at(0.0, pj, vj);
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-    const double approach = (vi - vj).norm() + 0.5 * (ti.acceleration + tj.acceleration);
-    if ((pi.position - pj.position).norm() - m.reach[i] - m.reach[j] - approach > m.clearance) continue;
+  out.alpha = wall_step(m, from, dy, keep);
+  for (const CandidatePair& pair : candidate_pairs(m, from, dy)) {
+    const Track &ti = pair.ti, &tj = pair.tj;
+    const auto i = static_cast<std::size_t>(ti.element), j = static_cast<std::size_t>(tj.element);
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
-        const double motion = approach + ti.w.norm() * A.reach + tj.w.norm() * B.reach;
-        const Separation now = separation(A, pi, B, pj, m.clearance, 2.0 * motion);
+        const double motion = pair.approach + ti.w.norm() * A.reach + tj.w.norm() * B.reach;
+        const Separation now = separation(A, pair.pi, B, pair.pj, m.clearance, 2.0 * motion);
         out.evaluations += now.evaluations;
         const double gap = now.lower;
         if (gap - out.alpha * motion >= keep * gap && gap > 0.0) continue;

@@ -95,7 +95,15 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
     case ContactChoice::arc:
       p.decisions.emplace_back("contact: arc in every stage");
       break;
+    case ContactChoice::published:
+      p.decisions.emplace_back(
+          "contact: published in every stage (squared distances of charts, faded by an eigenvalue)");
+      break;
   }
+  if (settings.schedule.search == MinimaSearch::sampled)
+    p.decisions.emplace_back("closest points: Newton's method from samples, a minimum may be missed");
+  if (settings.schedule.ccd == CollisionCheck::sampled)
+    p.decisions.emplace_back("collisions: sought from samples along each step, one may be missed");
   p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
                                     settings.schedule.first, settings.schedule.last,
                                     settings.schedule.ratio));

@@ -1,4 +1,4 @@
-/// Derivatives of the contact energy in all unknowns and parameters, for both formulations and all pairs of
+/// Derivatives of the contact energy in all unknowns and parameters, for every formulation and all pairs of
 /// primitive kinds: central differences at several step sizes must converge with second order.
 
 #include <hauberk/mechanics/contact_energy.hpp>
@@ -161,14 +161,18 @@ TEST_P(Derivatives, ParametersAndClearance)
   expect_second_order(error, std::abs(e.d_clearance), 5e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pairs, Derivatives,
-                         ::testing::Values(Case{"arc_circle_circle", Formulation::arc, 0.7, 0.7},
-                                           Case{"arc_circle_ellipse", Formulation::arc, 0.7, 0.95},
-                                           Case{"arc_ellipse_ellipse", Formulation::arc, 0.5, 0.95},
-                                           Case{"nearest_circle_circle", Formulation::nearest, 0.7, 0.7},
-                                           Case{"nearest_circle_ellipse", Formulation::nearest, 0.7, 0.95},
-                                           Case{"nearest_ellipse_ellipse", Formulation::nearest, 0.5, 0.95}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Pairs, Derivatives,
+    ::testing::Values(Case{"arc_circle_circle", Formulation::arc, 0.7, 0.7},
+                      Case{"arc_circle_ellipse", Formulation::arc, 0.7, 0.95},
+                      Case{"arc_ellipse_ellipse", Formulation::arc, 0.5, 0.95},
+                      Case{"nearest_circle_circle", Formulation::nearest, 0.7, 0.7},
+                      Case{"nearest_circle_ellipse", Formulation::nearest, 0.7, 0.95},
+                      Case{"nearest_ellipse_ellipse", Formulation::nearest, 0.5, 0.95},
+                      Case{"published_circle_circle", Formulation::published, 0.7, 0.7},
+                      Case{"published_circle_ellipse", Formulation::published, 0.7, 0.95},
+                      Case{"published_ellipse_ellipse", Formulation::published, 0.5, 0.95}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace hauberk::test

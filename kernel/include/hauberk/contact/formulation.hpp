@@ -5,13 +5,31 @@
 
 namespace hauberk {
 
-enum class Formulation { nearest, arc };
+enum class Formulation { nearest, arc, published };
+
+/// Its name in experiment files and results.
+inline const char* name_of(Formulation f)
+{
+  switch (f) {
+    case Formulation::nearest:
+      return "nearest";
+    case Formulation::arc:
+      return "arc";
+    case Formulation::published:
+      return "published";
+  }
+  return "";
+}
+
+/// How local minima of the distance are found: none missed, or from samples as published (`published` only).
+enum class MinimaSearch { certified, sampled };
 
 /// Activation distance and clearance, scaled by L.
 struct ContactSettings {
   Formulation formulation = Formulation::arc;
   double g_hat = 0.05;
   double clearance = 0.0;
+  MinimaSearch search = MinimaSearch::certified;
 };
 
 /// Sum of the clamped log barrier over every local minimum of the distance with gap < g_hat (paper eq. (4),
@@ -28,6 +46,13 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
 template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
              SideTerms& out);
+
+/// The published contact: the barrier of the squared gap of every local minimum, faded where the minimum is
+/// about to merge with another or to vanish (paper equations (4) and (9) to (11)); see published.hpp. In
+/// units of d_hat^2 = g_hat^4. `dim` says which probe set of P finds the minima.
+template <int dim>
+void add_published(const PairFrame& frame, const ContactSettings& settings, const Request& request,
+                   SideTerms& out);
 
 /// A local minimum of the distance of P's probe set to F.
 struct Minimum {

@@ -2,6 +2,7 @@
 /// Minimisation of E(y) = -load . macro + mu contact(y) at fixed stiffness, without passing through anything.
 
 #include <hauberk/mechanics/contact_energy.hpp>
+#include <hauberk/motion/advancement.hpp>
 
 #include <functional>
 #include <string>
@@ -11,7 +12,8 @@ namespace hauberk {
 /// One stage: contact formulation, activation distance and stiffness (scaled).
 struct Stage {
   ContactSettings contact;
-  double mu = 0.0;            ///< E has the unit of the value
+  double mu = 0.0;  ///< E has the unit of the value
+  CollisionCheck ccd = CollisionCheck::certified;
   bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
   double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
@@ -37,11 +39,12 @@ using KeepGoing = std::function<bool()>;
 
 /// Trust-region Newton from `state` (gaps positive) to a minimum of E.
 ///
-/// Every trial step is first shortened by conservative advancement, so the path from the first to the last
-/// state is free of intersections; F stays positive definite. The quadratic model is shifted by
-/// lambda * metric until it is positive definite and its step stays within the trust radius. A stationary
-/// point with negative curvature is left along it. Null directions (spins, rattlers, translations) carry a
-/// tiny shift and cost nothing. Thread safe; deterministic.
+/// Every trial step is first shortened by the stage's collision check: by conservative advancement, so that
+/// the path from the first to the last state is free of intersections, or by the sampled one; F stays
+/// positive definite. The quadratic model is shifted by lambda * metric until it is positive definite and its
+/// step stays within the trust radius. A stationary point with negative curvature is left along it. Null
+/// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. Thread safe;
+/// deterministic.
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going);
 
@@ -55,6 +58,11 @@ struct TotalEnergy {
 };
 TotalEnergy total_energy(const Model& model, const State& state, const Vector& load, const Stage& stage,
                          const std::vector<ElementPair>& pairs, int order);
+
+/// How far the step is free of collisions by the stage's check; `keep`: the part of any gap that the
+/// certified one leaves.
+SafeStep checked_step(const Model& model, const State& from, const Vector& dy, double keep,
+                      const Stage& stage);
 
 /// Element pairs that can matter within this stage's range, in this state.
 std::vector<ElementPair> stage_pairs(const Model& model, const State& state, const Stage& stage);

@@ -12,7 +12,8 @@ namespace hauberk {
 enum class ContactChoice {
   automatic,  ///< arc while contacts may merge and split, nearest to finish; arc again where nearest stalls
   nearest,
-  arc
+  arc,
+  published  ///< the paper's, in every stage
 };
 
 /// Stages g_hat = first, first * ratio, ... down to last (lengths in L), mu = stiffness * g_hat * |load|.
@@ -25,6 +26,8 @@ struct Schedule {
   double tolerance = 1e-3;  ///< of a stage, relative to its mu
   double last_tolerance = 1e-8;
   int most_iterations = 300;  ///< of a stage without noticeable decrease
+  CollisionCheck ccd = CollisionCheck::certified;
+  MinimaSearch search = MinimaSearch::certified;  ///< of contact `published`
 };
 
 /// One finished stage.

@@ -1,9 +1,12 @@
 #pragma once
-/// Conservative advancement: how far along a step nothing collides, certified.
+/// How far along a step nothing collides: certified by conservative advancement, or sampled as published.
 
 #include <hauberk/mechanics/model.hpp>
 
 namespace hauberk {
+
+/// How steps are checked for collisions.
+enum class CollisionCheck { certified, sampled };
 
 /// What the check found.
 struct SafeStep {
@@ -24,5 +27,11 @@ struct SafeStep {
 /// because of tau. As tangential sliding enters only through V^2 tau^2, sliding at a small gap costs
 /// V/sqrt(g rho) steps, not V/g. Thread safe, deterministic.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep);
+
+/// The published check (paper equations (6) to (8)), without guarantee. For every pair of bodies the smallest
+/// distance over s in [0, alpha] is sought by minimisation in s from sampled closest points; where it is not
+/// above `least_gap` (beyond the clearance), alpha falls by a factor 0.9. Steps are shortened beforehand so
+/// that no pair moves by more than its smallest tube radius. Thread safe, deterministic.
+SafeStep sampled_safe_step(const Model& model, const State& from, const Vector& dy, double least_gap);
 
 }  // namespace hauberk

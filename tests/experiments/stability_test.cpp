@@ -115,7 +115,7 @@ TEST(StabilityRun, MistakesOfFormAreBadInput)
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(
       o.err.find("family 'thickness', member '0.7', method 'fast': expected one of auto, nearest, arc, found "
-                 "\"nearst\"; the nearest known value is 'nearest'"),
+                 "\"nearst\"; did you mean 'nearest'?"),
       std::string::npos)
       << o.err;
   EXPECT_FALSE(fs::exists(folder.path() / "out"));

@@ -111,7 +111,7 @@ TEST(Meaning, TaskAndLoadCase)
             "t.json:1: missing key 'design': task design needs it\n"
             "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
             "'seed', "
-            "'elements', 'cell', 'load_case', 'solver', 'design', 'expect'");
+            "'elements', 'cell', 'load_case', 'solver', 'design', 'stability', 'expect'");
 }
 
 TEST(Meaning, DesignQuantityAndTargets)

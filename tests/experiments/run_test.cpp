@@ -112,6 +112,27 @@ TEST(Run, UnbalancedForcesAreNoLockedState)
   EXPECT_EQ(arc.code, 0) << arc.out;
 }
 
+/// Taut to 1e-6 mm at rest: gaps of preset fast do not fit, and opening them would be a stretch limit below
+/// zero.
+TEST(Run, LimitsOnTheWrongSideOfRestAreNone)
+{
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("c.json", with(with(chain_text(), "[12, 0]", "[17.199999, 0]"), R"("position": [6, 0, 0])",
+                                  R"("position": [8.5999995, 0, 0])"));
+  const Outcome fast = run_program(
+      {"run", file, "-o", folder / "fast", "--set", "/solver/preset=fast", "--set", "/expect=[]"});
+  EXPECT_EQ(fast.code, 1) << fast.out;
+  EXPECT_NE(
+      fast.out.find("stretch at 0 degrees: stalled: rest is nearer to the limit than the gaps that this "
+                    "schedule leaves: value -2."),
+      std::string::npos)
+      << fast.out;
+  const Outcome accurate = run_program({"run", file, "-o", folder / "accurate", "--set", "/expect=[]"});
+  EXPECT_EQ(accurate.code, 0) << accurate.out;
+  EXPECT_NEAR(number_at(read_results(folder / "accurate"), "/limits/0/value"), 17.2 / 17.199999 - 1.0, 1e-8);
+}
+
 TEST(Run, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

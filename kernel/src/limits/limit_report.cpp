@@ -19,6 +19,8 @@ constexpr double same_state = 1e-5;
 /// leaves up to 3e-5; `arc` lists resultants, whose wrench is off by a multiple of gap / L.
 constexpr double balanced = 1e-4;
 constexpr double balanced_per_gap = 100.0;
+/// Rounding of a value; what is less than rest by more is no limit.
+constexpr double wrong_side = 1e-11;
 
 std::span<const double> macro_span(const Model& m, const State& s)
 {
@@ -185,8 +187,16 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   } else if (r.status == LimitStatus::locked && !(*r.force_balance <= allowed_imbalance(r, m.length))) {
     // A flat energy is no equilibrium: where contacts merge, nearest points come and go and balance nothing.
     r.status = LimitStatus::stalled;
-    r.message = fmt::format("contact forces miss the load by {:.1e} of it; use contact arc or auto",
-                            *r.force_balance);
+    r.message = fmt::format("contact forces miss the load by {:.1e} of it", *r.force_balance);
+    if (r.contact == "nearest") r.message += "; use contact arc or auto";
+  } else if (r.status == LimitStatus::locked &&
+             (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {
+    r.status = LimitStatus::stalled;
+    r.message = fmt::format(
+        "rest is nearer to the limit than the gaps that this schedule leaves: value {:.3g} is on the wrong "
+        "side of "
+        "rest; use preset accurate or a smaller tolerance",
+        *r.value);
   }
   return r;
 }

@@ -94,6 +94,45 @@ TEST(Run, UnfinishedLimitsFailTheRun)
   EXPECT_NE(o.out.find("stretch at 0 degrees: stalled"), std::string::npos) << o.out;
 }
 
+/// A chain whose second ring leans over, so that tubes are nearly parallel where they touch: nearest points
+/// merge, the energy is flat to rounding, and the forces on what is left of them miss the load by 0.44 of it.
+TEST(Run, UnbalancedForcesAreNoLockedState)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", with(chain_text(), R"("degrees": 90)", R"("degrees": 40)"));
+  const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/contact=nearest"});
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(r.at_pointer("/limits/0/status").as_string(), "stalled");
+  EXPECT_NE(r.at_pointer("/limits/0/message").as_string().find("contact forces miss the load by "),
+            std::string::npos);
+  EXPECT_EQ(o.code, 1) << o.out;
+  EXPECT_EQ(run_program({"verify", folder / "out/results.json"}).code, 0) << "says so itself";
+  // Spread forces balance.
+  const Outcome arc = run_program({"run", file, "-o", folder / "arc", "--set", "/solver/contact=arc"});
+  EXPECT_EQ(arc.code, 0) << arc.out;
+}
+
+/// Taut to 1e-6 mm at rest: gaps of preset fast do not fit, and opening them would be a stretch limit below
+/// zero.
+TEST(Run, LimitsOnTheWrongSideOfRestAreNone)
+{
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("c.json", with(with(chain_text(), "[12, 0]", "[17.199999, 0]"), R"("position": [6, 0, 0])",
+                                  R"("position": [8.5999995, 0, 0])"));
+  const Outcome fast = run_program(
+      {"run", file, "-o", folder / "fast", "--set", "/solver/preset=fast", "--set", "/expect=[]"});
+  EXPECT_EQ(fast.code, 1) << fast.out;
+  EXPECT_NE(
+      fast.out.find("stretch at 0 degrees: stalled: rest is nearer to the limit than the gaps that this "
+                    "schedule leaves: value -2."),
+      std::string::npos)
+      << fast.out;
+  const Outcome accurate = run_program({"run", file, "-o", folder / "accurate", "--set", "/expect=[]"});
+  EXPECT_EQ(accurate.code, 0) << accurate.out;
+  EXPECT_NEAR(number_at(read_results(folder / "accurate"), "/limits/0/value"), 17.2 / 17.199999 - 1.0, 1e-8);
+}
+
 TEST(Run, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

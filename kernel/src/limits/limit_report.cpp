@@ -17,6 +17,13 @@ constexpr double unbalanced = 3e-5;
 /// States closer than this in value, invariants of the strain and height are one.
 constexpr double same_state = 1e-5;
 
+/// Listed forces that miss the load by more than this part of it hold no locked state. Rounding of gaps
+/// leaves up to 3e-5; `arc` lists resultants, whose wrench is off by a multiple of gap / L.
+constexpr double balanced = 1e-4;
+constexpr double balanced_per_gap = 100.0;
+/// Rounding of a value; what is less than rest by more is no limit.
+constexpr double wrong_side = 1e-11;
+
 std::span<const double> macro_span(const Model& m, const State& s)
 {
   return {s.macro.data(), static_cast<std::size_t>(m.macro_count)};
@@ -34,6 +41,14 @@ double z_range(const Model& m, const State& s)
     hi = std::max(hi, z);
   }
   return hi - lo;
+}
+
+/// What the listed forces may miss the load by.
+double allowed_imbalance(const LimitResult& r, double length)
+{
+  double gap = 0.0;
+  for (const ContactForce& c : r.contacts) gap = std::max(gap, c.gap / length);
+  return balanced + (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
 }
 
 /// Poses in file units; their mean position is that of the rest state.
@@ -181,6 +196,19 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   } else if (r.status == LimitStatus::locked && !(*r.min_gap > 0.0)) {
     r.status = LimitStatus::failed;
     r.message = "surfaces overlap at the end: the collision check failed";
+  } else if (r.status == LimitStatus::locked && !(*r.force_balance <= allowed_imbalance(r, m.length))) {
+    // A flat energy is no equilibrium: where contacts merge, nearest points come and go and balance nothing.
+    r.status = LimitStatus::stalled;
+    r.message = fmt::format("contact forces miss the load by {:.1e} of it", *r.force_balance);
+    if (r.contact == "nearest") r.message += "; use contact arc or auto";
+  } else if (r.status == LimitStatus::locked &&
+             (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {
+    r.status = LimitStatus::stalled;
+    r.message = fmt::format(
+        "rest is nearer to the limit than the gaps that this schedule leaves: value {:.3g} is on the wrong "
+        "side of "
+        "rest; use preset accurate or a smaller tolerance",
+        *r.value);
   }
   return r;
 }

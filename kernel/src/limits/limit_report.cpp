@@ -12,6 +12,10 @@ namespace {
 
 /// Range in which the smallest gap is searched, L.
 constexpr double gap_range = 0.2;
+/// Listed forces of the published contact that miss the load by more than this part of it are remarked on.
+constexpr double balanced = 1e-4;
+/// A finite target whose pull falls below this part of the load has been reached.
+constexpr double driven = 1e-2;
 /// States closer than this in value, invariants of the strain and height are one.
 constexpr double same_state = 1e-5;
 
@@ -146,8 +150,17 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   const ContactEnergy e = contact_energy(m, s, stage_pairs(m, s, l.stage), l.stage.contact, request);
   for (const ContactEnergy::Point& p : e.points)
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
-  const Vector load = load_vector(m, theta, task.sense);
+  const Vector load = driving_load(s, load_vector(m, theta, task.sense), l.stage);
+  if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   r.force_balance = force_balance(m, s, load, e.points, l.stage.mu);
+  if (l.stage.contact.formulation == Formulation::published && *r.force_balance > balanced) {
+    const std::string remark = fmt::format(
+        "the fade of published contacts carries load that no contact point does: the listed forces miss it "
+        "by "
+        "{:.1e}",
+        *r.force_balance);
+    r.message = r.message.empty() ? remark : r.message + "; " + remark;
+  }
   r.contact = name_of(l.stage.contact.formulation);
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
@@ -166,6 +179,13 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                       ? "path from rest certified free of intersections"
                       : "path from rest checked for intersections at sampled points, nothing certified",
                   m.links.size(), *r.min_gap);
+  if (r.status == LimitStatus::locked && !(load.norm() > driven * load_vector(m, theta, task.sense).norm())) {
+    r.status = LimitStatus::failed;
+    r.message = fmt::format(
+        "the finite target {:g} is within reach, no contact holds the state: choose a "
+        "larger finite_target",
+        l.stage.target);
+  }
   if (!r.links_kept) {
     r.status = LimitStatus::failed;
     r.message = "a link was lost: the collision check failed";

@@ -60,6 +60,44 @@ TEST(PublishedLimits, ChainmailLocksWhereTheOtherFormulationsDo)
   }
 }
 
+/// Equation (12): the finite target holds back strains that carry no load, so the value can only be smaller;
+/// it tends to that of the load alone as the target grows.
+TEST(PublishedLimits, AFiniteTargetHoldsBackFreeStrains)
+{
+  LimitSettings settings;
+  settings.schedule.last = 1e-4;
+  const SceneSpec scene = test::chainmail(1, 1);
+  const LimitResult free = limit(scene, 90.0, Sense::positive, settings);
+  ASSERT_EQ(free.status, LimitStatus::locked) << free.message;
+  EXPECT_FALSE(free.finite_target.has_value());
+  const auto norm = [](const LimitResult& r) {
+    double n = 0.0;
+    for (const auto& [name, x] : r.macro) n += x * x;
+    return std::sqrt(n);
+  };
+  double before = 0.0;
+  for (const double target : {0.2, 1.0, 1e4}) {
+    settings.schedule.target = target;
+    const LimitResult held = limit(scene, 90.0, Sense::positive, settings);
+    ASSERT_EQ(held.status, LimitStatus::locked) << held.message;
+    EXPECT_EQ(held.finite_target, target);
+    EXPECT_LT(*held.force_balance, 1e-4);  // of the load less macro/target
+    fmt::print("target {:g}: value {:.6f}, strain {:.6f}; load alone {:.6f}, {:.6f}\n", target, *held.value,
+               norm(held), *free.value, norm(free));
+    EXPECT_GT(*held.value, before);
+    EXPECT_LT(*held.value, *free.value + 1e-9);
+    EXPECT_LT(norm(held), norm(free) + 1e-6);
+    before = *held.value;
+  }
+  EXPECT_NEAR(before, *free.value, 1e-6);
+
+  // Within reach it is no limit, and that is said.
+  settings.schedule.target = 0.05;
+  const LimitResult reached = limit(scene, 90.0, Sense::positive, settings);
+  EXPECT_EQ(reached.status, LimitStatus::failed);
+  EXPECT_NE(reached.message.find("finite target 0.05 is within reach"), std::string::npos) << reached.message;
+}
+
 /// With the paper's own searches: same chain, same period; the links are checked at the end.
 TEST(PublishedLimits, SampledSearchesLockTheChain)
 {

@@ -112,14 +112,6 @@ TEST(BadInput, Plugins)
                  "11: /load_case/plugin: 'torus_union' is a shape, not a load case");
 }
 
-TEST(BadInput, PresetsOfLaterVersions)
-{
-  expect_refused(
-      R"("accurate")", R"("paper")",
-      "12: /solver/preset: preset 'paper' is not available in this version; use fast or accurate (measure "
-      "'paper' in load_case is available with both)");
-}
-
 TEST(BadInput, DesignsThatCannotWork)
 {
   const std::string design = R"("task": "design", "design": { "quantity": "stretch",

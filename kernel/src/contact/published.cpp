@@ -147,7 +147,11 @@ class Contact {
     const Vec3 local = chart_point(*frame_.P, m_.c[0], m_.c[1]);
     p.on_p = frame_.a + local.x() * frame_.e1 + local.y() * frame_.e2 + local.z() * frame_.e3;
     p.on_f = chart_point(*frame_.F, m_.c[2], m_.c[3]);
-    p.normal = (p.on_p - p.on_f).normalized();
+    // F's outward normal: the difference of the points is rounding where the gap is small.
+    const Body& F = *frame_.F;
+    const double radial = F.r1 * std::cos(m_.c[3]);
+    p.normal =
+        Vec3(radial * std::cos(m_.c[2]), radial * std::sin(m_.c[2]), F.r0 * std::sin(m_.c[3])).normalized();
     p.gap = gap_;
     p.force = -e.g[0];
     out.points.push_back(p);

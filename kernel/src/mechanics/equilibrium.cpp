@@ -284,6 +284,11 @@ std::vector<ElementPair> stage_pairs(const Model& m, const State& s, const Stage
   return near_pairs(m, s, stage.contact.g_hat + stage.contact.clearance);
 }
 
+Vector driving_load(const State& s, const Vector& load, const Stage& stage)
+{
+  return std::isfinite(stage.target) ? Vector(load - s.macro / stage.target) : load;
+}
+
 TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, const Stage& stage,
                          const std::vector<ElementPair>& pairs, int order)
 {
@@ -295,9 +300,13 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
   t.energy = stage.mu * t.contact.energy - load.dot(s.macro);
   if (order >= 1) {
     t.gradient = stage.mu * t.contact.gradient;
-    t.gradient.head(m.macro_count) -= load;
+    t.gradient.head(m.macro_count) -= driving_load(s, load, stage);
   }
   if (order >= 2) t.hessian = stage.mu * t.contact.hessian;
+  if (std::isfinite(stage.target)) {
+    t.energy += s.macro.squaredNorm() / (2.0 * stage.target);
+    if (order >= 2) t.hessian.diagonal().head(m.macro_count).array() += 1.0 / stage.target;
+  }
   return t;
 }
 

@@ -67,6 +67,7 @@ class Path {
     Stage s;
     s.contact = {f, g_hat, m_.clearance, schedule_.search};
     s.ccd = schedule_.ccd;
+    s.target = schedule_.target;
     s.mu = schedule_.stiffness * g_hat * size_;
     s.balance = last;
     s.tolerance = last ? schedule_.last_tolerance : schedule_.tolerance;

@@ -104,6 +104,12 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
     p.decisions.emplace_back("closest points: Newton's method from samples, a minimum may be missed");
   if (settings.schedule.ccd == CollisionCheck::sampled)
     p.decisions.emplace_back("collisions: sought from samples along each step, one may be missed");
+  if (std::isfinite(settings.schedule.target)) {
+    p.decisions.push_back(fmt::format(
+        "objective: squared distance of the macroscopic unknowns to {:g} times the load; it holds back what "
+        "carries no load",
+        settings.schedule.target));
+  }
   p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
                                     settings.schedule.first, settings.schedule.last,
                                     settings.schedule.ratio));

@@ -158,8 +158,8 @@ Loaded load(const Options& options)
   stop_on_problems();
   loaded.experiment = std::move(experiment.value());
   const Experiment& e = loaded.experiment;
-  if (const std::string problem = preset_problem(e.solver.preset); !problem.empty())
-    diagnostics.problems.add(nearest_node(e.resolved, "/solver/preset"), problem);
+  for (const Problem& problem : solver_problems(e))
+    diagnostics.problems.add(nearest_node(e.resolved, problem.pointer), problem.message);
   if (!prepare_scene(loaded, diagnostics)) stop_on_problems();
 
   if (e.task == Task::stability) {
@@ -167,7 +167,7 @@ Loaded load(const Options& options)
         load_stability(*e.stability, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
     stop_on_problems();
   }
-  loaded.settings = limit_settings(e.solver);
+  loaded.settings = limit_settings(e.solver, loaded.scene, e.length_unit);
   loaded.tasks = profile_tasks(e);
   if (e.task == Task::design) {
     loaded.design = design_spec(e);

@@ -1,5 +1,7 @@
 #include "presets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,36 +13,88 @@ constexpr double fast_last = 1e-3;
 /// Below this rounding of positions would show in gaps (L).
 constexpr double least_last = 1e-11;
 
-Schedule preset_schedule(const std::string& preset)
+/// Activation distance of the paper, sqrt(d_hat) with d_hat = 1e-8 m^2: absolute. Its other thresholds have
+/// fixed proportions to d_hat (hauberk/contact/published.hpp).
+constexpr double paper_activation = 1e-4;  // metres
+/// A larger activation distance than this (L) is no contact any more.
+constexpr double largest_activation = 0.1;
+/// "A large unreachable value" is all that the paper says of its target strain.
+constexpr double paper_target = 10.0;
+
+bool sampled_points(const ExperimentSolver& solver)
+{
+  return solver.closest_points
+             ? *solver.closest_points == "sampled"
+             : solver.preset == "paper" && solver.contact != "nearest" && solver.contact != "arc";
+}
+
+double metres(const std::string& unit) { return unit == "m" ? 1.0 : unit == "mm" ? 1e-3 : 1e-6; }
+
+double paper_activation_in(const SceneSpec& scene, const std::string& unit)
+{
+  return paper_activation / (characteristic_length(scene) * metres(unit));
+}
+
+Schedule preset_schedule(const ExperimentSolver& solver, const SceneSpec& scene, const std::string& unit)
 {
   Schedule schedule;  // accurate
-  if (preset == "fast") schedule.last = fast_last;
+  if (solver.preset == "fast") schedule.last = fast_last;
+  if (solver.preset == "paper") {
+    schedule.first = schedule.last = paper_activation_in(scene, unit);
+    schedule.ccd = CollisionCheck::sampled;
+    schedule.target = paper_target;
+  }
+  if (solver.ccd)
+    schedule.ccd = *solver.ccd == "sampled" ? CollisionCheck::sampled : CollisionCheck::certified;
+  if (sampled_points(solver)) schedule.search = MinimaSearch::sampled;
+  if (solver.finite_target) schedule.target = *solver.finite_target;
   return schedule;
 }
 
-ContactChoice contact_choice(const std::string& name)
+ContactChoice contact_choice(const ExperimentSolver& solver)
 {
-  if (name == "nearest") return ContactChoice::nearest;
-  if (name == "arc") return ContactChoice::arc;
+  if (solver.contact == "nearest") return ContactChoice::nearest;
+  if (solver.contact == "arc") return ContactChoice::arc;
+  if (solver.contact == "published" || solver.preset == "paper") return ContactChoice::published;
   return ContactChoice::automatic;
 }
 
 }  // namespace
 
-std::string preset_problem(const std::string& preset)
+std::vector<Problem> solver_problems(const Experiment& e)
 {
-  if (preset == "paper")
-    return "preset 'paper' is not available in this version; use fast or accurate (measure 'paper' in "
-           "load_case is "
-           "available with both)";
-  return {};
+  const ExperimentSolver& solver = e.solver;
+  std::vector<Problem> out;
+  if (solver.preset == "paper") {
+    if (e.task == Task::design) {
+      out.push_back(
+          {"/solver/preset", 0,
+           "preset 'paper' computes limits only in this version; use fast or accurate for a design"});
+    }
+    const double activation = paper_activation_in(e.scene, e.length_unit);
+    if (activation > largest_activation) {
+      out.push_back(
+          {"/solver/preset", 0,
+           fmt::format("the activation distance of preset 'paper' is 0.1 mm, {:.3g} times the median "
+                       "ring radius of this scene; expected at most {:g}: use fast or accurate, or "
+                       "correct length_unit",
+                       activation, largest_activation)});
+    }
+  }
+  const bool published = contact_choice(solver) == ContactChoice::published;
+  if (!published && solver.closest_points == "sampled") {
+    out.push_back(
+        {"/solver/closest_points", 0,
+         "sampled closest points belong to contact 'published'; remove this or choose that contact"});
+  }
+  return out;
 }
 
-LimitSettings limit_settings(const ExperimentSolver& solver)
+LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& scene, const std::string& unit)
 {
   LimitSettings settings;
-  settings.contact = contact_choice(solver.contact);
-  settings.schedule = preset_schedule(solver.preset);
+  settings.contact = contact_choice(solver);
+  settings.schedule = preset_schedule(solver, scene, unit);
   Schedule& schedule = settings.schedule;
   // Gaps at equilibrium are about a tenth of the activation distance, so 1 + value is as exact as the last
   // one.

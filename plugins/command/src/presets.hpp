@@ -5,15 +5,17 @@
 #include <hauberk/limits/limits.hpp>
 
 #include <string>
+#include <vector>
 
 namespace hauberk::command {
 
-/// Why a preset cannot be used, empty when it can.
-std::string preset_problem(const std::string& preset);
+/// What of the section `solver` cannot be used with this experiment (places as pointers, no lines).
+std::vector<Problem> solver_problems(const Experiment& experiment);
 
 /// Settings of limits: the preset, then what the file says beyond it (tolerance, max_stages, max_iterations,
-/// contact, starts, perturbation, start_seed).
-LimitSettings limit_settings(const ExperimentSolver& solver);
+/// contact, searches, target, starts, perturbation, start_seed). Preset paper has absolute lengths, so the
+/// unit of the scene's file counts.
+LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& scene, const std::string& unit);
 
 /// Stages used while designing: few, since the bias that they leave is reported by recomputing all limits.
 Schedule design_schedule();

@@ -38,8 +38,8 @@ std::vector<Range> ranges(const std::vector<StabilityItem>& items)
 /// The item's rest state as it would be loaded. Throws InputError when there is none.
 SceneSpec rest_of(const Experiment& e)
 {
-  if (const std::string problem = preset_problem(e.solver.preset); !problem.empty())
-    throw InputError(problem);
+  if (const std::vector<Problem> problems = solver_problems(e); !problems.empty())
+    throw InputError(problems.front().message);
   const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
   const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
   if (!wrong.empty()) throw InputError(fmt::format("{}", fmt::join(wrong, "; ")));
@@ -69,7 +69,8 @@ void solve(const StabilityItem& item, std::vector<StabilityCase>& cases)
   // One thread: items are what is done in parallel, and an item alone decides its result.
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
-  run.limits = compute_limits(model, run.scene, profile_tasks(e), limit_settings(e.solver), 1, observer);
+  run.limits = compute_limits(model, run.scene, profile_tasks(e),
+                              limit_settings(e.solver, run.scene, e.length_unit), 1, observer);
   run.profiles = profiles(run.limits, names.first, names.second);
   const std::vector<VerifyLine> lines = independent_check(run, write_json(e.resolved));
   for (std::size_t k = 0; k < cases.size(); ++k) enter_claim(cases[k], run.limits[k], lines[k]);

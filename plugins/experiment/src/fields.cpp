@@ -88,34 +88,50 @@ Field load_case_field()
 Field solver_field()
 {
   return with_default(
-      object("solver", "How limits are computed.",
-             {with_default(
-                  choice("preset", "Goal of the settings that are not given.", {"fast", "accurate", "paper"}),
-                  "\"accurate\""),
-              with_default(at_least(number("clearance",
-                                           "Surface distance at which surfaces count as touching.", "length"),
-                                    0.0),
-                           "0"),
-              with_default(choice("contact", "Contact formulation.", {"auto", "nearest", "arc"}), "\"auto\""),
-              with_default(at_least(integer("starts", "Perturbed starts per limit."), 1), "1"),
-              with_default(
-                  at_least(number("perturbation",
-                                  "Size of the random displacement of the first start, in characteristic "
-                                  "lengths and radians; further starts take at least 0.1.",
-                                  "1"),
-                           0.0),
-                  "0.01"),
-              seed_field("start_seed", "Seed of the first perturbed start; absent: seed."),
-              at_least(integer("max_stages", "Most stages of falling stiffness; absent: as the preset says."),
-                       1),
-              at_least(integer("max_iterations",
-                               "Most Newton steps of one stage in which the energy does not fall noticeably; "
-                               "absent: as the "
-                               "preset says."),
-                       1),
-              at_least(number("tolerance",
-                              "Relative error of 1 + value to reach; absent: as the preset says.", "1"),
-                       0.0, true)}),
+      object(
+          "solver", "How limits are computed.",
+          {with_default(
+               choice("preset", "Goal of the settings that are not given.", {"fast", "accurate", "paper"}),
+               "\"accurate\""),
+           with_default(at_least(number("clearance", "Surface distance at which surfaces count as touching.",
+                                        "length"),
+                                 0.0),
+                        "0"),
+           with_default(
+               choice("contact", "Contact formulation; auto: arc, then nearest, with preset paper published.",
+                      {"auto", "nearest", "arc", "published"}),
+               "\"auto\""),
+           choice("closest_points",
+                  "How closest points of contact published are found: certified, or from samples; absent: "
+                  "as the preset says.",
+                  {"certified", "sampled"}),
+           choice("ccd",
+                  "Collision check along steps: certified, or from samples; absent: as the preset says.",
+                  {"certified", "sampled"}),
+           at_least(number("finite_target",
+                           "T of the published objective, half the squared distance of the macroscopic "
+                           "unknowns to T times the load; absent: as the preset says.",
+                           "1"),
+                    0.0, true),
+           with_default(at_least(integer("starts", "Perturbed starts per limit."), 1), "1"),
+           with_default(
+               at_least(number("perturbation",
+                               "Size of the random displacement of the first start, in characteristic "
+                               "lengths and radians; further starts take at least 0.1.",
+                               "1"),
+                        0.0),
+               "0.01"),
+           seed_field("start_seed", "Seed of the first perturbed start; absent: seed."),
+           at_least(integer("max_stages", "Most stages of falling stiffness; absent: as the preset says."),
+                    1),
+           at_least(integer("max_iterations",
+                            "Most Newton steps of one stage in which the energy does not fall noticeably; "
+                            "absent: as the "
+                            "preset says."),
+                    1),
+           at_least(
+               number("tolerance", "Relative error of 1 + value to reach; absent: as the preset says.", "1"),
+               0.0, true)}),
       "{}");
 }
 

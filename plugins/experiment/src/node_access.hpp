@@ -32,6 +32,12 @@ inline bool boolean_or(const Node& section, std::string_view key, bool otherwise
   return node != nullptr && node->is(Node::Type::boolean) ? node->boolean : otherwise;
 }
 
+inline std::optional<std::string> optional_string(const Node& section, std::string_view key)
+{
+  const Node* node = section.find(key);
+  return node != nullptr && node->is(Node::Type::string) ? std::optional(node->string) : std::nullopt;
+}
+
 inline std::optional<double> optional_number(const Node& section, std::string_view key)
 {
   const Node* node = section.find(key);

@@ -87,6 +87,8 @@ double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
   const Vec3 t = load(limit.measure, limit.direction_deg);
   Residual residual;
   residual.strain = limit.sense == "compress" ? Vec3(-t) : t;
+  if (limit.finite_target)
+    residual.strain -= Vec3(limit.macro->exx, limit.macro->eyy, limit.macro->exy) / *limit.finite_target;
   residual.force.assign(limit.poses.size(), Vec3::Zero());
   residual.torque.assign(limit.poses.size(), Vec3::Zero());
   for (const Contact& contact : limit.contacts) {

@@ -79,6 +79,8 @@ struct Limit {
   double direction_deg = 0.0;
   std::string sense, measure, status, contact;
   std::optional<double> value, line_stretch, min_gap, force_balance;
+  /// T of the objective 1/2 |strain - T load|^2; none: the load is constant.
+  std::optional<double> finite_target;
   std::optional<Strain> macro;
   bool links_kept = false;
   std::vector<Start> starts;

@@ -160,6 +160,8 @@ Limit read_limit(const json::value& limit, const std::string& where)
   out.line_stretch = optional_number(limit, "line_stretch", where);
   out.min_gap = optional_number(limit, "min_gap", where);
   out.force_balance = optional_number(limit, "force_balance", where);
+  if (limit.is_object() && limit.get_object().contains("finite_target"))
+    out.finite_target = number(member(limit, "finite_target", where), where + "/finite_target");
   const json::value& kept = member(limit, "links_kept", where);
   if (!kept.is_bool()) throw Malformed(where + "/links_kept: true or false expected");
   out.links_kept = kept.get_bool();

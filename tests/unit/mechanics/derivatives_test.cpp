@@ -1,7 +1,7 @@
 /// Derivatives of the contact energy in all unknowns and parameters, for every formulation and all pairs of
 /// primitive kinds: central differences at several step sizes must converge with second order.
 
-#include <hauberk/mechanics/contact_energy.hpp>
+#include <hauberk/mechanics/equilibrium.hpp>
 
 #include "scenes.hpp"
 
@@ -159,6 +159,37 @@ TEST_P(Derivatives, ParametersAndClearance)
     error[static_cast<std::size_t>(j)] = std::abs(d - e.d_clearance);
   }
   expect_second_order(error, std::abs(e.d_clearance), 5e-6);
+}
+
+/// Energy, gradient and Hessian of the published objective in the macroscopic unknowns: quadratic, so central
+/// differences are exact but for rounding.
+TEST(Objective, FiniteTarget)
+{
+  const Sheet load(3);
+  const Model m = make_model(chain({5, 0.7, 0.7}, {4.6, 0.7, 0.7}, 15.5), load, 0.0);
+  Stage stage;
+  stage.contact = {Formulation::nearest, 1e-6, 0.0};  // nothing touches
+  stage.target = 3.0;
+  State s = rest_state(m);
+  s.macro << 0.02, -0.01, 0.03;
+  const Vector t = Eigen::Vector3d(0.7, 0.2, -0.4);
+  const TotalEnergy e = total_energy(m, s, t, stage, {}, 2);
+  // 1/2 |macro - T t|^2 / T without 1/2 T |t|^2.
+  EXPECT_NEAR(e.energy, 0.5 * (s.macro - 3.0 * t).squaredNorm() / 3.0 - 1.5 * t.squaredNorm(), 1e-15);
+  for (int k = 0; k < 3; ++k) {
+    const double h = 1e-3;
+    State p = s, q = s;
+    p.macro[k] += h;
+    q.macro[k] -= h;
+    const double a = total_energy(m, p, t, stage, {}, 0).energy,
+                 b = total_energy(m, q, t, stage, {}, 0).energy;
+    EXPECT_NEAR(e.gradient[k], (a - b) / (2 * h), 1e-12);
+    EXPECT_NEAR(e.hessian(k, k), (a - 2 * e.energy + b) / (h * h), 1e-8);
+    EXPECT_NEAR(e.gradient[k], -driving_load(s, t, stage)[k], 1e-15);
+  }
+  stage.target = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(driving_load(s, t, stage), t);
+  EXPECT_EQ(total_energy(m, s, t, stage, {}, 0).energy, -t.dot(s.macro));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,5 +1,6 @@
 #pragma once
-/// Minimisation of E(y) = -load . macro + mu contact(y) at fixed stiffness, without passing through anything.
+/// Minimisation of E(y) = -load . macro + mu contact(y), or of the published objective, at fixed stiffness,
+/// without passing through anything.
 
 #include <hauberk/mechanics/contact_energy.hpp>
 #include <hauberk/motion/advancement.hpp>
@@ -14,6 +15,9 @@ struct Stage {
   ContactSettings contact;
   double mu = 0.0;  ///< E has the unit of the value
   CollisionCheck ccd = CollisionCheck::certified;
+  /// T of the published objective (paper equations (12) and (14)), 1/2 |macro - T load|^2: divided by T and
+  /// without its constant, -load . macro + |macro|^2/(2 T). Infinite: the load alone.
+  double target = std::numeric_limits<double>::infinity();
   bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
   double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
@@ -48,7 +52,11 @@ using KeepGoing = std::function<bool()>;
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going);
 
-/// -load . macro + mu contact, with derivatives as asked.
+/// What drives the macroscopic unknowns in a state: the load, less macro/T where the target is finite. At an
+/// equilibrium the contact forces balance it.
+Vector driving_load(const State& state, const Vector& load, const Stage& stage);
+
+/// -load . macro (+ |macro|^2/(2 T)) + mu contact, with derivatives as asked.
 struct TotalEnergy {
   double energy = 0.0;
   Vector gradient;

@@ -28,6 +28,8 @@ struct Schedule {
   int most_iterations = 300;  ///< of a stage without noticeable decrease
   CollisionCheck ccd = CollisionCheck::certified;
   MinimaSearch search = MinimaSearch::certified;  ///< of contact `published`
+  /// Finite target of the published objective, see Stage; infinite: the load alone.
+  double target = std::numeric_limits<double>::infinity();
 };
 
 /// One finished stage.

@@ -24,9 +24,11 @@ enum class Task { limits, design, stability };
 
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
-  std::string preset;      ///< "fast", "accurate", "paper"
-  double clearance = 0.0;  ///< file units
-  std::string contact;     ///< "auto", "nearest", "arc"
+  std::string preset;                              ///< "fast", "accurate", "paper"
+  double clearance = 0.0;                          ///< file units
+  std::string contact;                             ///< "auto", "nearest", "arc", "published"
+  std::optional<std::string> closest_points, ccd;  ///< "certified", "sampled"
+  std::optional<double> finite_target;
   int starts = 1;
   double perturbation = 0.0;  ///< characteristic lengths and radians
   std::uint64_t start_seed = 1;

@@ -113,12 +113,9 @@ TEST(StabilityRun, MistakesOfFormAreBadInput)
       with(map_text(), R"("/solver/contact": "nearest")", R"("/solver/contact": "nearst")");
   const Outcome o = run_program({"run", folder.write("map.json", text), "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(
-      o.err.find(
-          "family 'thickness', member '0.7', method 'fast': expected one of auto, nearest, arc, published, "
-          "found 
-          "\"nearst\"; did you mean 'nearest'?"),
-      std::string::npos)
+  EXPECT_NE(o.err.find("family 'thickness', member '0.7', method 'fast': expected one of auto, nearest, arc, "
+                       "published, found \"nearst\"; did you mean 'nearest'?"),
+            std::string::npos)
       << o.err;
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }

@@ -42,4 +42,7 @@ struct SceneSpec {
 /// Median ring radius R over all primitives of the scene, file units.
 double characteristic_length(const SceneSpec& spec);
 
+/// Smallest half-axis r0, r1 of a tube over all primitives of the scene, file units; infinite without any.
+double thinnest_tube(const SceneSpec& spec);
+
 }  // namespace hauberk

@@ -150,8 +150,10 @@ class ArcIntegral {
     }
   }
 
-  /// One resultant for each contact zone: nodes are taken by falling force and join the zone whose seed is
-  /// within a few widths sqrt(2 r g_hat) of a zone; the resultant acts at the force-weighted mean point.
+  /// One resultant for each contact zone: nodes are taken by falling force and join the first zone near whose
+  /// seed they lie: within a few widths sqrt(2 r g_hat), and no further than g_hat from the plane in which it
+  /// touches. Where surfaces conform, a zone bends around a tube and is cut into as many as that takes: a
+  /// single resultant would act at a point far from both surfaces.
   void cluster()
   {
     std::stable_sort(nodes_.begin(), nodes_.end(),
@@ -166,7 +168,10 @@ class ArcIntegral {
     for (const ContactPoint& c : nodes_) {
       Zone* home = nullptr;
       for (Zone& z : zones) {
-        if ((z.seed.on_f - c.on_f).norm() < width && z.seed.normal.dot(c.normal) > 0.0) {
+        const Vec3 along_f = c.on_f - z.seed.on_f, along_p = c.on_p - z.seed.on_p;
+        const double bow =
+            std::max(std::abs(along_f.dot(z.seed.normal)), std::abs(along_p.dot(z.seed.normal)));
+        if (along_f.norm() < width && bow < settings_.g_hat && z.seed.normal.dot(c.normal) > 0.0) {
           home = &z;
           break;
         }
@@ -186,8 +191,10 @@ class ArcIntegral {
       ContactPoint c = z.seed;
       c.force = z.force.norm();
       c.normal = z.force / c.force;
-      c.on_p = z.on_p / z.weight;
+      // Mean points lie inside where the zone bows; along its line of action a force may be moved.
       c.on_f = z.on_f / z.weight;
+      c.on_f -= field_at(*frame_.F, c.on_f).m.phi * c.normal;
+      c.on_p = c.on_f + (c.gap + settings_.clearance) * c.normal;
       out_.points.push_back(c);
     }
   }

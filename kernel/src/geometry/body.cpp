@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace hauberk {
@@ -36,6 +37,16 @@ double characteristic_length(const SceneSpec& spec)
   const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   return *middle;
+}
+
+double thinnest_tube(const SceneSpec& spec)
+{
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const PlacedElement& e : spec.elements) {
+    for (const Primitive& p : spec.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters))
+      thinnest = std::min({thinnest, p.r0(), p.r1()});
+  }
+  return thinnest;
 }
 
 }  // namespace hauberk

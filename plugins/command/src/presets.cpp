@@ -10,6 +10,8 @@ namespace {
 
 /// Last activation distance of preset fast, L.
 constexpr double fast_last = 1e-3;
+/// Contacts that are farther apart than tubes are thick have no direction of their own.
+constexpr double fast_last_tubes = 0.25;
 /// Below this rounding of positions would show in gaps (L).
 constexpr double least_last = 1e-11;
 
@@ -38,7 +40,9 @@ double paper_activation_in(const SceneSpec& scene, const std::string& unit)
 Schedule preset_schedule(const ExperimentSolver& solver, const SceneSpec& scene, const std::string& unit)
 {
   Schedule schedule;  // accurate
-  if (solver.preset == "fast") schedule.last = fast_last;
+  if (solver.preset == "fast")
+    schedule.last =
+        std::min(fast_last, fast_last_tubes * thinnest_tube(scene) / characteristic_length(scene));
   if (solver.preset == "paper") {
     schedule.first = schedule.last = paper_activation_in(scene, unit);
     schedule.ccd = CollisionCheck::sampled;

@@ -1,6 +1,7 @@
 #include "limit_report.hpp"
 
 #include <hauberk/limits/limits.hpp>
+#include <hauberk/mechanics/gaps.hpp>
 
 namespace hauberk {
 namespace {
@@ -8,6 +9,14 @@ namespace {
 std::span<const double> macro_span(const Model& m, const State& s)
 {
   return {s.macro.data(), static_cast<std::size_t>(m.macro_count)};
+}
+
+/// A locked start whose path did not pass through anything. Certified paths do not; sampled ones may.
+bool sound(const Model& m, const Locked& l, const Schedule& schedule)
+{
+  if (l.status != LockStatus::locked) return false;
+  return schedule.ccd == CollisionCheck::certified ||
+         (links_kept(m, l.state) && smallest_gap(m, l.state, schedule.last) > 0.0);
 }
 
 }  // namespace
@@ -34,15 +43,17 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
 {
   const double theta = task.direction_deg * degree;
   constexpr double same_value = 1e-9;  // a further start must be further by more than rounding
-  // The best locked state; if none locked, the first start tells what happened.
+  // The best sound locked state; if there is none, the first start tells what happened.
   const auto value_of = [&](const Locked& l) {
     const double v = m.load->value(theta, macro_span(m, l.state));
     return task.sense == Sense::positive ? v : -v;
   };
   std::size_t best = 0;
   bool any = false;
+  std::vector<bool> usable;
+  for (const Locked& l : starts) usable.push_back(sound(m, l, settings.schedule));
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (starts[k].status != LockStatus::locked) continue;
+    if (!usable[k]) continue;
     if (!any || value_of(starts[k]) > value_of(starts[best]) + same_value) best = k;
     any = true;
   }
@@ -50,7 +61,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
   for (std::size_t k = 0; k < starts.size(); ++k) {
     r.iterations += k == best ? 0 : starts[k].iterations;
     r.evaluations += k == best ? 0 : starts[k].evaluations;
-    if (starts[k].status == LockStatus::locked) {
+    if (usable[k]) {
       add_start(r.starts, m, task, starts[k], settings.seed + static_cast<std::uint64_t>(k));
     }
   }

@@ -49,13 +49,8 @@ class Path {
 
   Locked run()
   {
-    double g_hat = schedule_.first;
-    for (;;) {
-      const bool last = g_hat * schedule_.ratio < schedule_.last * 0.999;
-      if (!stage(g_hat, last)) return std::move(out_);
-      if (last) break;
-      g_hat *= schedule_.ratio;
-    }
+    for (const double g_hat : activation_distances(schedule_))
+      if (!stage(g_hat, g_hat == schedule_.last)) return std::move(out_);
     out_.status = LockStatus::locked;
     out_.error_estimate = estimate_error(out_.stages, schedule_.ratio);
     return std::move(out_);
@@ -126,7 +121,6 @@ class Path {
     StageRecord record;
     record.g_hat = g_hat;
     record.value = load_.dot(out_.state.macro);
-    record.estimate = -r.energy;
     record.formulation = f;
     record.iterations = r.iterations;
     record.residual = r.residual;
@@ -176,6 +170,15 @@ class Path {
 };
 
 }  // namespace
+
+std::vector<double> activation_distances(const Schedule& s)
+{
+  std::vector<double> out{s.last};
+  // Slack for the rounding of powers.
+  while (out.back() / s.ratio <= s.first * 1.001) out.push_back(out.back() / s.ratio);
+  std::reverse(out.begin(), out.end());
+  return out;
+}
 
 Vector load_vector(const Model& m, double theta, Sense sense)
 {

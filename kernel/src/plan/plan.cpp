@@ -111,7 +111,7 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
         settings.schedule.target));
   }
   p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
-                                    settings.schedule.first, settings.schedule.last,
+                                    activation_distances(settings.schedule).front(), settings.schedule.last,
                                     settings.schedule.ratio));
 }
 

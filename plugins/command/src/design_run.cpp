@@ -1,6 +1,7 @@
 #include "design_run.hpp"
 #include "interrupt.hpp"
 #include "limits_run.hpp"
+#include "presets.hpp"
 #include "tapped_optimizer.hpp"
 
 #include <algorithm>
@@ -65,7 +66,9 @@ class DesignRun {
                                   std::vector<LimitTask> tasks, const LimitsSink& sink)
   {
     const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
-    LimitsJob job{&model, &scene, std::move(tasks), loaded_.settings, experiment_.load_case_plugin, threads_,
+    // Of this scene: a design may have made tubes thinner.
+    const LimitSettings settings = limit_settings(experiment_.solver, scene, experiment_.length_unit);
+    LimitsJob job{&model, &scene, std::move(tasks), settings, experiment_.load_case_plugin, threads_,
                   label,  {}};
     std::vector<LimitResult> out = run_limits(job, progress_, sink);
     progress_.clear();

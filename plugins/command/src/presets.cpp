@@ -63,6 +63,25 @@ ContactChoice contact_choice(const ExperimentSolver& solver)
   return ContactChoice::automatic;
 }
 
+/// Why preset paper, whose lengths are absolute, makes no sense for a scene; else empty.
+std::string paper_problem(const SceneSpec& scene, const std::string& unit)
+{
+  const double length = characteristic_length(scene), activation = paper_activation_in(scene, unit);
+  if (activation > largest_activation || activation < least_last) {
+    return fmt::format(
+        "the activation distance of preset 'paper' is 0.1 mm, {:.3g} times the median ring radius of this "
+        "scene; expected {:g} .. {:g}: use fast or accurate, or correct length_unit",
+        activation, least_last, largest_activation);
+  }
+  if (const double thinnest = thinnest_tube(scene) / length; thinnest < activation) {
+    return fmt::format(
+        "the activation distance of preset 'paper' is 0.1 mm, but the thinnest tube has a half-axis of "
+        "{:.3g} mm: contacts would act through it; use fast or accurate, or correct length_unit",
+        thinnest * length * metres(unit) * 1e3);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<Problem> solver_problems(const Experiment& e)
@@ -75,15 +94,17 @@ std::vector<Problem> solver_problems(const Experiment& e)
           {"/solver/preset", 0,
            "preset 'paper' computes limits only in this version; use fast or accurate for a design"});
     }
-    const double activation = paper_activation_in(e.scene, e.length_unit);
-    if (activation > largest_activation) {
-      out.push_back(
-          {"/solver/preset", 0,
-           fmt::format("the activation distance of preset 'paper' is 0.1 mm, {:.3g} times the median "
-                       "ring radius of this scene; expected at most {:g}: use fast or accurate, or "
-                       "correct length_unit",
-                       activation, largest_activation)});
-    }
+    const std::string problem = paper_problem(e.scene, e.length_unit);
+    if (!problem.empty()) out.push_back({"/solver/preset", 0, problem});
+  } else if (e.task == Task::design) {
+    // Its search takes certified steps under a constant load.
+    const auto refuse = [&out](const char* key) {
+      out.push_back({fmt::format("/solver/{}", key), 0,
+                     fmt::format("{} is for limits only in this version; remove it from a design", key)});
+    };
+    if (solver.finite_target) refuse("finite_target");
+    if (solver.ccd == "sampled") refuse("ccd");
+    if (solver.closest_points == "sampled") refuse("closest_points");
   }
   const bool published = contact_choice(solver) == ContactChoice::published;
   if (!published && solver.closest_points == "sampled") {

@@ -223,10 +223,11 @@ Field experiment_fields()
        with_default(choice("task", "What is computed. This version does limits, design and stability.",
                            {"limits", "design", "sweep", "chart", "stability"}),
                     "\"limits\""),
-       with_default(
-           choice("length_unit", "What lengths in this file mean; a label in everything that is written.",
-                  {"m", "mm", "um"}),
-           "\"mm\""),
+       with_default(choice("length_unit",
+                           "What lengths in this file mean; a label in everything that is written, and "
+                           "what preset paper, whose lengths are absolute, converts by.",
+                           {"m", "mm", "um"}),
+                    "\"mm\""),
        with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(), cell_field(),
        load_case_field(), solver_field(), design_field(), stability_field(), expect_field()});
 }

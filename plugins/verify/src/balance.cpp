@@ -82,13 +82,20 @@ double line_stretch(double direction_deg, const Strain& macro)
   return (macro.deformation() * Vec3(std::cos(theta), std::sin(theta), 0.0)).norm() - 1.0;
 }
 
+Vec3 driving_load(const Limit& limit)
+{
+  const Vec3 t = load(limit.measure, limit.direction_deg);
+  Vec3 out = limit.sense == "compress" ? Vec3(-t) : t;
+  if (limit.finite_target)
+    out -= Vec3(limit.macro->exx, limit.macro->eyy, limit.macro->exy) / *limit.finite_target;
+  return out;
+}
+
 double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
 {
   const Vec3 t = load(limit.measure, limit.direction_deg);
   Residual residual;
-  residual.strain = limit.sense == "compress" ? Vec3(-t) : t;
-  if (limit.finite_target)
-    residual.strain -= Vec3(limit.macro->exx, limit.macro->eyy, limit.macro->exy) / *limit.finite_target;
+  residual.strain = driving_load(limit);
   residual.force.assign(limit.poses.size(), Vec3::Zero());
   residual.torque.assign(limit.poses.size(), Vec3::Zero());
   for (const Contact& contact : limit.contacts) {

@@ -10,7 +10,10 @@ double value(const std::string& measure, double direction_deg, const Strain& mac
 /// |F n| - 1.
 double line_stretch(double direction_deg, const Strain& macro);
 
-/// Largest component of the imbalance s t + sum_k f_k dg_k/dy over the norm of t.
+/// What drives the strain in a limit's state: s t, less strain/T where there is a finite target T.
+Vec3 driving_load(const Limit& limit);
+
+/// Largest component of the imbalance driving_load + sum_k f_k dg_k/dy over the norm of t.
 ///
 /// Unknowns y: exx, eyy, exy; of each element u with x = F (X + T) + u for it and all its images T, scaled by
 /// L, and a rotation exp(w) about its origin. With the gap's normal n from the first element (point P, origin

@@ -15,6 +15,9 @@ namespace {
 
 /// Pairs whose bounding spheres are farther apart than this many L are not searched.
 constexpr double search_margin = 1.0;
+/// A finite target that leaves no more than this part of the load is reached: nothing needs to hold the
+/// state.
+constexpr double least_drive = 1e-2;
 
 std::vector<Place> rest_places(const Scene& scene)
 {
@@ -64,6 +67,9 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
   }
   if (limit.status == "locked" && !(found <= allowed))
     problems.push_back(fmt::format("forces miss the load by {:.3g}, {:.3g} allowed", found, allowed));
+  const double driven = driving_load(limit).norm() / load(limit.measure, limit.direction_deg).norm();
+  if (limit.status == "locked" && !(driven > least_drive))
+    problems.push_back(fmt::format("the finite target is reached: {:.3g} of the load is left", driven));
   if (!limit.force_balance)
     problems.push_back("force_balance is missing");
   else if (!(std::abs(*limit.force_balance - found) <= tolerances.balance_agreement))

@@ -95,16 +95,25 @@ Vector projected(const Vector& wanted, const std::vector<GapRow>& rows, double r
   return e;
 }
 
-double value_along(const Vec3& load, const MovedState& state)
-{
-  return load.dot(Vec3(state.macro.exx, state.macro.eyy, state.macro.exy));
-}
+Vec3 strains(const MovedState& state) { return {state.macro.exx, state.macro.eyy, state.macro.exy}; }
+
+/// What the solver maximises: load . strain, less |strain|^2/(2 T) where there is a finite target.
+struct Objective {
+  Vec3 load;
+  double softness = 0.0;  ///< 1/T
+
+  double value(const MovedState& state) const
+  {
+    return load.dot(strains(state)) - 0.5 * softness * strains(state).squaredNorm();
+  }
+  Vec3 gradient(const MovedState& state) const { return load - softness * strains(state); }
+};
 
 /// From a kicked state to a nearby one with gaps >= 0 that is as far as a few steps go; nothing when it does
 /// not get there.
 std::optional<MovedState> brought_back(const Scene& scene, const Setting& setting,
                                        const std::vector<Link>& links_here, MovedState state,
-                                       const Vec3& load, double kick)
+                                       const Objective& objective, double kick)
 {
   constexpr int steps = 12;
   constexpr double room = 1e-9;     // L, so that rounding leaves no intersection
@@ -115,7 +124,7 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
     const std::vector<GapRow> rows = all_rows(scene, setting, state, range);
     Vector wanted = Vector::Zero(unknowns(scene));
     // First on along the load, then only what makes room.
-    if (k < steps) wanted.head<3>() = pull * load / load.norm();
+    if (k < steps) wanted.head<3>() = pull * objective.gradient(state) / objective.load.norm();
     const Vector e = projected(wanted, rows, room);
     if (e.cwiseAbs().maxCoeff() > 10.0 * kick) return std::nullopt;
     state = moved(scene, setting, state, e);
@@ -134,16 +143,18 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
 std::optional<Further> further_nearby(const Scene& scene, const Setting& setting, const Limit& limit)
 {
   const Vec3 t = load(limit.measure, limit.direction_deg);
-  const Vec3 signed_load = limit.sense == "compress" ? Vec3(-t) : t;
+  const Objective objective{limit.sense == "compress" ? Vec3(-t) : t,
+                            limit.finite_target ? 1.0 / *limit.finite_target : 0.0};
   const MovedState here{*limit.macro, limit.poses};
   double closing = 0.0;
   for (const Contact& contact : limit.contacts) closing += contact.force * std::max(0.0, contact.gap);
-  const double threshold = value_along(signed_load, here) + 2.0 * closing + least_gain * t.norm();
+  const double threshold = objective.value(here) + 2.0 * closing + least_gain * t.norm();
 
   const std::vector<Link> links_here = links(scene, here.places, here.macro.deformation());
   const Matrix z = free_directions(scene, setting, limit, here);
   if (z.cols() == 0) return std::nullopt;
-  const Matrix w = curvature(scene, setting, limit, here);
+  Matrix w = curvature(scene, setting, limit, here);
+  w.diagonal().head<3>().array() -= objective.softness;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(z.transpose() * w * z);
   for (Eigen::Index k = 1; k <= std::min<Eigen::Index>(most_directions, z.cols()); ++k) {
     if (!(eigen.eigenvalues()[z.cols() - k] > noise * t.norm())) break;
@@ -152,9 +163,9 @@ std::optional<Further> further_nearby(const Scene& scene, const Setting& setting
     for (const double kick : kicks)
       for (const double way : {1.0, -1.0}) {
         const auto there = brought_back(scene, setting, links_here,
-                                        moved(scene, setting, here, way * kick * d), signed_load, kick);
-        if (there && value_along(signed_load, *there) > threshold)
-          return Further{value_along(signed_load, *there) - threshold, kick};
+                                        moved(scene, setting, here, way * kick * d), objective, kick);
+        if (there && objective.value(*there) > threshold)
+          return Further{objective.value(*there) - threshold, kick};
       }
   }
   return std::nullopt;

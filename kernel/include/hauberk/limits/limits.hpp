@@ -68,9 +68,8 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,
                                    const std::string& negative);
 
-/// Largest component of (load - sum of forces times gap derivatives) over the load's norm, from listed
-/// contacts alone.
-double force_balance(const Model& model, const State& state, const Vector& load,
-                     const std::vector<ContactEnergy::Point>& points, double mu);
+/// Largest component of load + sum of forces times gap derivatives, from listed contacts alone.
+double force_imbalance(const Model& model, const State& state, const Vector& load,
+                       const std::vector<ContactEnergy::Point>& points, double mu);
 
 }  // namespace hauberk

@@ -16,7 +16,8 @@ enum class ContactChoice {
   published  ///< the paper's, in every stage
 };
 
-/// Stages g_hat = first, first * ratio, ... down to last (lengths in L), mu = stiffness * g_hat * |load|.
+/// Stages g_hat = last / ratio^n, ..., last / ratio, last, the first of them the largest that is not above
+/// `first` (lengths in L), mu = stiffness * g_hat * |load|.
 struct Schedule {
   double first = 0.03;
   double ratio = 0.1;
@@ -32,9 +33,12 @@ struct Schedule {
   double target = std::numeric_limits<double>::infinity();
 };
 
+/// Activation distances of a schedule's stages, falling.
+std::vector<double> activation_distances(const Schedule& schedule);
+
 /// One finished stage.
 struct StageRecord {
-  double g_hat = 0.0, value = 0.0, estimate = 0.0;  ///< estimate = -E, value minus contact energy
+  double g_hat = 0.0, value = 0.0;
   Formulation formulation = Formulation::arc;
   int iterations = 0;
   double residual = 0.0;

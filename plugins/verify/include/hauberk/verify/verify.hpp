@@ -61,7 +61,8 @@ struct VerifyReport {
 /// - linking numbers of all pairs of core circles, image by image, equal at rest and at the limit;
 /// - force balance: s t + sum_k f_k dg_k/dy = 0 for all unknowns y (in-plane strains, positions, rotations),
 /// where
-///   t = d value / d strain, s = +1 for stretch and -1 for compress, normals point from the first element to
+///   t = d value / d strain, s = +1 for stretch and -1 for compress (less strain/T where the
+///   objective had a finite target T), normals point from the first element to
 ///   the second, so that the first is pushed by -f n and the second by +f n;
 /// - value, companions and starts are what macro says; F is positive definite; the mean translation is
 /// rest's;

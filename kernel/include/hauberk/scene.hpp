@@ -28,6 +28,7 @@ struct PlacedElement {
   int type = 0;
   std::vector<double> parameters;  ///< of its shape, in the shape's order
   Pose rest;
+  int copy_of = -1;  ///< the element that `repeat` made a translated copy of; -1: none
 };
 
 /// Everything that says what is simulated. Lengths in file units.

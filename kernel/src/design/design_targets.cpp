@@ -36,7 +36,7 @@ Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
   }
   for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
     const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
-    loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed), schedule_);
+    loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
   }
   if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) return loose;
   for (std::size_t j = warm.size(); j-- > 1;) {

@@ -31,7 +31,7 @@ class Normal {
 
 }  // namespace
 
-State perturbed(const Model& m, const State& from, double size, std::uint64_t seed)
+State perturbed(const Model& m, const State& from, double size, std::uint64_t seed, Copies copies)
 {
   State s = from;
   if (size <= 0.0) return s;
@@ -40,6 +40,11 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
   for (int k = 0; k < count; ++k) {
     Vector dy = Vector::Zero(m.dofs());
     for (int i = 0; i < m.element_count(); ++i) {
+      const int source = m.source[static_cast<std::size_t>(i)];
+      if (copies == Copies::alike && source != i) {
+        dy.segment(m.offset(i), m.element_dofs()) = dy.segment(m.offset(source), m.element_dofs());
+        continue;
+      }
       const Mat3& Q = m.rest[static_cast<std::size_t>(i)].rotation;
       const Vec3 u = Q * normal.vector(), w = Q * normal.vector();
       dy.segment(m.offset(i), m.coordinate_count) = size * u.head(m.coordinate_count);
@@ -54,8 +59,12 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
 Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettings& settings, int start,
                         const KeepGoing& keep_going)
 {
-  const double size = start == 0 ? settings.perturbation : settings.further_perturbation;
-  const State from = perturbed(m, rest_state(m), size, settings.seed + static_cast<std::uint64_t>(start));
+  bool repeated = false;
+  for (int i = 0; i < m.element_count(); ++i) repeated |= m.source[static_cast<std::size_t>(i)] != i;
+  const bool small = start == 0 || (start == 1 && repeated && settings.perturbation > 0.0);
+  const State from = perturbed(
+      m, rest_state(m), small ? settings.perturbation : settings.further_perturbation,
+      settings.seed + static_cast<std::uint64_t>(start), start == 0 ? Copies::alike : Copies::apart);
   return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact,
               settings.schedule, keep_going);
 }

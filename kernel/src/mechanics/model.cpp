@@ -59,6 +59,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
     }
     m.parameter_count.push_back(static_cast<int>(e.parameters.size()));
     m.reach.push_back(reach);
+    m.source.push_back(e.copy_of >= 0 ? e.copy_of : static_cast<int>(k));
     m.rest.push_back({e.rest.position / m.length, e.rest.rotation});
     positions.push_back(m.rest.back().position);
   }

@@ -161,8 +161,10 @@ class SceneReader {
     // Element k = (j m + i) |place| + index in place.
     for (int j = 0; j < repeat[1]; ++j) {
       for (int i = 0; i < repeat[0]; ++i) {
-        for (PlacedElement element : placed) {
+        for (std::size_t k = 0; k < placed.size(); ++k) {
+          PlacedElement element = placed[k];
           element.rest.position += i * v[0] + j * v[1];
+          if (i > 0 || j > 0) element.copy_of = static_cast<int>(k);
           spec_.elements.push_back(std::move(element));
         }
       }

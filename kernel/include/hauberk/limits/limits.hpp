@@ -17,8 +17,8 @@ struct LimitSettings {
   ContactChoice contact = ContactChoice::automatic;
   Schedule schedule;
   int starts = 1;
-  double perturbation = 0.01;         ///< of the first start, L; breaks symmetries without leaving rest
-  double further_perturbation = 0.1;  ///< of further starts, L, as far as nothing collides
+  double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
+  double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
   std::uint64_t seed = 1;
 };
 
@@ -28,12 +28,20 @@ struct LimitTask {
   Sense sense = Sense::positive;
 };
 
+/// How elements that are copies of each other (PlacedElement::copy_of) are perturbed.
+enum class Copies {
+  alike,  ///< all in the same way: the repeated cell behaves like the one that it repeats
+  apart   ///< each in its own way
+};
+
 /// A state moved at random: for every element a displacement and a turn, normally distributed with
 /// standard deviation `size` (L, and radians), drawn in the element's own frame so that turning the scene
 /// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
-State perturbed(const Model& model, const State& from, double size, std::uint64_t seed);
+State perturbed(const Model& model, const State& from, double size, std::uint64_t seed, Copies copies);
 
-/// Locked state of one task from one start; start 0 is the smallest perturbation.
+/// Locked state of one task from one start. Start 0 is a small perturbation that moves copies alike, so that
+/// a repeated cell finds at least what the cell finds; where there are copies, start 1 is a small one that
+/// moves them apart, so that the repeated cell can fold; all others are large and move everything apart.
 Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,
                         const KeepGoing& keep_going);
 

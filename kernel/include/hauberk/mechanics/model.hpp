@@ -31,6 +31,7 @@ struct Model {
   std::vector<int> first_body;  ///< per element, and one past the end
   std::vector<double> reach;    ///< per element: radius about its origin that holds it
   std::vector<Pose> rest;
+  std::vector<int> source;  ///< per element: the one that it is a copy of, or itself
   std::vector<Vec3> lattice;
   std::vector<LinearInequality> walls;
   std::vector<Link> links;  ///< at rest

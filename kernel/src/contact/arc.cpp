@@ -1,5 +1,6 @@
 #include <hauberk/contact/barrier.hpp>
 #include <hauberk/contact/formulation.hpp>
+#include <hauberk/geometry/panel_bound.hpp>
 
 #include <boost/math/quadrature/gauss.hpp>
 

@@ -86,26 +86,27 @@ class PairAdvance {
     const ProbePoint q = probe.at(s.u, s.v);
     const FieldValue f = field_at(F_, q.p);
     ++count_.evaluations;
-    const double g = f.m.phi - probe.offset - clearance_;
+    const double shift = probe.offset + clearance_, g = f.m.phi - shift;
     if (g < target) return false;
-    const double d = probe.Lu * s.hu + probe.Lv * s.hv;
     const double travel = speed_ * tau;
-    if (g - d - travel >= target) return true;
+    const PanelBound b = panel_bound(probe, s, q, f);
+    if (b.bound - shift - travel >= target) return true;
 
-    const double rho = f.rho - d - travel;
-    double space = std::abs(f.n.dot(q.pu)) * s.hu;
-    double second = probe.Lu * s.hu * s.hu;
-    if constexpr (dim == 2) {
-      space += std::abs(f.n.dot(q.pv)) * s.hv;
-      second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
-    }
+    // Where a point x of the panel ends when it moves by D, |D| <= travel, the field is, with its Hessian
+    // nowhere below -1/rho,
+    //   phi(x + D) >= phi(x) + n(x) . D - |D|^2/(2 rho),
+    // and n(x) . D differs from n . D at the centre by at most |D^2 phi| d travel and, because the panel
+    // turns, by `mixed`. Or all displacements at once, from the centre.
+    const double d = b.size, rho = f.rho - d - travel;
     // Relative velocity of the material point: v + w_P x (p - o_P) - w_F x (p - o_F).
     const double rate = f.n.dot(v_ + wp_.cross(q.p - frame_.o) - wf_.cross(q.p - of_));
     const double time = std::max(0.0, -rate) * tau + 0.5 * acceleration_ * tau * tau;
     if (rho > 0.0) {
       const double mixed = angular_ * d * tau;
-      const double bend = 0.5 * (d + travel) * (d + travel) / rho;
-      if (g - space - 0.5 * second - time - mixed - bend >= target) return true;
+      const double after = b.bound - shift - b.field.second * d * travel - 0.5 * travel * travel / rho;
+      const double space = std::abs(b.gu) * s.hu + std::abs(b.gv) * s.hv + 0.5 * panel_size(probe, s).second;
+      const double at_once = g - space - 0.5 * (d + travel) * (d + travel) / rho;
+      if (std::max(at_once, after) - time - mixed >= target) return true;
     }
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;

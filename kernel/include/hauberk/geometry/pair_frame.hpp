@@ -84,49 +84,6 @@ struct Panel {
   double u = 0.0, v = 0.0, hu = 0.0, hv = 0.0;
 };
 
-/// Lower bound of the field over a panel from its value and gradient at the centre.
-///
-/// The signed distance of a body whose profile is convex is a convex function of (rho, z), inside as well as
-/// outside, and its slope in rho is at most 1; rho itself curves by at most 1/rho along a line. So the
-/// Hessian of the field is nowhere below -1/rho (rho: distance from the body's axis), and along p(u, v), with
-/// displacement d = |p_u| hu + |p_v| hv,
-///   phi >= phi_mid - |phi_u| hu - |phi_v| hv
-///          - 1/2 (d^2/rho_min + |p_uu| hu^2 + |p_vv| hv^2 + 2 |p_uv| hu hv),   rho_min = rho_mid - d,
-/// and in any case phi >= phi_mid - d (Lipschitz constant 1).
-struct PanelBound {
-  double value;   ///< phi at the centre
-  double bound;   ///< phi over the panel is not smaller
-  double gu, gv;  ///< derivatives of phi at the centre
-};
-
-template <int dim>
-double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double rho, double gu, double gv)
-{
-  const double d = probe.Lu * s.hu + probe.Lv * s.hv;
-  const double rho_min = rho - d;
-  if (!(rho_min > 0.0)) return phi - d;
-  double slope = std::abs(gu) * s.hu;
-  double second = probe.Lu * s.hu * s.hu;
-  if constexpr (dim == 2) {
-    slope += std::abs(gv) * s.hv;
-    second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
-  }
-  return phi - std::min(d, slope + 0.5 * (d * d / rho_min + second));
-}
-
-template <int dim>
-PanelBound panel_bound(const Probe<dim>& probe, const Panel& s)
-{
-  const ProbePoint q = probe.at(s.u, s.v);
-  const FieldValue f = field_at(*probe.f.F, q.p);
-  PanelBound r{};
-  r.value = f.m.phi;
-  r.gu = f.n.dot(q.pu);
-  if constexpr (dim == 2) r.gv = f.n.dot(q.pv);
-  r.bound = taylor_bound(probe, s, r.value, f.rho, r.gu, r.gv);
-  return r;
-}
-
 /// Splits the longer side of a panel in two.
 template <int dim>
 inline void split(const Probe<dim>& probe, const Panel& s, Panel& first, Panel& second)

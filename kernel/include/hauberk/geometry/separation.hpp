@@ -1,7 +1,7 @@
 #pragma once
 /// Certified lower bound of the distance between two bodies.
 
-#include <hauberk/geometry/pair_frame.hpp>
+#include <hauberk/geometry/panel_bound.hpp>
 
 namespace hauberk {
 

@@ -1,0 +1,156 @@
+#pragma once
+/// Lower bounds of the distance field over panels of probe points.
+
+#include <hauberk/geometry/pair_frame.hpp>
+
+namespace hauberk {
+
+/// Upper bounds of the second and third derivatives of a body's distance field along unit directions, over a
+/// ball. Infinite where nothing is known (too near the axis, or to the medial axis inside).
+struct FieldCurvature {
+  double second, third;
+};
+
+/// Bounds over all points within `d` of the point where `f` was evaluated.
+///
+/// In the meridian half-plane, with the normal n and the tangent t of the level curve, D^2 phi = k t t^T and
+///   D^3 phi[w, w, w] = k_s (w.t)^3 - 3 k^2 (w.n)(w.t)^2,   k = kappa/(1 + kappa phi),
+/// where kappa is the profile's curvature at the closest point and k_s = kappa_s/(1 + kappa phi)^3 its change
+/// along the level curve. In space rho bends by w_theta^2/rho along a line and
+///   |D^2 phi| <= max(k, 1/rho),   |D^3 phi| <= |k_s| + c (k^2 + k/rho + 1/rho^2),
+/// c = 3 max |x| (1 - x^2) = 2/sqrt(3). Closest points move by at most d where the field is positive
+/// (projection on a convex set), and by d/(1 + kappa phi) inside. On an ellipse (a, b) with w = |dx/dv|,
+///   kappa = a b/w^3,  kappa_s = -3 a b w_s/w^4,  |w_s| = |a^2 - b^2| |cos v sin v|/w^2 <= |a^2 - b^2|/(2 a
+///   b).
+inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double d)
+{
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  constexpr double c = 1.1547005383792517;
+  const double rho = f.rho - d;
+  if (!(rho > 0.0)) return {unknown, unknown};
+  double k = 0.0, ks = 0.0;
+  if (F.kind == PrimitiveKind::circle_tube) {
+    const double to_core = f.m.phi + F.r0 - d;
+    if (!(to_core > 0.0)) return {unknown, unknown};
+    k = 1.0 / to_core;
+  } else {
+    constexpr double deepest = 0.5;  // least 1 + kappa phi
+    const double a = F.r0, b = F.r1, e = std::abs(a * a - b * b);
+    const double inside = std::max(0.0, d - f.m.phi);
+    const double arc = d / (inside > 0.0 ? deepest : 1.0);
+    const double w0 = std::hypot(a * f.m.s, b * f.m.c);
+    const double w = std::max(std::min(a, b), w0 - arc * e / (2.0 * a * b));
+    const double kappa = a * b / (w * w * w);
+    const double beta = 1.0 - kappa * inside;
+    if (inside > 0.0 && beta < deepest) return {unknown, unknown};
+    const double ws = std::min(e / (2.0 * a * b), e * (std::abs(f.m.c * f.m.s) + arc / w) / (w * w));
+    k = kappa / beta;
+    ks = 3.0 * a * b * ws / (w * w * w * w) / (beta * beta * beta);
+  }
+  return {std::max(k, 1.0 / rho), ks + c * (k * k + k / rho + 1.0 / (rho * rho))};
+}
+
+/// Smallest value of xx x^2 + 2 xy x y + yy y^2 over |x| <= hx, |y| <= hy: 0, or on the border.
+inline double least_of_form(double xx, double xy, double yy, double hx, double hy)
+{
+  const auto edge = [](double fixed, double mixed, double free, double h, double reach) {
+    // fixed h^2 - 2 |mixed| h y + free y^2 over 0 <= y <= reach
+    const double m = std::abs(mixed) * h;
+    const double y = free > 0.0 ? std::min(reach, m / free) : reach;
+    return fixed * h * h + std::min(0.0, (free * y - 2.0 * m) * y);
+  };
+  return std::min({0.0, edge(xx, xy, yy, hx, hy), edge(yy, xy, xx, hy, hx)});
+}
+
+/// Largest displacement on a panel, and how far paths on it bend: bounds of |p'|, |p''| and |p^(3)| along a
+/// straight line from its centre.
+struct PanelSize {
+  double first, second, third;
+};
+
+template <int dim>
+PanelSize panel_size(const Probe<dim>& probe, const Panel& s)
+{
+  PanelSize r{probe.Lu * s.hu, probe.Lu * s.hu * s.hu, probe.Lu * s.hu * s.hu * s.hu};
+  if constexpr (dim == 2) {
+    r.first += probe.Lv * s.hv;
+    r.second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
+    r.third += probe.Lv * s.hv * s.hv * s.hv + 3.0 * probe.Luv * s.hu * s.hv * (s.hu + s.hv);
+  }
+  return r;
+}
+
+/// Lower bound of the field over a panel from value and gradient at its centre. The signed distance of a body
+/// whose profile is convex is a convex function of (rho, z), inside as well as outside, and its slope in rho
+/// is at most 1; rho itself curves by at most 1/rho along a line. So the Hessian of the field is nowhere
+/// below -1/rho (rho: distance from the body's axis), and with |p'| <= d on the panel
+///   phi >= phi_mid - |phi_u| hu - |phi_v| hv - 1/2 (d^2/rho_min + |p''|),   rho_min = rho_mid - d,
+/// and in any case phi >= phi_mid - d (Lipschitz constant 1).
+template <int dim>
+double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double rho, double gu, double gv)
+{
+  const PanelSize size = panel_size(probe, s);
+  const double rho_min = rho - size.first;
+  if (!(rho_min > 0.0)) return phi - size.first;
+  const double slope = std::abs(gu) * s.hu + std::abs(gv) * s.hv;
+  return phi - std::min(size.first, slope + 0.5 * (size.first * size.first / rho_min + size.second));
+}
+
+/// What is known of the field over a panel.
+struct PanelBound {
+  double value = 0.0;         ///< phi at the centre
+  double bound = 0.0;         ///< phi over the panel is not smaller
+  double gu = 0.0, gv = 0.0;  ///< derivatives of phi at the centre
+  double size = 0.0;          ///< no point of the panel is farther from its centre
+  FieldCurvature field{};     ///< within that distance
+};
+
+/// Lower bound of the field over a panel: `taylor_bound`, or the one from the second derivatives at the
+/// centre too, H = D^2 phi[p_i, p_j] + n . p_ij, whichever is higher. Surfaces that conform have nearly no H,
+/// so that only
+///   T = |D^3 phi| d^3 + 3 |D^2 phi| d |p''| + |p^(3)|
+/// is left, and panels may be as large as the third root of the gap instead of its square root:
+///   phi >= phi_mid - |phi_u| hu - |phi_v| hv + 1/2 min (a, b) H (a, b)^T - T/6.
+template <int dim>
+PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f)
+{
+  const PanelSize size = panel_size(probe, s);
+  PanelBound r;
+  r.value = f.m.phi;
+  r.gu = f.n.dot(q.pu);
+  if constexpr (dim == 2) r.gv = f.n.dot(q.pv);
+  r.size = size.first;
+  r.bound = taylor_bound(probe, s, r.value, f.rho, r.gu, r.gv);
+  r.field = field_curvature(*probe.f.F, f, size.first);
+  if (!(r.field.third < std::numeric_limits<double>::infinity())) return r;
+
+  const Body& P = *probe.f.P;
+  const auto hessian = [&f](const Vec3& x, const Vec3& y) {
+    return f.m.k * f.meridian.dot(x) * f.meridian.dot(y) + f.k_azimuth * f.azimuth.dot(x) * f.azimuth.dot(y);
+  };
+  const double nr = f.n.dot(q.radial);
+  double form = 0.0;
+  if constexpr (dim == 1) {
+    form = std::min(0.0, hessian(q.pu, q.pu) - P.R * nr) * s.hu * s.hu;
+  } else {
+    const double w = P.R + P.r0 * q.cv;
+    const double uu = hessian(q.pu, q.pu) - w * nr;
+    const double vv = hessian(q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3);
+    const double uv = hessian(q.pu, q.pv) - P.r0 * q.sv / w * r.gu;
+    form = least_of_form(uu, uv, vv, s.hu, s.hv);
+  }
+  const double d = size.first;
+  const double rest = r.field.third * d * d * d + 3.0 * r.field.second * d * size.second + size.third;
+  r.bound =
+      std::max(r.bound, r.value - std::abs(r.gu) * s.hu - std::abs(r.gv) * s.hv + 0.5 * form - rest / 6.0);
+  return r;
+}
+
+template <int dim>
+PanelBound panel_bound(const Probe<dim>& probe, const Panel& s)
+{
+  const ProbePoint q = probe.at(s.u, s.v);
+  return panel_bound(probe, s, q, field_at(*probe.f.F, q.p));
+}
+
+}  // namespace hauberk

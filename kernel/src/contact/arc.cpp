@@ -94,7 +94,7 @@ class ArcIntegral {
  private:
   void visit(const Panel& s)
   {
-    const PanelBound b = panel_bound(probe_, s);
+    const PanelBound b = panel_bound(probe_, s, settings_.g_hat + probe_.offset + settings_.clearance);
     ++out_.evaluations;
     const double g = b.value - probe_.offset - settings_.clearance;
     out_.min_gap = std::min(out_.min_gap, g);

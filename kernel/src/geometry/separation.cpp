@@ -29,7 +29,7 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
   while (!stack.empty()) {
     const Panel panel = stack.back();
     stack.pop_back();
-    const PanelBound b = panel_bound(probe, panel);
+    const PanelBound b = panel_bound(probe, panel, std::min(enough, tightness * s.upper) + shift);
     ++s.evaluations;
     s.upper = std::min(s.upper, b.value - shift);
     if (s.upper <= 0.0) {
@@ -60,7 +60,10 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
   const double coarse = (ca - cb).norm() - A.bound - B.bound - clearance;
   if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
 
-  if (A.is_tube()) return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
+  // Of two tubes the smaller ring probes: the field of the larger one is smooth around it, while the core of
+  // a ring that is threaded through a small one runs along its axis, where the field is not.
+  if (A.is_tube() && !(B.is_tube() && B.R < A.R))
+    return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
   if (B.is_tube()) return bound_over_panels<1>(PairFrame(B, pose_b, A, pose_a), clearance, enough, tightness);
   return bound_over_panels<2>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
 }

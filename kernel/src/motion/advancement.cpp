@@ -86,27 +86,34 @@ class PairAdvance {
     const ProbePoint q = probe.at(s.u, s.v);
     const FieldValue f = field_at(F_, q.p);
     ++count_.evaluations;
-    const double shift = probe.offset + clearance_, g = f.m.phi - shift;
+    const double g = f.m.phi - probe.offset - clearance_;
     if (g < target) return false;
     const double travel = speed_ * tau;
-    const PanelBound b = panel_bound(probe, s, q, f);
-    if (b.bound - shift - travel >= target) return true;
+    const PanelSize size = panel_size(probe, s);
+    const double d = size.first;
+    if (g - d - travel >= target) return true;
 
-    // Where a point x of the panel ends when it moves by D, |D| <= travel, the field is, with its Hessian
-    // nowhere below -1/rho,
-    //   phi(x + D) >= phi(x) + n(x) . D - |D|^2/(2 rho),
-    // and n(x) . D differs from n . D at the centre by at most |D^2 phi| d travel and, because the panel
-    // turns, by `mixed`. Or all displacements at once, from the centre.
-    const double d = b.size, rho = f.rho - d - travel;
     // Relative velocity of the material point: v + w_P x (p - o_P) - w_F x (p - o_F).
     const double rate = f.n.dot(v_ + wp_.cross(q.p - frame_.o) - wf_.cross(q.p - of_));
     const double time = std::max(0.0, -rate) * tau + 0.5 * acceleration_ * tau * tau;
+    const double rho = f.rho - d - travel;  // the field's Hessian is nowhere below -1/rho
     if (rho > 0.0) {
+      double slope = std::abs(f.n.dot(q.pu)) * s.hu;
+      if constexpr (dim == 2) slope += std::abs(f.n.dot(q.pv)) * s.hv;
       const double mixed = angular_ * d * tau;
-      const double after = b.bound - shift - b.field.second * d * travel - 0.5 * travel * travel / rho;
-      const double space = std::abs(b.gu) * s.hu + std::abs(b.gv) * s.hv + 0.5 * panel_size(probe, s).second;
-      const double at_once = g - space - 0.5 * (d + travel) * (d + travel) / rho;
-      if (std::max(at_once, after) - time - mixed >= target) return true;
+      const double left = g - slope - time - mixed - target;
+      // All displacements at once, from the centre.
+      if (left - 0.5 * (size.second + (d + travel) * (d + travel) / rho) >= 0.0) return true;
+      // Or over the panel first. A point x of it that moves by D, |D| <= travel, ends at
+      //   phi(x + D) >= phi(x) + n(x) . D - |D|^2/(2 rho),
+      // and n(x) . D differs from that at the centre by at most |D^2 phi| d travel, besides `mixed`.
+      if (left - 0.5 * travel * travel / rho >= 0.0) {
+        const FieldCurvature field = field_curvature(F_, f, d);
+        if (field.third < std::numeric_limits<double>::infinity()) {
+          const double moved = time + mixed + field.second * d * travel + 0.5 * travel * travel / rho;
+          if (curved_bound(probe, s, q, f, field) - probe.offset - clearance_ - moved >= target) return true;
+        }
+      }
     }
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
@@ -152,7 +159,9 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
         }
         ++out.tight_pairs;
         const double target = keep * gap;
-        const bool swap = probe_dimension(B) < probe_dimension(A);
+        // Of equal kinds the smaller ring probes, see separation().
+        const bool swap = probe_dimension(B) < probe_dimension(A) ||
+                          (probe_dimension(B) == probe_dimension(A) && B.R < A.R);
         const Body &P = swap ? B : A, &F = swap ? A : B;
         const Track &tp = swap ? tj : ti, &tf = swap ? ti : tj;
         out.alpha = probe_dimension(P) == 1

@@ -96,61 +96,56 @@ double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double 
   return phi - std::min(size.first, slope + 0.5 * (size.first * size.first / rho_min + size.second));
 }
 
-/// What is known of the field over a panel.
-struct PanelBound {
-  double value = 0.0;         ///< phi at the centre
-  double bound = 0.0;         ///< phi over the panel is not smaller
-  double gu = 0.0, gv = 0.0;  ///< derivatives of phi at the centre
-  double size = 0.0;          ///< no point of the panel is farther from its centre
-  FieldCurvature field{};     ///< within that distance
-};
-
-/// Lower bound of the field over a panel: `taylor_bound`, or the one from the second derivatives at the
-/// centre too, H = D^2 phi[p_i, p_j] + n . p_ij, whichever is higher. Surfaces that conform have nearly no H,
-/// so that only
+/// The same from the second derivatives at the centre too, H = D^2 phi[p_i, p_j] + n . p_ij, where the field
+/// is known as `field` within the panel's size. Surfaces that conform have nearly no H, so that only
 ///   T = |D^3 phi| d^3 + 3 |D^2 phi| d |p''| + |p^(3)|
 /// is left, and panels may be as large as the third root of the gap instead of its square root:
 ///   phi >= phi_mid - |phi_u| hu - |phi_v| hv + 1/2 min (a, b) H (a, b)^T - T/6.
 template <int dim>
-PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f)
+double curved_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
+                    const FieldCurvature& field)
 {
-  const PanelSize size = panel_size(probe, s);
-  PanelBound r;
-  r.value = f.m.phi;
-  r.gu = f.n.dot(q.pu);
-  if constexpr (dim == 2) r.gv = f.n.dot(q.pv);
-  r.size = size.first;
-  r.bound = taylor_bound(probe, s, r.value, f.rho, r.gu, r.gv);
-  r.field = field_curvature(*probe.f.F, f, size.first);
-  if (!(r.field.third < std::numeric_limits<double>::infinity())) return r;
-
   const Body& P = *probe.f.P;
   const auto hessian = [&f](const Vec3& x, const Vec3& y) {
     return f.m.k * f.meridian.dot(x) * f.meridian.dot(y) + f.k_azimuth * f.azimuth.dot(x) * f.azimuth.dot(y);
   };
-  const double nr = f.n.dot(q.radial);
-  double form = 0.0;
+  const double nr = f.n.dot(q.radial), gu = f.n.dot(q.pu);
+  double slope = std::abs(gu) * s.hu, form = 0.0;
   if constexpr (dim == 1) {
     form = std::min(0.0, hessian(q.pu, q.pu) - P.R * nr) * s.hu * s.hu;
   } else {
+    slope += std::abs(f.n.dot(q.pv)) * s.hv;
     const double w = P.R + P.r0 * q.cv;
     const double uu = hessian(q.pu, q.pu) - w * nr;
     const double vv = hessian(q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3);
-    const double uv = hessian(q.pu, q.pv) - P.r0 * q.sv / w * r.gu;
+    const double uv = hessian(q.pu, q.pv) - P.r0 * q.sv / w * gu;
     form = least_of_form(uu, uv, vv, s.hu, s.hv);
   }
+  const PanelSize size = panel_size(probe, s);
   const double d = size.first;
-  const double rest = r.field.third * d * d * d + 3.0 * r.field.second * d * size.second + size.third;
-  r.bound =
-      std::max(r.bound, r.value - std::abs(r.gu) * s.hu - std::abs(r.gv) * s.hv + 0.5 * form - rest / 6.0);
-  return r;
+  const double rest = field.third * d * d * d + 3.0 * field.second * d * size.second + size.third;
+  return f.m.phi - slope + 0.5 * form - rest / 6.0;
 }
 
+/// What is known of the field over a panel.
+struct PanelBound {
+  double value = 0.0;  ///< phi at the centre
+  double bound = 0.0;  ///< phi over the panel is not smaller
+};
+
+/// Lower bound of the field over a panel. The dearer of the two is only tried where it can reach `needed`.
 template <int dim>
-PanelBound panel_bound(const Probe<dim>& probe, const Panel& s)
+PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, double needed)
 {
   const ProbePoint q = probe.at(s.u, s.v);
-  return panel_bound(probe, s, q, field_at(*probe.f.F, q.p));
+  const FieldValue f = field_at(*probe.f.F, q.p);
+  const double gu = f.n.dot(q.pu), gv = dim == 2 ? f.n.dot(q.pv) : 0.0;
+  PanelBound r{f.m.phi, taylor_bound(probe, s, f.m.phi, f.rho, gu, gv)};
+  if (r.bound >= needed || f.m.phi - std::abs(gu) * s.hu - std::abs(gv) * s.hv < needed) return r;
+  const FieldCurvature field = field_curvature(*probe.f.F, f, panel_size(probe, s).first);
+  if (field.third < std::numeric_limits<double>::infinity())
+    r.bound = std::max(r.bound, curved_bound(probe, s, q, f, field));
+  return r;
 }
 
 }  // namespace hauberk

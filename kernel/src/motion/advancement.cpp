@@ -65,6 +65,9 @@ class PairAdvance {
     const double r = (frame_.o - of_).norm() + v + reach;  // farthest any P point gets from F's origin
     speed_ = v + wp * reach + wf * r;
     angular_ = wp + wf;
+    origins_ = a0;
+    jerk_ = wp * wp * wp * reach + 3.0 * wf * wp * wp * reach + 3.0 * wf * wf * (v + wp * reach) +
+            wf * wf * wf * r;
     acceleration_ = a0 + wp * wp * reach + wf * wf * r + 2.0 * wf * (v + wp * reach);
   }
 
@@ -93,35 +96,67 @@ class PairAdvance {
     const double d = size.first;
     if (g - d - travel >= target) return true;
 
-    // Relative velocity of the material point: v + w_P x (p - o_P) - w_F x (p - o_F).
-    const double rate = f.n.dot(v_ + wp_.cross(q.p - frame_.o) - wf_.cross(q.p - of_));
-    const double time = std::max(0.0, -rate) * tau + 0.5 * acceleration_ * tau * tau;
+    const Motion motion = motion_of(q, f);
+    const double time = std::max(0.0, -motion.rate) * tau + 0.5 * acceleration_ * tau * tau;
     const double rho = f.rho - d - travel;  // the field's Hessian is nowhere below -1/rho
-    if (rho > 0.0) {
-      double slope = std::abs(f.n.dot(q.pu)) * s.hu;
-      if constexpr (dim == 2) slope += std::abs(f.n.dot(q.pv)) * s.hv;
-      const double mixed = angular_ * d * tau;
-      const double left = g - slope - time - mixed - target;
-      // All displacements at once, from the centre.
-      if (left - 0.5 * (size.second + (d + travel) * (d + travel) / rho) >= 0.0) return true;
-      // Or over the panel first. A point x of it that moves by D, |D| <= travel, ends at
-      //   phi(x + D) >= phi(x) + n(x) . D - |D|^2/(2 rho),
-      // and n(x) . D differs from that at the centre by at most |D^2 phi| d travel, besides `mixed`.
-      if (left - 0.5 * travel * travel / rho >= 0.0) {
-        const FieldCurvature field = field_curvature(F_, f, d);
-        if (field.third < std::numeric_limits<double>::infinity()) {
-          const double moved = time + mixed + field.second * d * travel + 0.5 * travel * travel / rho;
-          if (curved_bound(probe, s, q, f, field) - probe.offset - clearance_ - moved >= target) return true;
-        }
-      }
-    }
+    const PanelTerms terms = panel_terms(probe, s, q, f);
+    const double mixed = angular_ * d * tau;
+    if (rho > 0.0 &&
+        g - terms.slope - time - mixed - 0.5 * (size.second + (d + travel) * (d + travel) / rho) >= target)
+      return true;
+    double cross = std::abs(mixed_derivative(f, q.pu, motion)) * s.hu * tau;
+    if constexpr (dim == 2) cross += std::abs(mixed_derivative(f, q.pv, motion)) * s.hv * tau;
+    if (g - terms.slope + 0.5 * terms.form - cross - lost(motion, f, size, tau) >= target) return true;
+
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
-    if (g - std::min(alone, travel) < target) return false;
+    if (g - std::min(alone, travel) < target && g - lost(motion, f, {}, tau) < target) return false;
     if (s.hu < smallest_panel) return false;
     Panel first, second_panel;
     split(probe, s, first, second_panel);
     return panel_holds(probe, first, tau, target) && panel_holds(probe, second_panel, tau, target);
+  }
+
+  /// How a material point of P moves in F's frame, and what that does to the field.
+  struct Motion {
+    Vec3 velocity;
+    double rate;    ///< n . velocity
+    double second;  ///< second derivative of the field in time, without the origins' acceleration
+  };
+
+  Motion motion_of(const ProbePoint& q, const FieldValue& f) const
+  {
+    // x = R_F^T (x_P - o_F) with R_F = exp(w_F t), x_P = o_P + exp(w_P t) arm:
+    //   x' = v + w_P x arm - w_F x y,  x'' = w_P x (w_P x arm) + w_F x (w_F x y) - 2 w_F x (v + w_P x arm).
+    const Vec3 arm = q.p - frame_.o, y = q.p - of_;
+    const Vec3 own = v_ + wp_.cross(arm);
+    Motion out;
+    out.velocity = own - wf_.cross(y);
+    out.rate = f.n.dot(out.velocity);
+    const Vec3 turning = wp_.cross(wp_.cross(arm)) + wf_.cross(wf_.cross(y)) - 2.0 * wf_.cross(own);
+    out.second = field_hessian(f, out.velocity, out.velocity) + f.n.dot(turning);
+    return out;
+  }
+
+  /// d^2 phi/(du dt), p_u or p_v given.
+  double mixed_derivative(const FieldValue& f, const Vec3& along, const Motion& motion) const
+  {
+    return field_hessian(f, along, motion.velocity) + f.n.dot((wp_ - wf_).cross(along));
+  }
+
+  /// What time and the third order may take off the field over a panel of this size: the expansion in (u, v,
+  /// t) without its terms in u and v alone and without d^2 phi/(du dt). Origins accelerate in unknown
+  /// directions.
+  double lost(const Motion& motion, const FieldValue& f, const PanelSize& size, double tau) const
+  {
+    const PanelSize path{size.first + speed_ * tau,
+                         size.second + 2.0 * angular_ * size.first * tau + acceleration_ * tau * tau,
+                         size.third + 3.0 * angular_ * size.second * tau +
+                             3.0 * angular_ * angular_ * size.first * tau * tau + jerk_ * tau * tau * tau};
+    const FieldCurvature field = field_curvature(F_, f, path.first);
+    if (!(field.third < std::numeric_limits<double>::infinity())) return field.third;
+    return std::max(0.0, -motion.rate) * tau + 0.5 * (std::max(0.0, -motion.second) + origins_) * tau * tau +
+           third_order(field, path);
   }
 
   const Body& P_;
@@ -133,6 +168,8 @@ class PairAdvance {
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;
+  double origins_ = 0.0;  ///< the part of the acceleration that the elements' origins have
+  double jerk_ = 0.0;     ///< bound of the third derivative, origins moving evenly
 };
 
 }  // namespace

@@ -96,35 +96,51 @@ double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double 
   return phi - std::min(size.first, slope + 0.5 * (size.first * size.first / rho_min + size.second));
 }
 
-/// The same from the second derivatives at the centre too, H = D^2 phi[p_i, p_j] + n . p_ij, where the field
-/// is known as `field` within the panel's size. Surfaces that conform have nearly no H, so that only
-///   T = |D^3 phi| d^3 + 3 |D^2 phi| d |p''| + |p^(3)|
-/// is left, and panels may be as large as the third root of the gap instead of its square root:
-///   phi >= phi_mid - |phi_u| hu - |phi_v| hv + 1/2 min (a, b) H (a, b)^T - T/6.
+/// D^2 phi[x, y] at the point where `f` was evaluated.
+inline double field_hessian(const FieldValue& f, const Vec3& x, const Vec3& y)
+{
+  return f.m.k * f.meridian.dot(x) * f.meridian.dot(y) + f.k_azimuth * f.azimuth.dot(x) * f.azimuth.dot(y);
+}
+
+/// Terms of first and second order over a panel: phi >= phi_mid - slope + form/2 - (third order).
+struct PanelTerms {
+  double slope;  ///< |phi_u| hu + |phi_v| hv
+  double form;   ///< min (a, b) H (a, b)^T, H = D^2 phi[p_i, p_j] + n . p_ij; never positive
+};
+
+template <int dim>
+PanelTerms panel_terms(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f)
+{
+  const Body& P = *probe.f.P;
+  const double nr = f.n.dot(q.radial), gu = f.n.dot(q.pu);
+  if constexpr (dim == 1) {
+    const double uu = field_hessian(f, q.pu, q.pu) - P.R * nr;
+    return {std::abs(gu) * s.hu, std::min(0.0, uu) * s.hu * s.hu};
+  } else {
+    const double w = P.R + P.r0 * q.cv;
+    const double uu = field_hessian(f, q.pu, q.pu) - w * nr;
+    const double vv = field_hessian(f, q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3);
+    const double uv = field_hessian(f, q.pu, q.pv) - P.r0 * q.sv / w * gu;
+    return {std::abs(gu) * s.hu + std::abs(f.n.dot(q.pv)) * s.hv, least_of_form(uu, uv, vv, s.hu, s.hv)};
+  }
+}
+
+/// A sixth of the largest third derivative of the field along a path with these bounds of its derivatives.
+inline double third_order(const FieldCurvature& field, const PanelSize& path)
+{
+  const double d = path.first;
+  return (field.third * d * d * d + 3.0 * field.second * d * path.second + path.third) / 6.0;
+}
+
+/// As `taylor_bound`, from the second derivatives at the centre too, where the field is known as `field`
+/// within the panel's size. Surfaces that conform have nearly no H, so that only the third order is left, and
+/// panels may be as large as the third root of the gap instead of its square root.
 template <int dim>
 double curved_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
                     const FieldCurvature& field)
 {
-  const Body& P = *probe.f.P;
-  const auto hessian = [&f](const Vec3& x, const Vec3& y) {
-    return f.m.k * f.meridian.dot(x) * f.meridian.dot(y) + f.k_azimuth * f.azimuth.dot(x) * f.azimuth.dot(y);
-  };
-  const double nr = f.n.dot(q.radial), gu = f.n.dot(q.pu);
-  double slope = std::abs(gu) * s.hu, form = 0.0;
-  if constexpr (dim == 1) {
-    form = std::min(0.0, hessian(q.pu, q.pu) - P.R * nr) * s.hu * s.hu;
-  } else {
-    slope += std::abs(f.n.dot(q.pv)) * s.hv;
-    const double w = P.R + P.r0 * q.cv;
-    const double uu = hessian(q.pu, q.pu) - w * nr;
-    const double vv = hessian(q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3);
-    const double uv = hessian(q.pu, q.pv) - P.r0 * q.sv / w * gu;
-    form = least_of_form(uu, uv, vv, s.hu, s.hv);
-  }
-  const PanelSize size = panel_size(probe, s);
-  const double d = size.first;
-  const double rest = field.third * d * d * d + 3.0 * field.second * d * size.second + size.third;
-  return f.m.phi - slope + 0.5 * form - rest / 6.0;
+  const PanelTerms t = panel_terms(probe, s, q, f);
+  return f.m.phi - t.slope + 0.5 * t.form - third_order(field, panel_size(probe, s));
 }
 
 /// What is known of the field over a panel.

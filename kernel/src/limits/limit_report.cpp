@@ -143,8 +143,8 @@ double force_imbalance(const Model& m, const State& s, const Vector& load,
   return rest.cwiseAbs().maxCoeff();
 }
 
-LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task, const LimitSettings&,
-                       const Locked& l)
+LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task,
+                       const LimitSettings& settings, const Locked& l)
 {
   LimitResult r = limit_header(m, task);
   r.status = l.status == LockStatus::locked        ? LimitStatus::locked
@@ -239,7 +239,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     r.status = LimitStatus::stalled;
     r.message = fmt::format("{} the load by {:.1e} of it",
                             fades ? "the gradient of the energy misses" : "contact forces miss", imbalance);
-    if (r.contact == "nearest") r.message += "; use contact arc or auto";
+    if (settings.contact == ContactChoice::nearest) r.message += "; use contact arc or auto";
   } else if (r.status == LimitStatus::locked &&
              (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {
     r.status = LimitStatus::stalled;

@@ -99,14 +99,14 @@ class PairAdvance {
     const Motion motion = motion_of(q, f);
     const double time = std::max(0.0, -motion.rate) * tau + 0.5 * acceleration_ * tau * tau;
     const double rho = f.rho - d - travel;  // the field's Hessian is nowhere below -1/rho
-    const PanelTerms terms = panel_terms(probe, s, q, f);
-    const double mixed = angular_ * d * tau;
-    if (rho > 0.0 &&
-        g - terms.slope - time - mixed - 0.5 * (size.second + (d + travel) * (d + travel) / rho) >= target)
-      return true;
+    double slope = std::abs(f.n.dot(q.pu)) * s.hu;
+    if constexpr (dim == 2) slope += std::abs(f.n.dot(q.pv)) * s.hv;
+    const double second = size.second + (d + travel) * (d + travel) / rho;
+    if (rho > 0.0 && g - slope - time - angular_ * d * tau - 0.5 * second >= target) return true;
     double cross = std::abs(mixed_derivative(f, q.pu, motion)) * s.hu * tau;
     if constexpr (dim == 2) cross += std::abs(mixed_derivative(f, q.pv, motion)) * s.hv * tau;
-    if (g - terms.slope + 0.5 * terms.form - cross - lost(motion, f, size, tau) >= target) return true;
+    const double form = panel_terms(probe, s, q, f).form;
+    if (g - slope + 0.5 * form - cross - lost(motion, f, size, tau) >= target) return true;
 
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;

@@ -10,15 +10,25 @@ namespace hauberk::verification {
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
+/// Windows in which the lowest point of a valley is sought, at most.
+constexpr int most_windows = 50;
 constexpr double golden = std::numbers::phi - 1.0;
+
+struct Lowest {
+  double at, value;
+};
 
 /// Smallest value of f in [low, high], where f falls, then rises. The angle is found to about 1e-8, so the
 /// value to rounding.
 template <class F>
-double golden_minimum(const F& f, double low, double high)
+Lowest golden_minimum(const F& f, double low, double high)
 {
   double x1 = high - golden * (high - low), x2 = low + golden * (high - low);
-  double f1 = f(x1), f2 = f(x2), best = std::min(f1, f2);
+  double f1 = f(x1), f2 = f(x2);
+  Lowest best = f1 < f2 ? Lowest{x1, f1} : Lowest{x2, f2};
+  const auto keep = [&best](double x, double value) {
+    if (value < best.value) best = {x, value};
+  };
   while (high - low > 1e-9) {
     if (f1 < f2) {
       high = x2;
@@ -26,14 +36,15 @@ double golden_minimum(const F& f, double low, double high)
       f2 = f1;
       x1 = high - golden * (high - low);
       f1 = f(x1);
+      keep(x1, f1);
     } else {
       low = x1;
       x1 = x2;
       f1 = f2;
       x2 = low + golden * (high - low);
       f2 = f(x2);
+      keep(x2, f2);
     }
-    best = std::min({best, f1, f2});
   }
   return best;
 }
@@ -68,7 +79,7 @@ double circle_minimum(const F& f, double slope)
   for (const Cell& cell : cells) {
     if (cell.value - 0.5 * slope * width > best) continue;
     if (cell.value > f(cell.u - width) || cell.value > f(cell.u + width)) continue;
-    best = std::min(best, golden_minimum(f, cell.u - 1.5 * width, cell.u + 1.5 * width));
+    best = std::min(best, golden_minimum(f, cell.u - 1.5 * width, cell.u + 1.5 * width).value);
   }
   return best;
 }
@@ -111,10 +122,22 @@ double torus_minimum(const F& f, double slope_u, double slope_v)
   };
   for (const Cell& cell : cells) {
     if (hopeless(cell) || !lowest_around(cell)) continue;
-    const auto over_v = [&](double u) {
-      return golden_minimum([&](double v) { return f(u, v); }, cell.v - 2.0 * dv, cell.v + 2.0 * dv);
-    };
-    best = std::min(best, golden_minimum(over_v, cell.u - 1.5 * du, cell.u + 1.5 * du));
+    // A valley between surfaces that conform may leave the cell at a slant: follow it while it falls.
+    Cell lowest = cell;
+    for (int follow = 0; follow < most_windows; ++follow) {
+      const auto over_v = [&](double u) {
+        return golden_minimum([&](double v) { return f(u, v); }, lowest.v - 2.0 * dv, lowest.v + 2.0 * dv);
+      };
+      const Lowest in_u =
+          golden_minimum([&](double u) { return over_v(u).value; }, lowest.u - 1.5 * du, lowest.u + 1.5 * du);
+      if (!(in_u.value < lowest.value)) break;
+      const bool inside = std::abs(in_u.at - lowest.u) < du;
+      const double v = over_v(in_u.at).at;
+      const bool done = inside && std::abs(v - lowest.v) < dv;
+      lowest = {in_u.at, v, in_u.value};
+      if (done) break;
+    }
+    best = std::min(best, lowest.value);
   }
   return best;
 }

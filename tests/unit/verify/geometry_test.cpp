@@ -105,6 +105,25 @@ TEST(Separation, ExactPairs)
   EXPECT_NEAR(separation(torus(5.0, 0.7, 1.1), torus(5.0, 0.9, 1.3, {0.0, 0.0, 4.0})), 4.0 - 2.4, 1e-13);
 }
 
+TEST(Separation, ValleysOfFlatTubesAreFollowed)
+{
+  // Sharp edges that cross at a small angle: the lowest point lies in a narrow valley that runs at a slant to
+  // both angles. It must be found from either surface, though the two searches have nothing in common.
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<> unit(-1.0, 1.0);
+  const auto tilt = [&]() -> Vec3 { return 0.01 * Vec3(unit(random), unit(random), unit(random)); };
+  int apart = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Torus a = torus(5.0, 0.3, 0.03, Vec3::Zero(), tilt());
+    const Torus b = torus(5.0, 0.3, 0.03, {9.398, 0.0, 0.0}, Vec3(0.6, 0.0, 0.0) + tilt());
+    const double found = separation(a, b);
+    if (found <= 0.0) continue;  // only the sign matters
+    ++apart;
+    EXPECT_NEAR(found, separation(b, a), 1e-12) << i;
+  }
+  EXPECT_GT(apart, 20);
+}
+
 TEST(Links, HopfPairAndItsMirror)
 {
   const Torus a = torus(5.0, 0.7, 0.7), b = torus(5.0, 0.7, 0.7, {6.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0});

@@ -129,8 +129,8 @@ double force_balance(const Model& m, const State& s, const Vector& load,
   return rest.cwiseAbs().maxCoeff() / load.norm();
 }
 
-LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task, const LimitSettings&,
-                       const Locked& l)
+LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task,
+                       const LimitSettings& settings, const Locked& l)
 {
   LimitResult r = limit_header(m, task);
   r.status = l.status == LockStatus::locked        ? LimitStatus::locked
@@ -200,7 +200,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     // A flat energy is no equilibrium: where contacts merge, nearest points come and go and balance nothing.
     r.status = LimitStatus::stalled;
     r.message = fmt::format("contact forces miss the load by {:.1e} of it", *r.force_balance);
-    if (r.contact == "nearest") r.message += "; use contact arc or auto";
+    if (settings.contact == ContactChoice::nearest) r.message += "; use contact arc or auto";
   } else if (r.status == LimitStatus::locked &&
              (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {
     r.status = LimitStatus::stalled;

@@ -34,7 +34,8 @@ Samples sample(double R, double r0, double r1, const Vec3& a, const Vec3& e1, co
     const Vec3 radial = std::cos(u) * e1 + std::sin(u) * e2;
     for (int j = 0; j < tube_samples; ++j) {
       const double v = 2.0 * pi * j / tube_samples;
-      const auto k = static_cast<std::size_t>(i * tube_samples + j);
+      const int sample = i * tube_samples + j;
+      const auto k = static_cast<std::size_t>(sample);
       out.angles[k] = {u, v};
       out.points[k] = a + (R + r0 * std::cos(v)) * radial + r1 * std::sin(v) * e3;
     }

@@ -34,7 +34,7 @@ ExperimentStability read_stability(const Node& section, const Node& base, Proble
 
 /// Everything from a tree with values in place to an experiment. `well_formed`, when wanted: nothing was
 /// wrong with its form (keys, types, ranges).
-std::optional<Experiment> read_tree(Node root, const PluginLookup& lookup, Diagnostics& diagnostics,
+std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diagnostics& diagnostics,
                                     bool* well_formed = nullptr);
 
 /// expect.

@@ -84,10 +84,11 @@ std::string stability_svg(const StabilityMap& map, const std::string& title)
     svg.text({x + cell + 4.0, 50.0}, look(outcome).word, 11.0);
     x += cell + 14.0 + 6.0 * static_cast<double>(std::string(look(outcome).word).size());
   }
-  for (std::size_t f = 0; f < map.families.size(); ++f)
-    draw_panel(
-        svg, map, f,
-        {margin + width * static_cast<double>(f % columns), top + height * static_cast<double>(f / columns)});
+  for (std::size_t f = 0; f < map.families.size(); ++f) {
+    const std::size_t column = f % columns, row = f / columns;
+    draw_panel(svg, map, f,
+               {margin + width * static_cast<double>(column), top + height * static_cast<double>(row)});
+  }
   return svg.str();
 }
 

@@ -128,7 +128,8 @@ std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
   const auto v = [](int j) { return j * full_turn / across; };
   std::vector<double> f(static_cast<std::size_t>(around * nv));
   const auto at = [&](int i, int j) -> double& {
-    return f[static_cast<std::size_t>((i + around) % around * nv + (j + nv) % nv)];
+    const int k = (i + around) % around * nv + (j + nv) % nv;
+    return f[static_cast<std::size_t>(k)];
   };
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < nv; ++j)

@@ -23,9 +23,6 @@ constexpr double same_state = 1e-5;
 /// leaves up to 3e-5; `arc` lists resultants, whose wrench is off by a multiple of gap / L.
 constexpr double balanced = 1e-4;
 constexpr double balanced_per_gap = 100.0;
-/// The same for the energy's gradient where contacts fade, of which nothing but the energy can tell: fades
-/// are so steep that Newton's method ends with up to 8e-3; states that are none have 0.5 and more.
-constexpr double balanced_fading = 1e-2;
 /// Rounding of a value; what is less than rest by more is no limit.
 constexpr double wrong_side = 1e-11;
 
@@ -49,9 +46,8 @@ double z_range(const Model& m, const State& s)
 }
 
 /// What the equilibrium may miss what drives it by.
-double allowed_imbalance(const LimitResult& r, bool fades, double length)
+double allowed_imbalance(const LimitResult& r, double length)
 {
-  if (fades) return balanced_fading;
   double gap = 0.0;
   for (const ContactForce& c : r.contacts) gap = std::max(gap, c.gap / length);
   return balanced + (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
@@ -186,20 +182,9 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   const double full = full_load.norm(), driving = load.norm() / full;
   r.force_balance = force_imbalance(m, s, load, e.points, l.stage.mu) / full;
-  // What the equilibrium misses. Published contacts near a merge push through their fade too, which no listed
-  // force can show: there the gradient of the energy tells.
-  const double energy = energy_imbalance(m, load, e, l.stage.mu) / full;
-  const bool fades = l.stage.contact.formulation == Formulation::published && *r.force_balance > 2.0 * energy;
-  const double imbalance = fades ? energy : *r.force_balance;
   if (l.status == LockStatus::locked && *r.force_balance > unbalanced) {
-    r.message =
-        fades
-            ? fmt::format(
-                  "the fade of published contacts carries load that no contact point does: the "
-                  "listed forces miss it by {:.1e} of it, the gradient of the energy by {:.1e}",
-                  *r.force_balance, energy)
-            : fmt::format("contact forces miss the load by {:.1e} of it: an error of that order is possible",
-                          *r.force_balance);
+    r.message = fmt::format(
+        "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   }
   r.contact = name_of(l.stage.contact.formulation);
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
@@ -234,11 +219,18 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     r.status = LimitStatus::failed;
     r.message = "surfaces overlap at the end: the collision check failed";
   } else if (r.status == LimitStatus::locked &&
-             !(imbalance <= allowed_imbalance(r, fades, m.length) * driving)) {
+             !(*r.force_balance <= allowed_imbalance(r, m.length) * driving)) {
     // A flat energy is no equilibrium: where contacts merge, nearest points come and go and balance nothing.
     r.status = LimitStatus::stalled;
-    r.message = fmt::format("{} the load by {:.1e} of it",
-                            fades ? "the gradient of the energy misses" : "contact forces miss", imbalance);
+    r.message = fmt::format("contact forces miss the load by {:.1e} of it", *r.force_balance);
+    const double energy = energy_imbalance(m, load, e, l.stage.mu) / full;
+    if (l.stage.contact.formulation == Formulation::published && *r.force_balance > 2.0 * energy) {
+      // Published contacts near a merge push through their fade too, which is no force at a point.
+      r.message += fmt::format(
+          ": the fade of published contacts holds this state, which nothing real does; the gradient of their "
+          "energy misses the load by {:.1e}",
+          energy);
+    }
     if (settings.contact == ContactChoice::nearest) r.message += "; use contact arc or auto";
   } else if (r.status == LimitStatus::locked &&
              (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {

@@ -33,6 +33,7 @@ struct LockedState {
   std::vector<double> macro;
   double z_range = 0.0;
   std::uint64_t seed = 0;  ///< of the start that came furthest to it (the first of equals)
+  std::string origin;      ///< what found it: start, shake, or from another limit
   int count = 0;
 };
 
@@ -92,6 +93,8 @@ struct DesignIterate {
   bool links_kept = true;
   double seconds = 0.0;
   std::vector<double> values;  ///< the designed quantity per target
+  /// Limits whose locked state is not the continuation of the iterate before, e.g. "30 degrees, stretch".
+  std::vector<std::string> changed;
 };
 
 struct DesignResult {

@@ -22,10 +22,11 @@ double seconds_since(std::chrono::steady_clock::time_point t0)
 /// Records every iterate and passes it on.
 class Recorder final : public OptimizerObserver {
  public:
-  Recorder(DesignProblem& problem, int start, int starts, const DesignObserver& observer)
+  Recorder(DesignProblem& problem, const DesignSpec& design, int start, const DesignObserver& observer)
       : problem_(problem),
+        tasks_(target_tasks(design)),
         start_(start),
-        starts_(starts),
+        starts_(design.starts),
         observer_(observer),
         t0_(std::chrono::steady_clock::now())
   {
@@ -44,6 +45,12 @@ class Recorder final : public OptimizerObserver {
     d.links_kept = links_kept(p.model, p.rest);
     d.seconds = seconds_since(t0_);
     d.values = p.values;
+    const auto senses = p.model.load->sense_names();
+    for (const int k : p.changed) {
+      const LimitTask& task = tasks_[static_cast<std::size_t>(k)];
+      d.changed.push_back(fmt::format("{} degrees, {}", task.direction_deg,
+                                      task.sense == Sense::positive ? senses.first : senses.second));
+    }
     history.push_back(d);
     if (!observer_({start_, starts_, &history.back()})) interrupted = true;
     return !interrupted;
@@ -54,6 +61,7 @@ class Recorder final : public OptimizerObserver {
 
  private:
   DesignProblem& problem_;
+  std::vector<LimitTask> tasks_;
   int start_, starts_;
   const DesignObserver& observer_;
   std::chrono::steady_clock::time_point t0_;
@@ -125,10 +133,10 @@ struct Search {
   bool interrupted = false;
 };
 
-Search search(DesignProblem& problem, const Optimizer& optimizer, std::span<const double> x0, int start,
-              int starts, const DesignObserver& observer)
+Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
+              std::span<const double> x0, int start, const DesignObserver& observer)
 {
-  Recorder recorder(problem, start, starts, observer);
+  Recorder recorder(problem, design, start, observer);
   Search s;
   s.found = optimizer.minimize(problem, x0, recorder);
   s.history = std::move(recorder.history);
@@ -187,7 +195,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
     if (start == 0) out.result.initial_scene = scene_of(problem->current());
     problem->set_schedule(coarse);
     const std::vector<double> x0 = problem->feasible_towards(random_move(design, start));
-    Search s = search(*problem, optimizer, x0, start, design.starts, observer);
+    Search s = search(*problem, design, optimizer, x0, start, observer);
     out.result.evaluations += problem->evaluations();
     interrupted = s.interrupted;
     if (s.history.empty()) {
@@ -206,8 +214,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   if (!interrupted) {
     const long before = best_problem->evaluations();
     best_problem->set_schedule(design.schedule);
-    const Search fine =
-        search(*best_problem, optimizer, best.found.x, out.result.start, design.starts, observer);
+    const Search fine = search(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
     out.result.evaluations += best_problem->evaluations() - before;
     if (!fine.history.empty()) {
       out.result.iterations += fine.found.iterations;

@@ -13,19 +13,22 @@ namespace {
 constexpr double same_value = 1e-9;    ///< two locked states closer than that are taken for one
 constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 
+/// Stages of a locked state as warm starts.
+void enter(const Locked& l, std::vector<WarmStart>& out)
+{
+  for (std::size_t i = 0; i < l.trail.size(); ++i) out.push_back({l.stages[i].g_hat, l.trail[i]});
+}
+
 }  // namespace
 
-Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
-                                  const std::vector<WarmStart>& warm, std::vector<WarmStart>& trail,
-                                  long& evaluations) const
+DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
+                                                       const std::vector<WarmStart>& warm) const
 {
+  LockedTarget out;
   const auto run = [&](const State& from, const Schedule& schedule) {
     Locked l = lock(p.model, from, load, limits_.contact, schedule, keep_going_);
-    evaluations += l.evaluations;
+    out.evaluations += l.evaluations;
     return l;
-  };
-  const auto enter = [](const Locked& l, std::vector<WarmStart>& out) {
-    for (std::size_t i = 0; i < l.trail.size(); ++i) out.push_back({l.stages[i].g_hat, l.trail[i]});
   };
   // A limit is the furthest locked state. One search starts loose, and may find another state than the
   // iterate's; one follows the iterate's state, which may be further, as tightly as it can.
@@ -38,7 +41,11 @@ Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
     const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
     loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
   }
-  if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) return loose;
+  if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) {
+    out.locked = std::move(loose);
+    return out;
+  }
+  out.followed = out.changed = !warm.empty();
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
     const std::optional<State> start = followed(*current_, warm[j], p, design_.variables);
@@ -47,20 +54,70 @@ Locked DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
     schedule.first = warm[j].g_hat;
     Locked tight = run(*start, schedule);
     if (tight.status != LockStatus::locked) continue;
-    const bool further = loose.status != LockStatus::locked ||
-                         load.dot(tight.state.macro) > load.dot(loose.state.macro) + same_value;
-    if (!further) break;
-    if (!loose.trail.empty()) trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
+    const double by = loose.status == LockStatus::locked
+                          ? load.dot(tight.state.macro) - load.dot(loose.state.macro)
+                          : std::numeric_limits<double>::infinity();
+    // Two ways to one state end closer to each other than its gaps.
+    out.changed = by < -schedule_.last;
+    if (!(by > same_value)) break;
+    if (!loose.trail.empty()) out.trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
     // Looser stages of the same state: the next change of parameters may be too large for the tightest.
     for (std::size_t i = loose.trail.empty() ? 0 : 1; i < j; ++i) {
       std::optional<State> s = followed(*current_, warm[i], p, design_.variables);
-      if (s) trail.push_back({warm[i].g_hat, std::move(*s)});
+      if (s) out.trail.push_back({warm[i].g_hat, std::move(*s)});
     }
-    enter(tight, trail);
-    return tight;
+    enter(tight, out.trail);
+    out.locked = std::move(tight);
+    return out;
   }
-  enter(loose, trail);
-  return loose;
+  enter(loose, out.trail);
+  out.locked = std::move(loose);
+  return out;
+}
+
+void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads,
+                          std::vector<LockedTarget>& targets) const
+{
+  const double further = std::max(1e-8, schedule_.last);
+  std::vector<double> tried(targets.size(), -std::numeric_limits<double>::infinity());
+  for (;;) {
+    std::vector<std::pair<std::size_t, std::size_t>> lessons;  // target, donor
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      if (targets[k].locked.status != LockStatus::locked) continue;
+      double most = std::max(loads[k].dot(targets[k].locked.state.macro), tried[k]) + further;
+      std::optional<std::size_t> donor;
+      for (std::size_t j = 0; j < targets.size(); ++j) {
+        if (targets[j].locked.status != LockStatus::locked) continue;
+        const double there = loads[k].dot(targets[j].locked.state.macro);
+        if (there <= most) continue;
+        most = there;
+        donor = j;
+      }
+      if (!donor) continue;
+      tried[k] = most;
+      lessons.emplace_back(k, *donor);
+    }
+    if (lessons.empty()) return;
+    std::vector<Locked> found(lessons.size());
+    parallel_for(lessons.size(), threads_, [&](std::size_t i) {
+      const auto [k, donor] = lessons[i];
+      Schedule schedule = schedule_;
+      schedule.first = std::max(schedule.last, activation_distances(schedule).front() * schedule.ratio);
+      found[i] = lock(p.model, targets[donor].locked.state, loads[k], limits_.contact, schedule, keep_going_);
+    });
+    for (std::size_t i = 0; i < lessons.size(); ++i) {
+      LockedTarget& t = targets[lessons[i].first];
+      t.evaluations += found[i].evaluations;
+      const Vector& load = loads[lessons[i].first];
+      if (found[i].status != LockStatus::locked ||
+          !(load.dot(found[i].state.macro) > load.dot(t.locked.state.macro) + same_value))
+        continue;
+      t.changed = t.followed;
+      t.trail.clear();
+      enter(found[i], t.trail);
+      t.locked = std::move(found[i]);
+    }
+  }
 }
 
 void DesignProblem::solve_targets(DesignPoint& p)
@@ -68,16 +125,20 @@ void DesignProblem::solve_targets(DesignPoint& p)
   std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself
   warm.resize(tasks_.size());                                 // a starting design has none
   p.warm.assign(tasks_.size(), {});
-  std::vector<Locked> locked(tasks_.size());
+  std::vector<LockedTarget> targets(tasks_.size());
   std::vector<double> estimate(tasks_.size());
-  std::vector<long> evaluations(tasks_.size(), 0);
-  std::vector<Vector> gradient(tasks_.size());
+  std::vector<Vector> loads, gradient(tasks_.size());
+  for (const LimitTask& task : tasks_)
+    loads.push_back(load_vector(p.model, task.direction_deg * degree, task.sense));
   const auto nv = static_cast<int>(design_.variables.size());
+  parallel_for(tasks_.size(), threads_,
+               [&](std::size_t k) { targets[k] = lock_target(p, loads[k], warm[k]); });
+  learn(p, loads, targets);
   parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
-    const Vector load = load_vector(p.model, tasks_[k].direction_deg * degree, tasks_[k].sense);
-    locked[k] = lock_target(p, load, warm[k], p.warm[k], evaluations[k]);
-    const Locked& l = locked[k];
+    const Locked& l = targets[k].locked;
     if (l.status != LockStatus::locked) return;
+    p.warm[k] = targets[k].trail;
+    const Vector& load = loads[k];
     // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
     Request request;
     request.order = 1;
@@ -94,13 +155,14 @@ void DesignProblem::solve_targets(DesignPoint& p)
       }
     }
   });
+  p.changed.clear();
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    evaluations_ += evaluations[k];
-    if (locked[k].status != LockStatus::locked) {
-      p.why = fmt::format("no limit at {} degrees: {}", tasks_[k].direction_deg, locked[k].message);
-      return;
-    }
+    evaluations_ += targets[k].evaluations;
+    if (targets[k].changed) p.changed.push_back(static_cast<int>(k));
+    if (targets[k].locked.status != LockStatus::locked && p.why.empty())
+      p.why = fmt::format("no limit at {} degrees: {}", tasks_[k].direction_deg, targets[k].locked.message);
   }
+  if (!p.why.empty()) return;
   const auto nt = static_cast<int>(design_.targets.size());
   p.value_gradients = Matrix::Zero(nt, nv);
   p.values.assign(design_.targets.size(), 0.0);

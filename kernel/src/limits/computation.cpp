@@ -6,17 +6,45 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <mutex>
 
 namespace hauberk {
 namespace {
 
-/// One start of one task.
+/// One start of one task, and at most one more state that another limit led to.
 struct Attempt {
   std::optional<Locked> locked;  ///< null: not begun, interrupted, or it threw
   std::string error;
   double seconds = 0.0;
 };
+
+/// What is known of a task.
+struct TaskState {
+  std::vector<Attempt> starts;
+  std::vector<FoundState> further;  ///< by shakes, and from other limits
+  std::string error;                ///< of those
+  double seconds = 0.0;             ///< of those
+  std::size_t missing = 0;          ///< starts not done
+  bool known = false;               ///< its result came with the call; there are no states
+};
+
+/// The tasks, and those to either side of lone ones.
+std::vector<LimitTask> with_neighbours(const std::vector<LimitTask>& asked, double apart)
+{
+  std::vector<LimitTask> all = asked;
+  if (apart <= 0.0) return all;
+  for (const LimitTask& task : asked) {
+    const bool lone = std::none_of(asked.begin(), asked.end(), [&](const LimitTask& o) {
+      const double to = std::abs(o.direction_deg - task.direction_deg);
+      return o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
+    });
+    if (!lone) continue;
+    for (const double by : {-apart, apart}) all.push_back({task.direction_deg + by, task.sense});
+  }
+  return all;
+}
 
 class Computation {
  public:
@@ -24,90 +52,166 @@ class Computation {
               const LimitSettings& settings, const LimitsObserver& observer)
       : model_(model),
         spec_(spec),
-        tasks_(tasks),
+        tasks_(with_neighbours(tasks, settings.neighbours)),
+        asked_(tasks.size()),
         settings_(settings),
         observer_(observer),
         starts_(static_cast<std::size_t>(std::max(1, settings.starts))),
-        attempts_(tasks.size() * starts_),
-        missing_(tasks.size(), starts_)
+        states_(tasks_.size())
   {
-    for (const LimitTask& task : tasks) {
-      results_.push_back(limit_header(model, task));
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      states_[k].starts.resize(k < asked_ ? starts_ : 1);
+      states_[k].missing = states_[k].starts.size();
+      results_.push_back(limit_header(model, tasks_[k]));
       results_.back().status = LimitStatus::interrupted;
     }
   }
 
   std::vector<LimitResult> run(unsigned threads, const std::vector<std::optional<LimitResult>>& known)
   {
-    std::vector<std::size_t> items;
+    std::vector<std::pair<std::size_t, std::size_t>> items;  // task, start
+    const bool complete = known.size() == asked_ && std::all_of(known.begin(), known.end(),
+                                                                [](const auto& r) { return r.has_value(); });
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
-      if (k < known.size() && known[k]) {
-        finish(k, *known[k]);
-      } else if (std::optional<LimitResult> decided = decided_by_links(model_, tasks_[k])) {
-        finish(k, std::move(*decided));
-      } else {
-        for (std::size_t s = 0; s < starts_; ++s) items.push_back(k * starts_ + s);
+      // What was learnt from other limits is learnt again unless all is known: then nothing depends on
+      // where a run was interrupted.
+      std::optional<LimitResult> there;
+      if (k < known.size() && known[k] && (complete || !learnt(*known[k])))
+        there = known[k];
+      else
+        there = decided_by_links(model_, tasks_[k]);
+      if (there || (complete && k >= asked_)) {
+        if (there) results_[k] = std::move(*there);
+        states_[k].known = true;
+        states_[k].missing = 0;
+        continue;
       }
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) items.emplace_back(k, s);
+      ++unfinished_;
+      if (k < asked_) ++unfinished_asked_;
     }
     total_ = items.size();
     if (observer_.on_start) observer_.on_start(0, total_);
+    if (unfinished_asked_ < asked_ && unfinished_asked_ > 0) tell();
     parallel_for(items.size(), threads, [&](std::size_t i) {
-      if (going()) solve(items[i]);
+      if (going()) solve(items[i].first, items[i].second);
     });
-    for (std::size_t k = 0; k < tasks_.size(); ++k) keep_unfinished(k);
+    if (unfinished_ == 0 && !complete) learn(threads);
+    for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
+    tell();
+    results_.resize(asked_);
     return std::move(results_);
   }
 
  private:
   bool going() const { return !observer_.keep_going || observer_.keep_going(); }
 
-  void solve(std::size_t item)
+  void tell() const
   {
-    const std::size_t task = item / starts_;
-    Attempt attempt;
+    if (observer_.on_limit)
+      observer_.on_limit({results_.begin(), results_.begin() + static_cast<std::ptrdiff_t>(asked_)});
+  }
+
+  /// Begun from the state of another limit.
+  static bool learnt(const LimitResult& r)
+  {
+    return std::any_of(r.starts.begin(), r.starts.end(),
+                       [](const LockedState& s) { return s.origin.starts_with("from "); });
+  }
+
+  Attempt attempt(std::size_t task, std::size_t start) const
+  {
+    Attempt out;
     const auto t0 = std::chrono::steady_clock::now();
     try {
-      attempt.locked = limit_from_start(model_, tasks_[task], settings_, static_cast<int>(item % starts_),
-                                        [this] { return going(); });
+      out.locked = limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start),
+                                    [this] { return going(); });
     } catch (const std::exception& error) {
-      attempt.error = error.what();
+      out.error = error.what();
     }
-    attempt.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-    if (attempt.locked && attempt.locked->status == LockStatus::interrupted) attempt.locked.reset();
-    const bool finished = attempt.locked || !attempt.error.empty();
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    if (out.locked && out.locked->status == LockStatus::interrupted) out.locked.reset();
+    return out;
+  }
 
+  void solve(std::size_t task, std::size_t start)
+  {
+    Attempt done = attempt(task, start);
+    const bool finished = done.locked || !done.error.empty();
     bool last = false;
     {
       const std::lock_guard lock(mutex_);
-      attempts_[item] = std::move(attempt);
+      states_[task].starts[start] = std::move(done);
       if (!finished) return;
-      last = --missing_[task] == 0;
+      last = --states_[task].missing == 0;
+      if (last) ++states_[task].missing;  // the task itself, until it is shaken
     }
     if (last) {
+      if (!shake(task)) return;
       LimitResult result = result_of(task);  // outside the lock: forces and balances take a moment
       const std::lock_guard lock(mutex_);
-      finish(task, std::move(result));
+      states_[task].missing = 0;
+      results_[task] = std::move(result);
+      --unfinished_;
+      // The last one is told when limits have learnt from each other: who was told all has all.
+      if (task < asked_ && --unfinished_asked_ > 0) tell();
     }
     const std::lock_guard lock(mutex_);
     ++done_;
     if (observer_.on_start) observer_.on_start(done_, total_);
   }
 
-  /// Out of the starts that there are. Only called when no other thread works on this task.
+  /// Shakes of a task, one after another, each from the furthest state so far. False: interrupted.
+  bool shake(std::size_t task)
+  {
+    TaskState& t = states_[task];
+    const auto t0 = std::chrono::steady_clock::now();
+    const KeepGoing keep_going = [this] { return going(); };
+    try {
+      for (int k = 0; k < (task < asked_ ? settings_.shakes : 0); ++k) {
+        const std::vector<FoundState> found = found_of(task);
+        const std::optional<std::size_t> best = furthest(model_, tasks_[task], settings_, found);
+        if (!best) break;
+        const std::uint64_t seed = settings_.seed + starts_ + static_cast<std::uint64_t>(k);
+        const State from = shaken(model_, found[*best].locked.state, settings_, seed, keep_going);
+        Locked locked =
+            lock(model_, from, load_vector(model_, tasks_[task].direction_deg * degree, tasks_[task].sense),
+                 settings_.contact, settings_.schedule, keep_going);
+        if (!going() || locked.status == LockStatus::interrupted) return false;
+        t.further.push_back({std::move(locked), "shake", seed});
+      }
+    } catch (const std::exception& error) {
+      t.error = error.what();
+    }
+    t.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    return true;
+  }
+
+  std::vector<FoundState> found_of(std::size_t task) const
+  {
+    std::vector<FoundState> found;
+    const TaskState& t = states_[task];
+    for (std::size_t s = 0; s < t.starts.size(); ++s) {
+      if (t.starts[s].locked) found.push_back({*t.starts[s].locked, "start", settings_.seed + s});
+    }
+    found.insert(found.end(), t.further.begin(), t.further.end());
+    return found;
+  }
+
+  /// Out of what there is. Only called when no other thread works on this task.
   LimitResult result_of(std::size_t task) const
   {
-    std::vector<Locked> locked;
-    double seconds = 0.0;
-    std::string error;
-    for (std::size_t s = 0; s < starts_; ++s) {
-      const Attempt& a = attempts_[task * starts_ + s];
-      if (a.locked) locked.push_back(*a.locked);
+    const TaskState& t = states_[task];
+    double seconds = t.seconds;
+    std::string error = t.error;
+    for (const Attempt& a : t.starts) {
       if (error.empty()) error = a.error;
       seconds += a.seconds;
     }
     LimitResult result = limit_header(model_, tasks_[task]);
+    const std::vector<FoundState> found = found_of(task);
     try {
-      if (!locked.empty()) result = summarize(model_, spec_, tasks_[task], settings_, locked);
+      if (!found.empty()) result = summarize(model_, spec_, tasks_[task], settings_, found);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -119,32 +223,116 @@ class Computation {
     return result;
   }
 
+  /// How far the state of a result is along a task; null: it has no sound state.
+  std::optional<double> reached_by(std::size_t donor, const LimitTask& task) const
+  {
+    const LimitResult& r = results_[donor];
+    if (r.status != LimitStatus::locked || static_cast<int>(r.macro.size()) != model_.macro_count)
+      return std::nullopt;
+    std::vector<double> macro;
+    for (int k = 0; k < model_.macro_count; ++k) {
+      const int power = model_.load->macros()[static_cast<std::size_t>(k)].length_power;
+      macro.push_back(r.macro[static_cast<std::size_t>(k)].second / std::pow(model_.length, power));
+    }
+    const double v = model_.load->value(task.direction_deg * degree, macro);
+    return task.sense == Sense::positive ? v : -v;
+  }
+
+  /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
+  /// other has found for it, until none is further.
+  void learn(unsigned threads)
+  {
+    std::vector<double> tried(tasks_.size(), -std::numeric_limits<double>::infinity());
+    for (;;) {
+      std::vector<std::pair<std::size_t, std::size_t>> lessons;  // task, donor
+      for (std::size_t k = 0; k < asked_; ++k) {
+        const auto own = reached_by(k, tasks_[k]);
+        if (!own) continue;
+        double most = std::max(*own, tried[k]) + further_than(settings_);
+        std::optional<std::size_t> donor;
+        for (std::size_t j = 0; j < tasks_.size(); ++j) {
+          const auto there = reached_by(j, tasks_[k]);
+          if (j == k || !there || *there <= most) continue;
+          most = *there;
+          donor = j;
+        }
+        if (!donor) continue;
+        tried[k] = most;
+        lessons.emplace_back(k, *donor);
+      }
+      if (lessons.empty()) return;
+      std::vector<std::size_t> unknown;  // tasks whose states are needed but came as results
+      for (const auto& [task, donor] : lessons) {
+        for (const std::size_t k : {task, donor}) {
+          if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
+            unknown.push_back(k);
+        }
+      }
+      std::vector<std::pair<std::size_t, std::size_t>> again;
+      for (const std::size_t k : unknown)
+        for (std::size_t s = 0; s < states_[k].starts.size(); ++s) again.emplace_back(k, s);
+      parallel_for(again.size(), threads, [&](std::size_t i) {
+        const auto& [k, start] = again[i];
+        states_[k].starts[start] = attempt(k, start);
+      });
+      parallel_for(unknown.size(), threads, [&](std::size_t i) { shake(unknown[i]); });
+      for (const std::size_t k : unknown) states_[k].known = false;
+      std::vector<std::optional<FoundState>> found(lessons.size());
+      parallel_for(lessons.size(), threads, [&](std::size_t i) {
+        const auto [task, donor] = lessons[i];
+        const std::vector<FoundState> states = found_of(donor);
+        const auto best = furthest(model_, tasks_[donor], settings_, states);
+        if (!best || !going()) return;
+        found[i] = FoundState{
+            limit_from_state(model_, tasks_[task], settings_, states[*best].locked.state,
+                             [this] { return going(); }),
+            fmt::format("from {} degrees, {}", results_[donor].direction_deg, results_[donor].sense),
+            states[*best].seed};
+      });
+      if (!going()) {
+        for (const auto& [task, donor] : lessons) {
+          results_[task].status = LimitStatus::interrupted;
+          results_[task].message = fmt::format("a further state was known from {} degrees, {}",
+                                               results_[donor].direction_deg, results_[donor].sense);
+        }
+        return;
+      }
+      for (std::size_t i = 0; i < lessons.size(); ++i) {
+        if (!found[i]) continue;
+        const std::size_t task = lessons[i].first;
+        states_[task].further.push_back(std::move(*found[i]));
+        results_[task] = result_of(task);
+      }
+    }
+  }
+
+  /// A further state must be so by more than the gaps that a schedule leaves.
+  static double further_than(const LimitSettings& s) { return std::max(1e-8, s.schedule.last); }
+
   /// Starts that were done before an interrupt are worth keeping.
   void keep_unfinished(std::size_t task)
   {
-    if (missing_[task] == 0 || missing_[task] == starts_) return;
+    const TaskState& t = states_[task];
+    if (t.missing == 0) return;
+    const auto done = static_cast<std::size_t>(std::count_if(
+        t.starts.begin(), t.starts.end(), [](const Attempt& a) { return a.locked.has_value(); }));
+    if (done == 0) return;
     LimitResult result = result_of(task);
     result.status = LimitStatus::interrupted;
-    result.message = fmt::format("{} of {} starts were done", starts_ - missing_[task], starts_);
+    result.message = fmt::format("{} of {} starts were done", done, starts_);
     results_[task] = std::move(result);
-  }
-
-  void finish(std::size_t task, LimitResult result)
-  {
-    missing_[task] = 0;
-    results_[task] = std::move(result);
-    if (observer_.on_limit) observer_.on_limit(results_);
   }
 
   const Model& model_;
   const SceneSpec& spec_;
-  const std::vector<LimitTask>& tasks_;
+  const std::vector<LimitTask> tasks_;  ///< those asked for, then neighbours
+  const std::size_t asked_;
   const LimitSettings& settings_;
   const LimitsObserver& observer_;
   std::size_t starts_, total_ = 0, done_ = 0;
   std::mutex mutex_;  ///< guards all below
-  std::vector<Attempt> attempts_;
-  std::vector<std::size_t> missing_;  ///< starts not done, by task
+  std::vector<TaskState> states_;
+  std::size_t unfinished_ = 0, unfinished_asked_ = 0;  ///< tasks
   std::vector<LimitResult> results_;
 };
 

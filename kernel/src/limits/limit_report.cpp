@@ -244,9 +244,9 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   return r;
 }
 
-void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const Locked& l,
-               std::uint64_t seed)
+void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const FoundState& found)
 {
+  const Locked& l = found.locked;
   LockedState s;
   const double scale = power(m.length, m.load->value_length_power());
   s.value = m.load->value(task.direction_deg * degree, macro_span(m, l.state)) * scale;
@@ -255,7 +255,8 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
                       power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));
   }
   s.z_range = z_range(m, l.state) * m.length;
-  s.seed = seed;
+  s.seed = found.seed;
+  s.origin = found.origin;
   s.count = 1;
   const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
   // Mirror images have the same value, height and metric norm of the macroscopic state.

@@ -3,6 +3,13 @@
 
 namespace hauberk {
 
+/// How far a state is along a task: its value, less where the sense is negative.
+double reached(const Model& model, const LimitTask& task, const State& state);
+
+/// The furthest sound locked state, the first of equals; null: there is none.
+std::optional<std::size_t> furthest(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                                    const std::vector<FoundState>& found);
+
 /// Names of a task's result.
 LimitResult limit_header(const Model& model, const LimitTask& task);
 
@@ -12,6 +19,6 @@ LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTas
 
 /// Adds a start's state to the list of distinct locked states; mirror images count once.
 void add_start(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
-               const Locked& locked, std::uint64_t seed);
+               const FoundState& found);
 
 }  // namespace hauberk

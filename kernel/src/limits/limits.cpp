@@ -38,34 +38,39 @@ std::optional<LimitResult> decided_by_links(const Model& m, const LimitTask& tas
   return r;
 }
 
-LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task,
-                      const LimitSettings& settings, const std::vector<Locked>& starts)
+std::optional<std::size_t> furthest(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                                    const std::vector<FoundState>& found)
 {
-  const double theta = task.direction_deg * degree;
-  constexpr double same_value = 1e-9;  // a further start must be further by more than rounding
-  // The best sound locked state; if there is none, the first start tells what happened.
-  const auto value_of = [&](const Locked& l) {
-    const double v = m.load->value(theta, macro_span(m, l.state));
-    return task.sense == Sense::positive ? v : -v;
-  };
-  std::size_t best = 0;
-  bool any = false;
-  std::vector<bool> usable;
-  for (const Locked& l : starts) usable.push_back(sound(m, l, settings.schedule));
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (!usable[k]) continue;
-    if (!any || value_of(starts[k]) > value_of(starts[best]) + same_value) best = k;
-    any = true;
+  constexpr double same_value = 1e-9;  // a later one must be further by more than rounding
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!sound(m, found[k].locked, settings.schedule)) continue;
+    if (!best ||
+        reached(m, task, found[k].locked.state) > reached(m, task, found[*best].locked.state) + same_value)
+      best = k;
   }
-  LimitResult r = fill_limit(m, spec, task, settings, starts[best]);
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    r.iterations += k == best ? 0 : starts[k].iterations;
-    r.evaluations += k == best ? 0 : starts[k].evaluations;
-    if (usable[k]) {
-      add_start(r.starts, m, task, starts[k], settings.seed + static_cast<std::uint64_t>(k));
-    }
+  return best;
+}
+
+double reached(const Model& m, const LimitTask& task, const State& state)
+{
+  const double v = m.load->value(task.direction_deg * degree, macro_span(m, state));
+  return task.sense == Sense::positive ? v : -v;
+}
+
+LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task,
+                      const LimitSettings& settings, const std::vector<FoundState>& found)
+{
+  // The furthest sound locked state; if there is none, the first start tells what happened.
+  const std::optional<std::size_t> sound_best = furthest(m, task, settings, found);
+  const std::size_t best = sound_best.value_or(0);
+  LimitResult r = fill_limit(m, spec, task, settings, found[best].locked);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    r.iterations += k == best ? 0 : found[k].locked.iterations;
+    r.evaluations += k == best ? 0 : found[k].locked.evaluations;
+    if (sound(m, found[k].locked, settings.schedule)) add_start(r.starts, m, task, found[k]);
   }
-  r.better_state = any && best != 0;
+  r.better_state = best != 0;
   return r;
 }
 

@@ -6,6 +6,8 @@
 namespace hauberk {
 namespace {
 
+/// Newton steps of a shake.
+constexpr int shake_steps = 15;
 /// Further starts take this many random moves, each as long as nothing collides.
 constexpr int moves = 4;
 
@@ -19,6 +21,7 @@ class Normal {
     const double v = (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53;
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
   }
+  double uniform() { return (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53; }
   Vec3 vector()
   {
     const double x = (*this)(), y = (*this)(), z = (*this)();
@@ -54,6 +57,42 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
     s = advanced(m, s, dy, safe.alpha);
   }
   return s;
+}
+
+State shaken(const Model& m, const State& from, const LimitSettings& settings, std::uint64_t seed,
+             const KeepGoing& keep_going)
+{
+  Normal normal(seed);
+  Draw draw;
+  draw.target = from;
+  draw.target.macro *= normal.uniform();
+  for (int i = 0; i < m.element_count(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Mat3& Q = m.rest[k].rotation;
+    const Vec3 u = Q * normal.vector(), w = Q * normal.vector();
+    draw.target.e.segment(i * m.coordinate_count, m.coordinate_count) +=
+        settings.shake * u.head(m.coordinate_count);
+    draw.target.rotation[k] = rotation_exp(settings.shake * w) * draw.target.rotation[k];
+  }
+  const double g_hat = activation_distances(settings.schedule).front();
+  Stage stage;
+  stage.contact = {Formulation::arc, g_hat, m.clearance, MinimaSearch::certified};
+  stage.mu = settings.schedule.stiffness * g_hat;
+  stage.draw = &draw;
+  State out = from;
+  int steps = 0;
+  solve_stage(m, out, Vector::Zero(m.macro_count), stage,
+              [&] { return steps++ < shake_steps && keep_going(); });
+  return out;
+}
+
+Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                        const State& from, const KeepGoing& keep_going)
+{
+  Schedule schedule = settings.schedule;
+  schedule.first = std::max(schedule.last, activation_distances(schedule).front() * schedule.ratio);
+  return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact, schedule,
+              keep_going);
 }
 
 Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettings& settings, int start,

@@ -130,6 +130,9 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
   if (solver.max_iterations) schedule.most_iterations = *solver.max_iterations;
   settings.starts = solver.starts;
   settings.perturbation = solver.perturbation;
+  settings.neighbours = solver.neighbours;
+  settings.shakes = solver.shakes;
+  settings.shake = solver.shake;
   settings.further_perturbation = std::max(settings.further_perturbation, solver.perturbation);
   settings.seed = solver.start_seed;
   return settings;

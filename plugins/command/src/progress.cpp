@@ -109,7 +109,8 @@ void Progress::design(const DesignProgress& progress, const DesignSpec& design, 
   const std::lock_guard lock(mutex_);
   const std::string head =
       fmt::format("design: {}start {}/{}, iteration {}, objective {:.4e}", final ? "refining " : "",
-                  progress.start + 1, progress.starts, it.iteration, it.objective);
+                  progress.start + 1, progress.starts, it.iteration, it.objective) +
+      (it.changed.empty() ? "" : fmt::format(" (another state: {})", fmt::join(it.changed, "; ")));
   if (mode_ == Mode::plain) {
     std::vector<std::string> values;
     for (const double v : it.values) values.push_back(fmt::format("{:.4f}", v));

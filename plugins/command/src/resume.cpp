@@ -103,6 +103,7 @@ std::vector<DesignIterate> read_history(const json::array& list)
     it.min_gap = number(item.at("min_gap"));
     it.links_kept = item.at("links_kept").as_bool();
     it.seconds = number(item.at("seconds"));
+    for (const json::value& v : item.at("changed").as_array()) it.changed.push_back(text(v));
     for (const json::value& v : item.at("values").as_array()) it.values.push_back(number(v));
     history.push_back(std::move(it));
   }

@@ -121,6 +121,24 @@ Field solver_field()
                                "1"),
                         0.0),
                "0.01"),
+           with_default(
+               at_least(number("neighbours",
+                               "A limit that has no other of its sense within this angle learns from limits "
+                               "at it to either side, which are not reported; 0: none.",
+                               "degree"),
+                        0.0),
+               "10"),
+           with_default(at_least(integer("shakes",
+                                         "Searches for further locked states after the starts, per limit, "
+                                         "each from the furthest so far, shaken loose."),
+                                 0),
+                        "0"),
+           with_default(at_least(number("shake",
+                                        "Standard deviation of a shake: how far elements are drawn, in "
+                                        "characteristic lengths, and turned, in radians.",
+                                        "1"),
+                                 0.0),
+                        "0.5"),
            seed_field("start_seed", "Seed of the first perturbed start; absent: seed."),
            at_least(integer("max_stages", "Most stages of falling stiffness; absent: as the preset says."),
                     1),

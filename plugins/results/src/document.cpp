@@ -75,6 +75,7 @@ json::array history_json(const std::vector<DesignIterate>& history)
                    {"constraint_violation", number(h.constraint_violation)},
                    {"min_gap", number(h.min_gap)},
                    {"links_kept", h.links_kept},
+                   {"changed", json::array(h.changed.begin(), h.changed.end())},
                    {"seconds", number(h.seconds)},
                    {"values", std::move(values)}});
   }

@@ -19,6 +19,7 @@ json::object start_json(const LockedState& state, const std::vector<std::string>
   for (std::size_t i = 0; i < state.macro.size(); ++i)
     macro[i < names.size() ? names[i] : std::to_string(i)] = number(state.macro[i]);
   out["z_range"] = number(state.z_range);
+  out["origin"] = state.origin;
   out["seed"] = state.seed;
   out["count"] = state.count;
   return out;

@@ -48,7 +48,7 @@ LimitResult limit(double degrees, const char* sense, double value)
   out.macro = {{"exx", value}, {"eyy", 0.1}, {"exy", -0.0}};
   out.links_kept = true;
   out.min_gap = 1e-9;
-  out.starts = {{value, {value, 0.1, 0.0}, 0.0, 12345678901234567890ULL, 2}};
+  out.starts = {{value, {value, 0.1, 0.0}, 0.0, 12345678901234567890ULL, "start", 2}};
   out.poses = {Pose{}, scene().elements[1].rest};
   ContactForce contact;
   contact.elements = {0, 1};

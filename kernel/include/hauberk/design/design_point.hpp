@@ -21,6 +21,7 @@ struct DesignPoint {
   State rest;                                ///< relaxed
   std::vector<Gap> rest_gaps;                ///< close pairs at rest, with derivatives
   std::vector<std::vector<WarmStart>> warm;  ///< per task, loosest first
+  std::vector<int> changed;                  ///< tasks whose state is not the continuation of the iterate's
   std::vector<double> values;                ///< per target
   Matrix value_gradients;                    ///< row per target, column per variable
   double objective = 0.0;

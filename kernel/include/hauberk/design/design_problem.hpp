@@ -57,9 +57,21 @@ class DesignProblem final : public OptimizationProblem {
 
   std::shared_ptr<DesignPoint> make_point(std::span<const double> x);
   void solve_targets(DesignPoint& p);
-  /// Furthest locked state of one task that the iterate's states lead to; appends its stages to `trail`.
-  Locked lock_target(const DesignPoint& p, const Vector& load, const std::vector<WarmStart>& warm,
-                     std::vector<WarmStart>& trail, long& evaluations) const;
+  /// What one target asks for, locked.
+  struct LockedTarget {
+    Locked locked;
+    std::vector<WarmStart> trail;  ///< its stages
+    long evaluations = 0;
+    bool followed = false;  ///< there was a state to follow
+    bool changed = false;   ///< and this is not its continuation
+  };
+  /// Furthest locked state of one task that the iterate's states lead to.
+  LockedTarget lock_target(const DesignPoint& p, const Vector& load,
+                           const std::vector<WarmStart>& warm) const;
+  /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
+  /// another that is further along its direction, until there is none.
+  void learn(const DesignPoint& p, const std::vector<Vector>& loads,
+             std::vector<LockedTarget>& targets) const;
   void list_constraints();
   double rest_target(const Model& m) const;
   /// Room of a hole around its thread beyond the hole clearance, scaled.

@@ -19,6 +19,9 @@ struct LimitSettings {
   int starts = 1;
   double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
+  double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
+  int shakes = 0;                     ///< after the starts, each from the furthest state so far
+  double shake = 0.5;                 ///< how far a shake draws elements, L, and turns them, radians
   std::uint64_t seed = 1;
 };
 
@@ -39,16 +42,36 @@ enum class Copies {
 /// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
 State perturbed(const Model& model, const State& from, double size, std::uint64_t seed, Copies copies);
 
+/// A state shaken loose: minimum of springs (Draw) to a random configuration and of contact at the widest
+/// activation distance, after so many Newton steps as a shake takes. The configuration is `from` with every
+/// element moved and turned at random (standard deviation `settings.shake`) and with the strain part of the
+/// way back to rest. Contacts guide the motion and links are kept, so the state stays in the connected
+/// region of rest but may leave the one of its locked state. Deterministic in `seed`.
+State shaken(const Model& model, const State& from, const LimitSettings& settings, std::uint64_t seed,
+             const KeepGoing& keep_going);
+
+/// Locked state of one task from a state that another search has found, free of collisions. Stages begin
+/// with the second: the first would let the state go back to where it came from.
+Locked limit_from_state(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                        const State& from, const KeepGoing& keep_going);
+
 /// Locked state of one task from one start. Start 0 is a small perturbation that moves copies alike, so that
 /// a repeated cell finds at least what the cell finds; where there are copies, start 1 is a small one that
 /// moves them apart, so that the repeated cell can fold; all others are large and move everything apart.
 Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,
                         const KeepGoing& keep_going);
 
-/// Result of one task out of its starts' locked states (in start order). Forces, balance, sensitivities and
-/// the smallest gap are evaluated at the best state.
+/// A locked state and where it came from.
+struct FoundState {
+  Locked locked;
+  std::string origin;      ///< "start", "shake", or "from " and the limit whose state it began with
+  std::uint64_t seed = 0;  ///< of the start or shake
+};
+
+/// Result of one task out of what was found (in a fixed order, the first start first). Forces, balance,
+/// sensitivities and the smallest gap are evaluated at the best state.
 LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
-                      const LimitSettings& settings, const std::vector<Locked>& starts);
+                      const LimitSettings& settings, const std::vector<FoundState>& found);
 
 /// Result for a task that the links leave unbounded or not attained, or null if it is to be solved.
 std::optional<LimitResult> decided_by_links(const Model& model, const LimitTask& task);
@@ -63,7 +86,12 @@ struct LimitsObserver {
   std::function<void(const std::vector<LimitResult>&)> on_limit;
 };
 
-/// All tasks, every start an item of its own for the threads; results do not depend on `threads`. `known`:
+/// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
+///
+/// After its starts each task is shaken. Then limits learn from each other: a locked state of any task is a
+/// reachable state for all, so where its value along another task's direction is further than that task's
+/// own limit, that one is locked again from it, until none is. A limit that has no other of its sense within
+/// `settings.neighbours` learns from limits at that angle to either side, which are not reported. `known`:
 /// results that are there already, by task; empty: none. What one limit throws is its result (status failed)
 /// and does not stop the others. Tasks that were not finished when `keep_going` said no are `interrupted`,
 /// with the best of the starts that were done. What the observer throws is rethrown.

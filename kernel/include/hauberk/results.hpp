@@ -33,7 +33,7 @@ struct LockedState {
   std::vector<double> macro;
   double z_range = 0.0;
   std::uint64_t seed = 0;  ///< of the start that came furthest to it (the first of equals)
-  std::string origin;      ///< what found it: start, shake, or from another limit
+  std::string origin;      ///< what found it: start, tilt, or from another limit
   int count = 0;
 };
 

@@ -23,7 +23,7 @@ struct Attempt {
 /// What is known of a task.
 struct TaskState {
   std::vector<Attempt> starts;
-  std::vector<FoundState> further;  ///< by shakes, and from other limits
+  std::vector<FoundState> further;  ///< by tilts, and from other limits
   std::string error;                ///< of those
   double seconds = 0.0;             ///< of those
   std::size_t missing = 0;          ///< starts not done
@@ -144,10 +144,10 @@ class Computation {
       states_[task].starts[start] = std::move(done);
       if (!finished) return;
       last = --states_[task].missing == 0;
-      if (last) ++states_[task].missing;  // the task itself, until it is shaken
+      if (last) ++states_[task].missing;  // the task itself, until its tilts are done
     }
     if (last) {
-      if (!shake(task)) return;
+      if (!tilt(task)) return;
       LimitResult result = result_of(task);  // outside the lock: forces and balances take a moment
       const std::lock_guard lock(mutex_);
       states_[task].missing = 0;
@@ -161,24 +161,35 @@ class Computation {
     if (observer_.on_start) observer_.on_start(done_, total_);
   }
 
-  /// Shakes of a task, one after another, each from the furthest state so far. False: interrupted.
-  bool shake(std::size_t task)
+  /// Locks a task under tilted loads too, and again from where one of them is further than all that is known.
+  /// False: interrupted.
+  bool tilt(std::size_t task)
   {
+    if (task >= asked_ || settings_.tilts == 0) return true;
     TaskState& t = states_[task];
+    const LimitTask& limit = tasks_[task];
     const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
+    const Vector load = load_vector(model_, limit.direction_deg * degree, limit.sense);
     try {
-      for (int k = 0; k < (task < asked_ ? settings_.shakes : 0); ++k) {
-        const std::vector<FoundState> found = found_of(task);
-        const std::optional<std::size_t> best = furthest(model_, tasks_[task], settings_, found);
-        if (!best) break;
-        const std::uint64_t seed = settings_.seed + starts_ + static_cast<std::uint64_t>(k);
-        const State from = shaken(model_, found[*best].locked.state, settings_, seed, keep_going);
-        Locked locked =
-            lock(model_, from, load_vector(model_, tasks_[task].direction_deg * degree, tasks_[task].sense),
-                 settings_.contact, settings_.schedule, keep_going);
-        if (!going() || locked.status == LockStatus::interrupted) return false;
-        t.further.push_back({std::move(locked), "shake", seed});
+      for (int k = 0; k < settings_.tilts; ++k) {
+        const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
+        const State from = perturbed(model_, settings_.start ? *settings_.start : rest_state(model_),
+                                     settings_.perturbation, seed, Copies::apart);
+        Locked found = lock(model_, from, tilted(model_, load, settings_, seed), settings_.contact,
+                            settings_.schedule, keep_going);
+        if (found.status == LockStatus::interrupted) return false;
+        const std::vector<FoundState> known = found_of(task);
+        const std::optional<std::size_t> best = furthest(model_, limit, settings_, known);
+        if (found.status != LockStatus::locked ||
+            (best && reached(model_, limit, found.state) <
+                         reached(model_, limit, known[*best].locked.state) + further_than(settings_)))
+          continue;
+        Locked own = limit_from_state(model_, limit, settings_, found.state, keep_going);
+        if (own.status == LockStatus::interrupted) return false;
+        own.iterations += found.iterations;
+        own.evaluations += found.evaluations;
+        t.further.push_back({std::move(own), "tilt", seed});
       }
     } catch (const std::exception& error) {
       t.error = error.what();
@@ -275,7 +286,7 @@ class Computation {
         const auto& [k, start] = again[i];
         states_[k].starts[start] = attempt(k, start);
       });
-      parallel_for(unknown.size(), threads, [&](std::size_t i) { shake(unknown[i]); });
+      parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
       for (const std::size_t k : unknown) states_[k].known = false;
       std::vector<std::optional<FoundState>> found(lessons.size());
       parallel_for(lessons.size(), threads, [&](std::size_t i) {

@@ -6,8 +6,6 @@
 namespace hauberk {
 namespace {
 
-/// Newton steps of a shake.
-constexpr int shake_steps = 15;
 /// Further starts take this many random moves, each as long as nothing collides.
 constexpr int moves = 4;
 
@@ -21,7 +19,6 @@ class Normal {
     const double v = (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53;
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
   }
-  double uniform() { return (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53; }
   Vec3 vector()
   {
     const double x = (*this)(), y = (*this)(), z = (*this)();
@@ -59,31 +56,17 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
   return s;
 }
 
-State shaken(const Model& m, const State& from, const LimitSettings& settings, std::uint64_t seed,
-             const KeepGoing& keep_going)
+Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings, std::uint64_t seed)
 {
   Normal normal(seed);
-  Draw draw;
-  draw.target = from;
-  draw.target.macro *= normal.uniform();
-  for (int i = 0; i < m.element_count(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Mat3& Q = m.rest[k].rotation;
-    const Vec3 u = Q * normal.vector(), w = Q * normal.vector();
-    draw.target.e.segment(i * m.coordinate_count, m.coordinate_count) +=
-        settings.shake * u.head(m.coordinate_count);
-    draw.target.rotation[k] = rotation_exp(settings.shake * w) * draw.target.rotation[k];
-  }
-  const double g_hat = activation_distances(settings.schedule).front();
-  Stage stage;
-  stage.contact = {Formulation::arc, g_hat, m.clearance, MinimaSearch::certified};
-  stage.mu = settings.schedule.stiffness * g_hat;
-  stage.draw = &draw;
-  State out = from;
-  int steps = 0;
-  solve_stage(m, out, Vector::Zero(m.macro_count), stage,
-              [&] { return steps++ < shake_steps && keep_going(); });
-  return out;
+  const auto metric = m.metric.head(m.macro_count).array();
+  const auto dot = [&](const Vector& a, const Vector& b) { return (a.array() * b.array() / metric).sum(); };
+  const double size = std::sqrt(dot(load, load));
+  Vector across(m.macro_count);
+  for (int k = 0; k < m.macro_count; ++k) across[k] = normal() * std::sqrt(metric[k]);
+  across -= dot(across, load) / (size * size) * load;
+  const double angle = settings.tilt * degree;
+  return std::cos(angle) * load + std::sin(angle) * size / std::sqrt(dot(across, across)) * across;
 }
 
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
@@ -101,9 +84,10 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
   bool repeated = false;
   for (int i = 0; i < m.element_count(); ++i) repeated |= m.source[static_cast<std::size_t>(i)] != i;
   const bool small = start == 0 || (start == 1 && repeated && settings.perturbation > 0.0);
-  const State from = perturbed(
-      m, rest_state(m), small ? settings.perturbation : settings.further_perturbation,
-      settings.seed + static_cast<std::uint64_t>(start), start == 0 ? Copies::alike : Copies::apart);
+  const State from = perturbed(m, settings.start ? *settings.start : rest_state(m),
+                               small ? settings.perturbation : settings.further_perturbation,
+                               settings.seed + static_cast<std::uint64_t>(start),
+                               start == 0 ? Copies::alike : Copies::apart);
   return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact,
               settings.schedule, keep_going);
 }

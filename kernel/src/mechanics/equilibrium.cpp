@@ -54,7 +54,6 @@ class Newton {
       : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going)
   {
     load_norm_ = std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
-    if (stage.draw != nullptr) load_norm_ = std::max(load_norm_, stage.draw->stiffness);
   }
 
   StageResult run()
@@ -274,42 +273,6 @@ class Newton {
 
 }  // namespace
 
-namespace {
-
-/// With Q = R R_t^T, tr(exp([w]) Q) = tr Q + w . q + w^T (sym Q - tr Q I) w / 2 + ..., where
-/// q = (Q_23 - Q_32, Q_31 - Q_13, Q_12 - Q_21).
-void add_draw(const Model& m, const State& s, const Draw& draw, int order, TotalEnergy& t)
-{
-  const double k = draw.stiffness;
-  const int nc = m.coordinate_count;
-  const auto spring = [&](int at, const Vector& apart) {
-    const auto n = apart.size();
-    const Vector pull = k * m.metric.segment(at, n).cwiseProduct(apart);
-    t.energy += 0.5 * pull.dot(apart);
-    if (order >= 1) t.gradient.segment(at, n) += pull;
-    if (order >= 2) t.hessian.diagonal().segment(at, n) += k * m.metric.segment(at, n);
-  };
-  spring(0, s.macro - draw.target.macro);
-  for (int i = 0; i < m.element_count(); ++i) {
-    const int o = m.offset(i);
-    spring(o, s.e.segment(i * nc, nc) - draw.target.e.segment(i * nc, nc));
-    const auto e = static_cast<std::size_t>(i);
-    const Mat3 Q = s.rotation[e] * draw.target.rotation[e].transpose();
-    const double weight = k * m.metric[o + nc];
-    t.energy += 0.5 * weight * (3.0 - Q.trace());
-    if (order >= 1) {
-      t.gradient.segment<3>(o + nc) -=
-          0.5 * weight * Vec3(Q(1, 2) - Q(2, 1), Q(2, 0) - Q(0, 2), Q(0, 1) - Q(1, 0));
-    }
-    if (order >= 2) {
-      t.hessian.block<3, 3>(o + nc, o + nc) +=
-          0.5 * weight * (Q.trace() * Mat3::Identity() - 0.5 * (Q + Q.transpose()));
-    }
-  }
-}
-
-}  // namespace
-
 SafeStep checked_step(const Model& m, const State& from, const Vector& dy, double keep, const Stage& stage)
 {
   if (stage.ccd == CollisionCheck::certified) return largest_safe_step(m, from, dy, keep);
@@ -340,7 +303,6 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
     t.gradient.head(m.macro_count) -= driving_load(s, load, stage);
   }
   if (order >= 2) t.hessian = stage.mu * t.contact.hessian;
-  if (stage.draw != nullptr) add_draw(m, s, *stage.draw, order, t);
   if (std::isfinite(stage.target)) {
     t.energy += s.macro.squaredNorm() / (2.0 * stage.target);
     if (order >= 2) t.hessian.diagonal().head(m.macro_count).array() += 1.0 / stage.target;

@@ -75,7 +75,7 @@ struct Penalty {
   Matrix hessian;
 };
 
-Penalty penalty(const Model& m, const State& start, const State& s, double target)
+Penalty penalty(const Model& m, const State& start, const State& s, double target, Cell cell)
 {
   Penalty p;
   const Vector away = difference(m, start, s).cwiseProduct(m.metric);
@@ -107,7 +107,7 @@ Penalty penalty(const Model& m, const State& start, const State& s, double targe
       }
     }
   }
-  // The cell is fixed.
+  if (cell == Cell::free) return p;
   p.gradient.head(m.macro_count).setZero();
   p.hessian.leftCols(m.macro_count).setZero();
   p.hessian.topRows(m.macro_count).setZero();
@@ -186,12 +186,12 @@ std::string tightest_pair(const SceneSpec& spec, const Model& m, const State& s)
          (spec.length_unit.empty() ? "" : " (lengths in " + spec.length_unit + ")");
 }
 
-Relaxed relax(const Model& m, const State& start, double target)
+Relaxed relax(const Model& m, const State& start, double target, Cell cell)
 {
   Relaxed out;
   out.state = start;
   const double aim = target * (1.0 + room);
-  Penalty now = penalty(m, start, start, aim);
+  Penalty now = penalty(m, start, start, aim, cell);
   double damping = 1e-4;
   for (int it = 0; it < most_relaxations && now.smallest < target; ++it) {
     Matrix A = now.hessian;
@@ -200,7 +200,7 @@ Relaxed relax(const Model& m, const State& start, double target)
     const double size = step_norm(m, dy);
     if (size > 0.1) dy *= 0.1 / size;
     const State trial = advanced(m, out.state, dy, 1.0);
-    const Penalty next = penalty(m, start, trial, aim);
+    const Penalty next = penalty(m, start, trial, aim, cell);
     if (next.value < now.value) {
       out.state = trial;
       const double gain = (now.value - next.value) / std::max(now.value, 1e-300);

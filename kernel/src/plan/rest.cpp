@@ -96,11 +96,24 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
   const double gap = smallest_gap(m, rest, opened);
   if (gap > touching) return out;
   Relaxed r;
-  double room = opened;
-  do {
-    r = relax(m, rest, room);
-    room *= 0.1;
-  } while (!r.problem.empty() && room >= least_opened);
+  const auto open = [&](Cell cell) {
+    double room = opened;
+    do {
+      r = relax(m, rest, room, cell);
+      room *= 0.1;
+    } while (!r.problem.empty() && room >= least_opened);
+    return r.problem.empty();
+  };
+  if (!open(Cell::fixed)) {
+    const Relaxed fixed = r;
+    // What overlaps has no rest state; what touches is one, and a little strain opens it.
+    if (gap >= -touching && open(Cell::free)) {
+      out.start = r.state;
+      out.moved = r.largest_motion * m.length;
+      return out;
+    }
+    r = fixed;
+  }
   if (!r.problem.empty())
     throw InputError("the rest state has no room nearby: " + r.problem + tightest_pair(spec, m, r.state));
   const std::vector<Pose> p = poses(m, r.state);

@@ -67,7 +67,8 @@ class DesignRun {
   {
     const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
     // Of this scene: a design may have made tubes thinner.
-    const LimitSettings settings = limit_settings(experiment_.solver, scene, experiment_.length_unit);
+    LimitSettings settings = limit_settings(experiment_.solver, scene, experiment_.length_unit);
+    settings.start = strained_start_;
     LimitsJob job{&model, &scene, std::move(tasks), settings, experiment_.load_case_plugin, threads_,
                   label,  {}};
     std::vector<LimitResult> out = run_limits(job, progress_, sink);
@@ -217,7 +218,9 @@ class DesignRun {
     d.status = "interrupted";
     d.message = "the search was done (" + status + "), its limits were not yet recomputed";
     // Opens gaps that touch, as for any other scene: with rest_clearance = clearance the search closes them.
-    run_.scene = prepare_rest(run_.scene, *experiment_.load_case, experiment_.solver.clearance).scene;
+    PreparedScene prepared = prepare_rest(run_.scene, *experiment_.load_case, experiment_.solver.clearance);
+    run_.scene = std::move(prepared.scene);
+    strained_start_ = std::move(prepared.start);
     run_.limits =
         limits("limits after", run_.scene, loaded_.tasks, [&](const std::vector<LimitResult>& so_far) {
           run_.limits = so_far;
@@ -243,6 +246,7 @@ class DesignRun {
   Output& output_;
   RunResult& run_;
   DesignSpec spec_;
+  std::optional<State> strained_start_;  ///< where the final limits start, if not at rest
 
   const DesignPoint* point_ = nullptr;  ///< of the iterate that is being observed
   std::vector<DesignIterate> history_;  ///< of the search that runs, with that of the design it continues

@@ -92,6 +92,7 @@ bool prepare_scene(Loaded& loaded, Diagnostics& diagnostics)
                    PreparedScene prepared = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
                    loaded.scene = std::move(prepared.scene);
                    loaded.moved = prepared.moved;
+                   loaded.start = std::move(prepared.start);
                  }) &&
          diagnostics.empty();
 }
@@ -168,6 +169,7 @@ Loaded load(const Options& options)
     stop_on_problems();
   }
   loaded.settings = limit_settings(e.solver, loaded.scene, e.length_unit);
+  loaded.settings.start = loaded.start;
   loaded.tasks = profile_tasks(e);
   if (e.task == Task::design) {
     loaded.design = design_spec(e);

@@ -29,8 +29,9 @@ struct Loaded {
   std::shared_ptr<const Registry> registry;
   std::vector<Provenance::Plugin> plugins;  ///< used, in the order of first use
   Experiment experiment;
-  SceneSpec scene;     ///< rest as used: relaxed where elements touched
-  double moved = 0.0;  ///< farthest that relaxation moved an element, file units
+  SceneSpec scene;             ///< rest as used: relaxed where elements touched
+  double moved = 0.0;          ///< farthest that relaxation moved an element, file units
+  std::optional<State> start;  ///< where limits start, if not at rest (PreparedScene)
   LimitSettings settings;
   std::vector<LimitTask> tasks;          ///< those of the results; of a design: targets first
   std::optional<DesignSpec> design;      ///< task design only

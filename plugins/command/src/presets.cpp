@@ -131,8 +131,8 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
   settings.starts = solver.starts;
   settings.perturbation = solver.perturbation;
   settings.neighbours = solver.neighbours;
-  settings.shakes = solver.shakes;
-  settings.shake = solver.shake;
+  settings.tilts = solver.tilts;
+  settings.tilt = solver.tilt;
   settings.further_perturbation = std::max(settings.further_perturbation, solver.perturbation);
   settings.seed = solver.start_seed;
   return settings;

@@ -99,7 +99,11 @@ std::string remarks(const RunResult& run)
 std::string summary(const Loaded& loaded, const RunResult& run)
 {
   std::string text = loaded.experiment.name + "\n\n";
-  if (loaded.moved > 0.0)
+  if (loaded.start)
+    text +=
+        "The rest state touches itself in a cell without room: limits start from a slightly strained "
+        "state.\n\n";
+  else if (loaded.moved > 0.0)
     text +=
         fmt::format("The rest state touches itself and was relaxed: elements moved by up to {:.3g} {}.\n\n",
                     loaded.moved, loaded.experiment.length_unit);

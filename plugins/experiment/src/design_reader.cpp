@@ -79,8 +79,8 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed)
   solver.starts = int_or(section, "starts", 1);
   solver.perturbation = number_or(section, "perturbation", 0.0);
   solver.neighbours = number_or(section, "neighbours", 0.0);
-  solver.shakes = int_or(section, "shakes", 0);
-  solver.shake = number_or(section, "shake", 0.0);
+  solver.tilts = int_or(section, "tilts", 0);
+  solver.tilt = number_or(section, "tilt", 0.0);
   solver.start_seed = seed_or(section, "start_seed", seed);
   solver.max_stages = optional_int(section, "max_stages");
   solver.max_iterations = optional_int(section, "max_iterations");

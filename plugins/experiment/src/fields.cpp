@@ -128,17 +128,16 @@ Field solver_field()
                                "degree"),
                         0.0),
                "10"),
-           with_default(at_least(integer("shakes",
-                                         "Searches for further locked states after the starts, per limit, "
-                                         "each from the furthest so far, shaken loose."),
-                                 0),
-                        "0"),
-           with_default(at_least(number("shake",
-                                        "Standard deviation of a shake: how far elements are drawn, in "
-                                        "characteristic lengths, and turned, in radians.",
-                                        "1"),
-                                 0.0),
-                        "0.5"),
+           with_default(
+               at_least(
+                   integer("tilts",
+                           "Random loads beside its own under which each limit is locked; it learns from "
+                           "their states."),
+                   0),
+               "0"),
+           with_default(
+               at_least(number("tilt", "Angle between such a load and the limit's own.", "degree"), 0.0),
+               "20"),
            seed_field("start_seed", "Seed of the first perturbed start; absent: seed."),
            at_least(integer("max_stages", "Most stages of falling stiffness; absent: as the preset says."),
                     1),

@@ -1,4 +1,4 @@
-/// What is done to find the furthest locked state: learning from other limits, neighbours, shakes.
+/// What is done to find the furthest locked state: learning from other limits, neighbours, tilts.
 
 #include "scenes.hpp"
 
@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hauberk::test {
 namespace {
@@ -99,25 +100,30 @@ TEST(Search, ALoneLimitAsksItsNeighbours)
   EXPECT_EQ(alone, together);
 }
 
-TEST(Search, ShakesLeaveAPoorStateWithoutLeavingTheRegionOfRest)
+TEST(Search, TiltedLoadsLeadOutOfAPoorState)
 {
   Sheet4in1 s;
   ASSERT_NE(poor_seed(s), 0U);
-  const LimitTask task{0.0, Sense::negative};
-  const Locked poor = limit_from_start(s.model, task, s.settings, 0, always);
-  ASSERT_EQ(poor.status, LockStatus::locked);
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const State loose = shaken(s.model, poor.state, s.settings, seed, always);
-    EXPECT_TRUE(links_kept(s.model, loose));
-    EXPECT_GT(smallest_gap(s.model, loose, 0.2), 1e-4);
-    EXPECT_GT(step_norm(s.model, difference(s.model, poor.state, loose)), 0.05);
-  }
-  s.settings.shakes = 12;
+  s.settings.tilts = 8;
   const LimitResult r = s.limits({0.0})[0];
   EXPECT_NEAR(*r.value, furthest_fold, 1e-4);
   EXPECT_TRUE(r.links_kept);
-  EXPECT_TRUE(std::any_of(r.starts.begin(), r.starts.end(),
-                          [](const LockedState& l) { return l.origin == "shake"; }));
+  EXPECT_TRUE(
+      std::any_of(r.starts.begin(), r.starts.end(), [](const LockedState& l) { return l.origin == "tilt"; }));
+}
+
+TEST(Search, TiltsKeepSizeAndAngle)
+{
+  Sheet4in1 s;
+  const Vector load = load_vector(s.model, 0.3, Sense::negative);
+  const auto dot = [&](const Vector& a, const Vector& b) {
+    return (a.array() * b.array() / s.model.metric.head(3).array()).sum();
+  };
+  for (std::uint64_t seed = 1; seed < 5; ++seed) {
+    const Vector t = tilted(s.model, load, s.settings, seed);
+    EXPECT_NEAR(dot(t, t), dot(load, load), 1e-14);
+    EXPECT_NEAR(dot(t, load), std::cos(s.settings.tilt * degree) * dot(load, load), 1e-14);
+  }
 }
 
 /// What is resumed does not depend on where it was interrupted, although limits learn from each other.

@@ -20,9 +20,10 @@ struct LimitSettings {
   double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
   double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
-  int shakes = 0;                     ///< after the starts, each from the furthest state so far
-  double shake = 0.5;                 ///< how far a shake draws elements, L, and turns them, radians
+  int tilts = 0;                      ///< random loads beside the task's own, from whose states it learns
+  double tilt = 20.0;                 ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;
+  std::optional<State> start;  ///< where starts begin; null: at rest
 };
 
 /// One limit to be found.
@@ -42,13 +43,9 @@ enum class Copies {
 /// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
 State perturbed(const Model& model, const State& from, double size, std::uint64_t seed, Copies copies);
 
-/// A state shaken loose: minimum of springs (Draw) to a random configuration and of contact at the widest
-/// activation distance, after so many Newton steps as a shake takes. The configuration is `from` with every
-/// element moved and turned at random (standard deviation `settings.shake`) and with the strain part of the
-/// way back to rest. Contacts guide the motion and links are kept, so the state stays in the connected
-/// region of rest but may leave the one of its locked state. Deterministic in `seed`.
-State shaken(const Model& model, const State& from, const LimitSettings& settings, std::uint64_t seed,
-             const KeepGoing& keep_going);
+/// A load turned by `settings.tilt` towards a random direction of the macroscopic unknowns, in the norm of
+/// loads (the dual of that of steps). Deterministic in `seed`.
+Vector tilted(const Model& model, const Vector& load, const LimitSettings& settings, std::uint64_t seed);
 
 /// Locked state of one task from a state that another search has found, free of collisions. Stages begin
 /// with the second: the first would let the state go back to where it came from.
@@ -64,8 +61,8 @@ Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSe
 /// A locked state and where it came from.
 struct FoundState {
   Locked locked;
-  std::string origin;      ///< "start", "shake", or "from " and the limit whose state it began with
-  std::uint64_t seed = 0;  ///< of the start or shake
+  std::string origin;      ///< "start", "tilt", or "from " and the limit whose state it began with
+  std::uint64_t seed = 0;  ///< of the start or tilt
 };
 
 /// Result of one task out of what was found (in a fixed order, the first start first). Forces, balance,
@@ -88,13 +85,13 @@ struct LimitsObserver {
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
-/// After its starts each task is shaken. Then limits learn from each other: a locked state of any task is a
-/// reachable state for all, so where its value along another task's direction is further than that task's
-/// own limit, that one is locked again from it, until none is. A limit that has no other of its sense within
-/// `settings.neighbours` learns from limits at that angle to either side, which are not reported. `known`:
-/// results that are there already, by task; empty: none. What one limit throws is its result (status failed)
-/// and does not stop the others. Tasks that were not finished when `keep_going` said no are `interrupted`,
-/// with the best of the starts that were done. What the observer throws is rethrown.
+/// After its starts each task learns from tilted loads. Then limits learn from each other: a locked state of
+/// any task is a reachable state for all, so where its value along another task's direction is further than
+/// that task's own limit, that one is locked again from it, until none is. A limit that has no other of its
+/// sense within `settings.neighbours` learns from limits at that angle to either side, which are not
+/// reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
+/// result (status failed) and does not stop the others. Tasks that were not finished when `keep_going` said
+/// no are `interrupted`, with the best of the starts that were done. What the observer throws is rethrown.
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,
                                         unsigned threads, const LimitsObserver& observer = {},

@@ -10,13 +10,6 @@
 
 namespace hauberk {
 
-/// Springs that draw a state to another one: half the stiffness times the squared distance of the two in the
-/// norm of steps (Model::metric), turns by their chord, |R - R_target|^2 / 2 = 2 (1 - cos angle).
-struct Draw {
-  State target;
-  double stiffness = 1.0;
-};
-
 /// One stage: contact formulation, activation distance and stiffness (scaled).
 struct Stage {
   ContactSettings contact;
@@ -25,10 +18,9 @@ struct Stage {
   /// T of the published objective (paper equations (12) and (14)), 1/2 |macro - T load|^2: divided by T and
   /// without its constant, -load . macro + |macro|^2/(2 T). Infinite: the load alone.
   double target = std::numeric_limits<double>::infinity();
-  const Draw* draw = nullptr;  ///< null: none
-  bool balance = false;        ///< last stage: go on where forces do not balance though the energy is flat
-  double tolerance = 1e-3;     ///< stop when the Newton step can lower E by less than tolerance * mu
-  int most_iterations = 200;   ///< in which the energy does not fall by mu; 50 times as many in all
+  bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
+  double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
+  int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
 };
 
 enum class StageStatus { minimum, stalled, iteration_limit, unbounded, interrupted };

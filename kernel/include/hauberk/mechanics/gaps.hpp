@@ -39,9 +39,12 @@ struct Relaxed {
   std::string problem;          ///< empty when every gap reached the target and links are kept
 };
 
+/// Whether the macroscopic unknowns may move too.
+enum class Cell { fixed, free };
+
 /// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2
-/// with the macroscopic unknowns fixed, by Levenberg-Marquardt. Elements may overlap at the start (not deeper
+/// by Levenberg-Marquardt. Elements may overlap at the start (not deeper
 /// than their tubes).
-Relaxed relax(const Model& model, const State& start, double target);
+Relaxed relax(const Model& model, const State& start, double target, Cell cell = Cell::fixed);
 
 }  // namespace hauberk

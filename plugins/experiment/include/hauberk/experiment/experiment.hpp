@@ -32,8 +32,8 @@ struct ExperimentSolver {
   int starts = 1;
   double perturbation = 0.0;  ///< characteristic lengths and radians
   double neighbours = 0.0;    ///< degrees
-  int shakes = 0;
-  double shake = 0.0;  ///< characteristic lengths and radians
+  int tilts = 0;
+  double tilt = 0.0;  ///< degrees
   std::uint64_t start_seed = 1;
   std::optional<int> max_stages, max_iterations;
   std::optional<double> tolerance;

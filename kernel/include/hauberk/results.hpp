@@ -56,7 +56,7 @@ struct LimitResult {
   bool links_kept = false;
   double z_range = 0.0;
   std::vector<LockedState> starts;
-  bool better_state = false;  ///< a start found a state further than the one reached from rest
+  bool better_state = false;  ///< further than the state that the first start from rest led to
   std::optional<double> sensitivity_clearance;
   std::vector<std::pair<std::string, double>>
       sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter

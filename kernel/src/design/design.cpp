@@ -256,8 +256,7 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
     t.initial = before[i];
     t.recomputed = after[i];
     for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
-    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target) &&
-            !t.better_state;
+    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target);
   }
   result.objective_initial = objective(before);
   result.objective = objective(after);

@@ -42,7 +42,7 @@ std::string limits_table(const Loaded& loaded, const RunResult& run)
     text += strain ? fmt::format(" {:>10}\n", cell(p.eta)) : "\n";
   }
   for (const LimitResult& l : run.limits) better = better || l.better_state;
-  if (better) text += "* a further start went further than the one from rest\n";
+  if (better) text += "* further than where the first start from rest led\n";
   return text;
 }
 
@@ -56,7 +56,7 @@ std::string design_table(const DesignResult& d, int starts)
                       "provisional", "recomputed", "met");
   std::size_t met = 0;
   for (const DesignTargetResult& t : d.targets) {
-    const std::string verdict = t.met ? "yes" : t.better_state ? "no (better state known)" : "no";
+    const std::string verdict = t.met ? "yes" : "no";
     text += fmt::format("{:>10g} {:>10.6g} {:>10} {:>12} {:>11}  {}\n", t.direction_deg, t.target,
                         cell(t.initial), cell(t.provisional), cell(t.recomputed), verdict);
     met += t.met ? 1 : 0;

@@ -73,8 +73,7 @@ void check_targets(const json::value& design, const std::vector<Limit>& initial,
         problems.push_back(
             fmt::format("{}: {} {} reported, {} from the limits", at, what, show(reported), show(found)));
     }
-    const bool met =
-        last && std::abs(*last - target) <= met_share * std::abs(target) && !flag(t, "better_state", at);
+    const bool met = last && std::abs(*last - target) <= met_share * std::abs(target);
     if (flag(t, "met", at) != met) problems.push_back(fmt::format("{}: met should be {}", at, met));
     before.add(first, target, weight);
     after.add(last, target, weight);

@@ -102,7 +102,8 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
     parallel_for(lessons.size(), threads_, [&](std::size_t i) {
       const auto [k, donor] = lessons[i];
       Schedule schedule = schedule_;
-      schedule.first = std::max(schedule.last, activation_distances(schedule).front() * schedule.ratio);
+      const std::vector<double> stages = activation_distances(schedule);
+      schedule.first = stages[std::min<std::size_t>(1, stages.size() - 1)];
       found[i] = lock(p.model, targets[donor].locked.state, loads[k], limits_.contact, schedule, keep_going_);
     });
     for (std::size_t i = 0; i < lessons.size(); ++i) {

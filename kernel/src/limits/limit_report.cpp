@@ -233,7 +233,9 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     }
     if (settings.contact == ContactChoice::nearest) r.message += "; use contact arc or auto";
   } else if (r.status == LimitStatus::locked &&
-             (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {
+             (task.sense == Sense::positive ? *r.value : -*r.value) <
+                 -(settings.start ? settings.schedule.last : wrong_side) * scale) {
+    // (A cell that is taut at rest has its limit there, but for the gaps of the last stage.)
     r.status = LimitStatus::stalled;
     r.message = fmt::format(
         "rest is nearer to the limit than the gaps that this schedule leaves: value {:.3g} is on the wrong "

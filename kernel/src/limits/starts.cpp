@@ -73,7 +73,8 @@ Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettin
                         const State& from, const KeepGoing& keep_going)
 {
   Schedule schedule = settings.schedule;
-  schedule.first = std::max(schedule.last, activation_distances(schedule).front() * schedule.ratio);
+  const std::vector<double> stages = activation_distances(schedule);
+  schedule.first = stages[std::min<std::size_t>(1, stages.size() - 1)];
   return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact, schedule,
               keep_going);
 }

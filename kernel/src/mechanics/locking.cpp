@@ -19,10 +19,11 @@ double load_size(const Model& m, const Vector& load)
 
 /// Distance to the value at g_hat = 0 from the last three stages of one formulation, when the differences
 /// shrink in proportion to g_hat.
-std::optional<double> estimate_error(const std::vector<StageRecord>& s, double ratio)
+std::optional<double> estimate_error(const std::vector<StageRecord>& s)
 {
   const std::size_t n = s.size();
   if (n < 3) return std::nullopt;
+  const double ratio = s[n - 1].g_hat / s[n - 2].g_hat;
   if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation)
     return std::nullopt;
   const double d1 = s[n - 2].value - s[n - 3].value, d2 = s[n - 1].value - s[n - 2].value;
@@ -52,7 +53,7 @@ class Path {
     for (const double g_hat : activation_distances(schedule_))
       if (!stage(g_hat, g_hat == schedule_.last)) return std::move(out_);
     out_.status = LockStatus::locked;
-    out_.error_estimate = estimate_error(out_.stages, schedule_.ratio);
+    out_.error_estimate = estimate_error(out_.stages);
     return std::move(out_);
   }
 
@@ -173,10 +174,13 @@ class Path {
 
 std::vector<double> activation_distances(const Schedule& s)
 {
-  std::vector<double> out{s.last};
-  // Slack for the rounding of powers.
-  while (out.back() / s.ratio <= s.first * 1.001) out.push_back(out.back() / s.ratio);
-  std::reverse(out.begin(), out.end());
+  if (!(s.last < s.first)) return {s.last};
+  // The widest stage lets symmetric states buckle, so it is never left out; slack for rounding.
+  const int steps = static_cast<int>(std::ceil(std::log(s.last / s.first) / std::log(s.ratio) - 1e-6));
+  std::vector<double> out;
+  for (int k = 0; k < steps; ++k)
+    out.push_back(s.first * std::pow(s.last / s.first, static_cast<double>(k) / steps));
+  out.push_back(s.last);
   return out;
 }
 

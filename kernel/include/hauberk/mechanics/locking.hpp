@@ -16,8 +16,8 @@ enum class ContactChoice {
   published  ///< the paper's, in every stage
 };
 
-/// Stages g_hat = last / ratio^n, ..., last / ratio, last, the first of them the largest that is not above
-/// `first` (lengths in L), mu = stiffness * g_hat * |load|.
+/// Stages of activation distances from `first` to `last` (L), falling by equal factors that are not smaller
+/// than `ratio`; mu = stiffness * g_hat * |load|.
 struct Schedule {
   double first = 0.03;
   double ratio = 0.1;

@@ -18,10 +18,6 @@ constexpr double reference_radius = 0.5;
 /// Surface element du dv in units of L^2, frozen so that parameters act through the gap alone.
 constexpr double surface_element = 0.25;
 
-/// Panel half-width over the distance to the nearest complex singularity. With y = 1/ratio the error of
-/// n-point Gauss falls like (y + sqrt(y^2 - 1))^(-2n): 1e-8 for n = 7 on lines, 3e-6 for n = 5 on surfaces.
-constexpr double panel_ratio = 0.5;
-
 constexpr double smallest_panel = 1e-12;
 
 template <int n>
@@ -101,7 +97,7 @@ class ArcIntegral {
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
     if (g <= 0.0) return;  // min_gap tells
     const double half = std::max(probe_.Lu * s.hu, probe_.Lv * s.hv);
-    if (half > panel_ratio * std::sqrt(2.0 * radius_ * std::min(g, 4.0 * settings_.g_hat)) &&
+    if (half > settings_.panel_ratio * std::sqrt(2.0 * radius_ * std::min(g, 4.0 * settings_.g_hat)) &&
         s.hu > smallest_panel) {
       Panel first, second;
       split(probe_, s, first, second);

@@ -27,10 +27,4 @@ Vec6 velocity(const RigidMotion& motion, const Pose& rest, double s)
   return v;
 }
 
-Vec3 acceleration(const RigidMotion& motion, const Pose& rest, double s)
-{
-  const Vec3 w = angular_velocity(motion);
-  return w.cross(w.cross(arm(motion, rest, s)));
-}
-
 }  // namespace hauberk

@@ -26,7 +26,4 @@ Pose moved(const RigidMotion& motion, const Pose& rest, double s);
 /// (dx/ds, w) of that element's origin at s, w its angular velocity (radians per s).
 Vec6 velocity(const RigidMotion& motion, const Pose& rest, double s);
 
-/// d^2 x/ds^2 of its origin; w is constant.
-Vec3 acceleration(const RigidMotion& motion, const Pose& rest, double s);
-
 }  // namespace hauberk

@@ -19,10 +19,7 @@ RigidMotion screw()
   return m;
 }
 
-Pose rest()
-{
-  return {{1.0, -0.7, 0.4}, rotation_exp({0.3, 1.1, -0.2})};
-}
+Pose rest() { return {{1.0, -0.7, 0.4}, rotation_exp({0.3, 1.1, -0.2})}; }
 
 TEST(Motion, TurnsAboutTheLineAndShifts)
 {

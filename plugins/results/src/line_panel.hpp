@@ -27,6 +27,8 @@ struct LinePanel {
   std::vector<Line> lines;
   std::vector<Level> levels;  ///< shown where they lie within what the lines take up, or just beyond
   bool from_zero = true;      ///< the axis starts at zero when no value is negative
+  /// Values of both signs and many orders of magnitude: linear below 1, decades beyond (asinh).
+  bool decades = false;
 };
 
 /// What all panels of a column share.

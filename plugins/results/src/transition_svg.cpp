@@ -101,7 +101,8 @@ std::vector<LinePanel> panels(const TransitionResult& result, const TransitionPa
   out[2].lines = contact_lines(path, [](const auto& m) { return std::optional(m.relative_curvature); });
   out[3].title = "contact energy";
   out[3].lines = curve_lines(path, [](const TransitionForce& f) { return std::optional(f.energy); });
-  out[4].title = "force along the path, -dE/ds";
+  out[4].title = "force along the path, -dE/ds (linear below 1, then decades)";
+  out[4].decades = true;
   out[4].lines = curve_lines(path, [](const TransitionForce& f) { return std::optional(f.along); });
   return out;
 }

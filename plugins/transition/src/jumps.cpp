@@ -38,16 +38,25 @@ double residual(const Interval& i, Quantity quantity)
   return r < most ? r : most;  // also where r is not a number
 }
 
-/// Of an interval so narrow that only a discontinuity can matter.
+/// Of an interval so narrow that only a discontinuity matters: the least that any of its slopes leaves, which
+/// agree unless a slope diverges there.
 double size_of(const Interval& i, Quantity quantity)
 {
-  const double r = simpson_residual(i, quantity), whole = change(i.a, i.b, quantity);
-  return r < whole ? r : whole;
+  double least = std::numeric_limits<double>::infinity();
+  for (const PathPoint* p : {&i.a, &i.m, &i.b}) {
+    const Vec6 turned = i.b.gradient - i.a.gradient - i.width() * p->gradient_slope;
+    const double left = quantity == Quantity::energy
+                            ? std::abs(i.b.energy - i.a.energy - i.width() * p->slope)
+                            : turned.norm();
+    if (std::isfinite(left)) least = std::min(least, left);
+  }
+  return std::isfinite(least) ? least : change(i.a, i.b, quantity);
 }
 
 }  // namespace
 
-Jump largest_jump(const PathFunction& f, Quantity quantity, int intervals, int most_splits, double narrowest)
+Jump largest_jump(const PathFunction& f, Quantity quantity, int intervals, int most_splits, double enough,
+                  double narrowest)
 {
   const auto smaller = [](const Interval& x, const Interval& y) {
     return x.residual < y.residual || (x.residual == y.residual && x.a.s > y.a.s);
@@ -70,6 +79,7 @@ Jump largest_jump(const PathFunction& f, Quantity quantity, int intervals, int m
     last = next;
   }
   for (int splits = 0; splits < most_splits && !queue.empty();) {
+    if (queue.top().residual <= enough) break;
     const Interval i = queue.top();
     queue.pop();
     if (i.width() <= narrowest) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <mutex>
 
 namespace hauberk {
@@ -18,6 +19,9 @@ namespace {
 /// to follow a dozen discontinuities down to 1e-9 of the path.
 constexpr int first_intervals = 64;
 constexpr int most_splits = 400;
+
+/// Discontinuities below this part of the largest value are not looked for.
+constexpr double smallest_jump = 1e-9;
 
 /// Panels that the quadrature is measured against, relative to those in use: Gauss's rule is then better by
 /// orders of magnitude where the integrand is analytic, 16 times where the barrier sets in.
@@ -57,6 +61,7 @@ struct CurveItem {
   ContactSettings settings;
   std::vector<PathPoint> points;
   TransitionCurve result;
+  std::size_t same_as = 0;  ///< item of the same path and formulation, itself if it is the first
 };
 
 void sample_curve(const TransitionSpec& spec, CurveItem& item)
@@ -77,12 +82,20 @@ TransitionJump relative(const Jump& jump, double largest)
 
 void search_jumps(CurveItem& item)
 {
-  const auto f = [&item](double s) { return evaluate(item.pair, item.settings, s, 2); };
-  const Jump energy = largest_jump(f, Quantity::energy, first_intervals, most_splits);
-  const Jump force = largest_jump(f, Quantity::force, first_intervals, most_splits);
-  item.result.energy = relative(energy, item.result.largest_energy);
-  item.result.force = relative(force, item.result.largest_force);
-  item.result.evaluations = energy.evaluations + force.evaluations;
+  // Both searches halve many of the same intervals.
+  std::map<double, PathPoint> known;
+  const auto f = [&](double s) {
+    const auto found = known.find(s);
+    return found != known.end() ? found->second
+                                : known.emplace(s, evaluate(item.pair, item.settings, s, 2)).first->second;
+  };
+  const auto search = [&](Quantity quantity, double largest) {
+    const Jump jump = largest_jump(f, quantity, first_intervals, most_splits, smallest_jump * largest);
+    return relative(jump, largest);
+  };
+  item.result.energy = search(Quantity::energy, item.result.largest_energy);
+  item.result.force = search(Quantity::force, item.result.largest_force);
+  item.result.evaluations = static_cast<int>(known.size());
 }
 
 void measure_quadrature(CurveItem& item)
@@ -156,11 +169,16 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
   std::vector<CurveItem> items;
   for (std::size_t p = 0; p < spec.paths.size(); ++p) {
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-      CurveItem item{p, c, pair_of(spec, p), {}, {}, {}};
+      CurveItem item{p, c, pair_of(spec, p), {}, {}, {}, 0};
       item.settings = {formulation_at(choice_of(spec.contacts[c]), spec.g_hat, spec.schedule), spec.g_hat,
                        m.clearance};
       item.result.contact = spec.contacts[c];
       item.result.formulation = name_of(item.settings.formulation);
+      item.same_as = items.size();
+      for (std::size_t k = 0; k < items.size(); ++k) {
+        const bool same = items[k].path == p && items[k].settings.formulation == item.settings.formulation;
+        if (same) item.same_as = std::min(item.same_as, k);
+      }
       items.push_back(std::move(item));
     }
   }
@@ -176,9 +194,11 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
       sampled[i] = sampled_path(spec, i);
     } else {
       CurveItem& item = items[i - paths];
-      sample_curve(spec, item);
-      search_jumps(item);
-      measure_quadrature(item);
+      if (item.same_as == i - paths) {
+        sample_curve(spec, item);
+        search_jumps(item);
+        measure_quadrature(item);
+      }
     }
     done[i] = 1;
     const std::lock_guard lock(mutex);
@@ -188,7 +208,14 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
     if (done[p] == 0) continue;
     TransitionPath& path = sampled[p];
     for (std::size_t i = 0; i < items.size(); ++i) {
-      if (items[i].path != p || done[paths + i] == 0) continue;
+      const std::size_t same = items[i].same_as;
+      if (items[i].path != p || done[paths + same] == 0) continue;
+      if (same != i) {
+        const std::string contact = items[i].result.contact;
+        items[i].points = items[same].points;
+        items[i].result = items[same].result;
+        items[i].result.contact = contact;
+      }
       path.curves.push_back(items[i].result);
       for (std::size_t k = 0; k < path.samples.size(); ++k)
         path.samples[k].forces.push_back(in_file_units(items[i].points[k], m.length));

@@ -26,7 +26,7 @@ TransitionResult sample()
     s.minima.resize(k == 1 ? 2 : 1);
     for (std::size_t i = 0; i < s.minima.size(); ++i) {
       s.minima[i].contact = k == 2 ? 1 : static_cast<int>(i);
-      s.minima[i].distance = 0.05;
+      s.minima[i].distance = 0.08;
       s.minima[i].eigenvalue = 2e-3;
     }
     s.forces.resize(2);

@@ -29,10 +29,10 @@ struct Jump {
 /// Where f is smooth r falls with the fifth power of b - a, however steep f is; a discontinuity of f stays
 /// whole. So the interval with the largest r is halved, again and again, from `intervals` equal ones on: a
 /// discontinuity ends in an interval of width `narrowest`, and its r there is its size. The largest r of the
-/// intervals left, after `most_splits`, is the resolution: larger discontinuities would have been followed
-/// (but for an r in which an error of Simpson's rule happens to cancel one). Thread safe as `f` is;
-/// deterministic.
+/// intervals left, at most `enough` or after `most_splits`, is the resolution: larger discontinuities would
+/// have been followed (but for an r in which an error of Simpson's rule happens to cancel one). Thread safe
+/// as `f` is; deterministic.
 Jump largest_jump(const PathFunction& f, Quantity quantity, int intervals, int most_splits,
-                  double narrowest = 1e-9);
+                  double enough = 0.0, double narrowest = 1e-9);
 
 }  // namespace hauberk

@@ -51,10 +51,10 @@ int element_of(const Node& section, const char* key, int otherwise, const SceneS
   const int count = static_cast<int>(scene.elements.size());
   if (!scene_complete || k < count) return k;
   const Node* node = section.find(key);
-  problems.add(node != nullptr ? *node : section, std::string(key) + ": expected a number from 0 to " +
+  problems.add(node != nullptr ? *node : section, "expected the number of a placed element, from 0 to " +
                                                       std::to_string(count - 1) + ", found " +
                                                       std::to_string(k));
-  return 0;
+  return k;
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ using detail::Stroke;
 using detail::Svg;
 
 // In units of the drawing.
-constexpr double left = 70.0, between = 92.0, top = 92.0, panel_step = 172.0, bottom = 52.0, right = 24.0;
+constexpr double left = 70.0, between = 92.0, top = 108.0, panel_step = 172.0, bottom = 52.0, right = 24.0,
+                 legend_word = 92.0;
 constexpr LineFrame plot{0.0, 1.0, 400.0, 130.0};
 
 /// Told apart by dashes as well as by colour; contacts beyond the last look alike.
@@ -126,11 +127,18 @@ std::string transition_svg(const TransitionResult& result, const std::string& ti
   Svg svg(left + columns * plot.width + (columns - 1.0) * between + right,
           top + 20.0 + 5.0 * panel_step - (panel_step - plot.height) + bottom);
   svg.text({left, 24.0}, title, 16.0, "start", true);
-  detail::draw_line_legend(svg, {left, 46.0}, legend_contacts(result));
-  if (!result.paths.empty())
-    detail::draw_line_legend(svg, {left, 66.0}, curve_lines(result.paths.front(), [](const auto& f) {
-                               return std::optional(f.energy);
-                             }));
+  svg.text({left, 40.0},
+           fmt::format("activation distance {:g} {}, clearance {:g} {}", result.activation_distance,
+                       result.length_unit, result.clearance, result.length_unit),
+           12.0);
+  svg.text({left, 62.0}, "nearest points:", 11.0);
+  detail::draw_line_legend(svg, {left + legend_word, 58.0}, legend_contacts(result));
+  svg.text({left, 82.0}, "formulations:", 11.0);
+  if (!result.paths.empty()) {
+    detail::draw_line_legend(
+        svg, {left + legend_word, 78.0},
+        curve_lines(result.paths.front(), [](const TransitionForce& f) { return std::optional(f.energy); }));
+  }
   double x = left;
   for (const TransitionPath& path : result.paths) {
     LineFrame frame = plot;

@@ -54,7 +54,8 @@ TEST(Transition, ReportsWhatMakesNoSense)
   EXPECT_EQ(problems_of(text("\"description\": \"none\"")),
             "t.json:1: missing key 'transition': task transition needs it");
   EXPECT_EQ(after("\"activation", "\"moving\": 2, \"activation"),
-            "t.json:2: /transition/moving: moving: expected a number from 0 to 1, found 2\n"
+            "t.json:2: /transition/moving: expected the number of a placed element, from 0 to 1, found 2");
+  EXPECT_EQ(after("\"activation", "\"moving\": 0, \"activation"),
             "t.json:2: /transition: fixed and moving name the same element");
   EXPECT_EQ(after("[0, 0, 2]", "[0, 0, 0]"),
             "t.json:2: /transition/paths/0/rotation/axis: expected an axis that is not zero");

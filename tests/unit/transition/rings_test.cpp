@@ -163,6 +163,25 @@ TEST(Rings, ForceIsMinusTheSlopeOfTheEnergy)
   }
 }
 
+/// A nearest point that vanishes against a saddle is followed until its eigenvalue is nearly zero: dropped
+/// earlier, it would take more than a vanishing part of the published energy with it.
+TEST(Rings, ANearestPointIsKeptUntilItVanishes)
+{
+  const Scene s(rings(43.27));
+  const MovingPair pair{&s.model, 0, 1, tilt(s.model, 43.27, 0.68)};
+  double two = 0.5, one = 1.0;  // the first one vanishes on the way
+  ASSERT_EQ(minima_at(pair, 0.1, two).size(), 2U);
+  ASSERT_EQ(minima_at(pair, 0.1, one).size(), 1U);
+  const double regular = minima_at(pair, 0.1, one)[0].relative_curvature;
+  while (one - two > 1e-12) {
+    const double middle = 0.5 * (one + two);
+    (minima_at(pair, 0.1, middle).size() == 2 ? two : one) = middle;
+  }
+  double least = regular;
+  for (const TransitionMinimum& m : minima_at(pair, 0.1, two)) least = std::min(least, m.relative_curvature);
+  EXPECT_LT(least, 2e-5 * regular);
+}
+
 class Merges : public ::testing::Test {
  protected:
   static void SetUpTestSuite()

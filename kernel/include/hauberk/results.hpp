@@ -63,9 +63,10 @@ struct LimitResult {
   std::vector<Pose> poses;     ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
   std::optional<double> force_balance;
-  std::string contact;                  ///< formulation that finished: "nearest", "arc" or "published"
-  std::optional<double> finite_target;  ///< of the published objective; none: a constant load
-  std::string certificate;              ///< what is certified, for people
+  std::string contact;                     ///< formulation that finished: "nearest", "arc" or "published"
+  std::optional<double> quadrature_error;  ///< of arc: part of the load by which finer panels change forces
+  std::optional<double> finite_target;     ///< of the published objective; none: a constant load
+  std::string certificate;                 ///< what is certified, for people
 };
 
 struct ProfilePoint {

@@ -124,7 +124,7 @@ class Search {
     // Deep inside F, beyond its medial axis, no curvature bound exists: small panels decide by themselves.
     if constexpr (dim == 1) {
       if (s.hu < merge_width) {
-        bracket(s);
+        bracket_fold(s);
         return;
       }
     } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed(l)) {
@@ -150,8 +150,32 @@ class Search {
   void bracket(const Panel& s)
   {
     double lo = s.u - s.hu * (1.0 + 1e-9), hi = s.u + s.hu * (1.0 + 1e-9);
-    const double glo = local_at(probe_, lo, 0.0).gu, ghi = local_at(probe_, hi, 0.0).gu;
+    const Local first = local_at(probe_, lo, 0.0), last = local_at(probe_, hi, 0.0);
     evaluations_ += 2;
+    refine(lo, hi, first, last);
+  }
+
+  /// A panel too small to be split whose second derivative changes its sign: a minimum and a maximum that are
+  /// about to meet leave no change of sign of the slope between its ends, but one on either side of its
+  /// turning point.
+  void bracket_fold(const Panel& s)
+  {
+    const double lo = s.u - s.hu * (1.0 + 1e-9), hi = s.u + s.hu * (1.0 + 1e-9);
+    const Local first = local_at(probe_, lo, 0.0), last = local_at(probe_, hi, 0.0);
+    evaluations_ += 2;
+    const bool same_sign = (first.gu < 0.0) == (last.gu < 0.0), turns = (first.huu < 0.0) != (last.huu < 0.0);
+    if (!same_sign || !turns) return refine(lo, hi, first, last);
+    const double turn = lo + (hi - lo) * first.huu / (first.huu - last.huu);
+    const Local middle = local_at(probe_, turn, 0.0);
+    ++evaluations_;
+    refine(lo, turn, first, middle);
+    refine(turn, hi, middle, last);
+  }
+
+  /// The minimum between lo and hi, if the slope rises through zero there.
+  void refine(double lo, double hi, const Local& first, const Local& last)
+  {
+    const double glo = first.gu, ghi = last.gu, width = 0.5 * (hi - lo);
     if (!(glo < 0.0 && ghi >= 0.0)) return;
     double u = lo + (hi - lo) * glo / (glo - ghi);
     Local l = local_at(probe_, u, 0.0);
@@ -163,7 +187,7 @@ class Search {
       const double step = std::abs(next - u);
       u = next;
       l = local_at(probe_, u, 0.0);
-      if (step < 1e-9 * s.hu + 1e-15 || hi - lo < 4e-16) break;
+      if (step < 1e-9 * width + 1e-15 || hi - lo < 4e-16) break;
     }
     if (l.f.m.phi < threshold_) insert(out_, {u, 0.0, l.f.m.phi - probe_.offset});
   }

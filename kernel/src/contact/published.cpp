@@ -166,7 +166,10 @@ class Contact {
   bool faded_ = false;   ///< the factor s varies here
 };
 
-/// Chart coordinates of both surface points from a minimum of P's probe set in F's field.
+}  // namespace
+
+namespace published {
+
 template <int dim>
 ChartPoint<double> chart_start(const PairFrame& frame, const Minimum& m)
 {
@@ -178,9 +181,8 @@ ChartPoint<double> chart_start(const PairFrame& frame, const Minimum& m)
   return {m.u, v, std::atan2(q.p.y(), q.p.x()), std::atan2(f.m.s, f.m.c)};
 }
 
-}  // namespace
-
-namespace published {
+template ChartPoint<double> chart_start<1>(const PairFrame&, const Minimum&);
+template ChartPoint<double> chart_start<2>(const PairFrame&, const Minimum&);
 
 ChartMinimum refine(const ChartPair<double>& pair, ChartPoint<double> c, int& evaluations)
 {
@@ -233,7 +235,7 @@ void add_published(const PairFrame& frame, const ContactSettings& settings, cons
        local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
     out.min_gap = std::min(out.min_gap, found.distance - settings.clearance);
     if (found.distance <= settings.clearance) continue;  // min_gap tells
-    add(published::refine(pair, chart_start<dim>(frame, found), out.evaluations));
+    add(published::refine(pair, published::chart_start<dim>(frame, found), out.evaluations));
   }
 }
 

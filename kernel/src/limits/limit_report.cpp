@@ -61,6 +61,19 @@ double energy_imbalance(const Model& m, const Vector& load, const ContactEnergy&
   return rest.cwiseAbs().maxCoeff();
 }
 
+/// Largest component by which the gradient of arc's energy changes with panels half as long, whose quadrature
+/// is better by orders of magnitude; times the stiffness. At the last stages rounding of the gap is part of
+/// it.
+double quadrature_error(const Model& m, const Locked& l, const ContactEnergy& e)
+{
+  ContactSettings finer = l.stage.contact;
+  finer.panel_ratio *= 0.5;
+  Request request;
+  request.order = 1;
+  const ContactEnergy better = contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), finer, request);
+  return l.stage.mu * (better.gradient - e.gradient).cwiseAbs().maxCoeff();
+}
+
 /// Poses in file units; their mean position is that of the rest state.
 std::vector<Pose> reported_poses(const Model& m, const State& s, Vec3& shift)
 {
@@ -187,6 +200,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
         "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   }
   r.contact = name_of(l.stage.contact.formulation);
+  if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, l, e) / full;
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
   r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;

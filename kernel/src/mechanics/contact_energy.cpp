@@ -1,4 +1,5 @@
 #include <hauberk/contact/barrier.hpp>
+#include <hauberk/contact/body_pair.hpp>
 #include <hauberk/mechanics/contact_energy.hpp>
 
 namespace hauberk {
@@ -101,40 +102,21 @@ class Assembler {
   {
     const Body& A = m_.bodies[static_cast<std::size_t>(a)];
     const Body& B = m_.bodies[static_cast<std::size_t>(b)];
-    const int da = probe_dimension(A), db = probe_dimension(B);
-    const bool arc = settings_.formulation == Formulation::arc;
-    // The cheaper probe set; both, half each, for an arc between equals, so that labels do not matter.
-    const bool both = arc && da == db;
     bool any = false;
-    if (da <= db || both) any |= add_side(a, b, image, pa, pb, both ? 0.5 : 1.0, sum, false);
-    if (da > db || both) any |= add_side(b, a, image, pb, pa, both ? 0.5 : 1.0, sum, true);
+    for (const PairSide& side : pair_sides(A, B, settings_.formulation)) {
+      any |=
+          side.swapped ? add_side(b, a, image, pb, pa, side, sum) : add_side(a, b, image, pa, pb, side, sum);
+    }
     return any;
   }
 
-  bool add_side(int p, int f, const Image& image, const Pose& pp, const Pose& pf, double share,
-                PairTerms& sum, bool swapped)
+  bool add_side(int p, int f, const Image& image, const Pose& pp, const Pose& pf, const PairSide& side,
+                PairTerms& sum)
   {
     const Body& P = m_.bodies[static_cast<std::size_t>(p)];
     const Body& F = m_.bodies[static_cast<std::size_t>(f)];
     const PairFrame frame(P, pp, F, pf);
-    SideTerms t;
-    if (settings_.formulation == Formulation::arc) {
-      if (P.is_tube()) {
-        add_arc<1>(frame, settings_, request_, share, t);
-      } else {
-        add_arc<2>(frame, settings_, request_, share, t);
-      }
-    } else if (settings_.formulation == Formulation::published) {
-      if (P.is_tube()) {
-        add_published<1>(frame, settings_, request_, t);
-      } else {
-        add_published<2>(frame, settings_, request_, t);
-      }
-    } else if (P.is_tube()) {
-      add_nearest<1>(frame, settings_, request_, t);
-    } else {
-      add_nearest<2>(frame, settings_, request_, t);
-    }
+    const SideTerms t = side_terms(frame, settings_, request_, side.share);
     out_.evaluations += t.evaluations;
     out_.min_gap = std::min(out_.min_gap, t.min_gap);
     out_.regularity = std::min(out_.regularity, t.regularity);
@@ -142,7 +124,7 @@ class Assembler {
     out_.energy += t.energy;
     if (request_.order >= 1) {
       const PairTerms w = to_world(t, frame.M, pp.position - pf.position, request_.order);
-      accumulate(w, swapped, sum);
+      hauberk::add_side(w, side.swapped, request_.order, sum);
     }
     if (request_.parameters) add_parameters(p, f, frame.M, pp, pf, t);
     if (request_.points) {
@@ -156,7 +138,7 @@ class Assembler {
         q.contact = c;
         q.a = p;
         q.b = f;
-        if (swapped) {
+        if (side.swapped) {
           std::swap(q.a, q.b);
           std::swap(q.contact.on_p, q.contact.on_f);
           q.contact.normal = -q.contact.normal;
@@ -165,27 +147,6 @@ class Assembler {
       }
     }
     return true;
-  }
-
-  /// Adds terms in (x_P - x_F, w_P, w_F) to terms in (x_A - x_B, w_A, w_B).
-  void accumulate(const PairTerms& w, bool swapped, PairTerms& sum) const
-  {
-    sum.energy += w.energy;
-    if (!swapped) {
-      sum.gradient += w.gradient;
-      if (request_.order >= 2) sum.hessian += w.hessian;
-      return;
-    }
-    constexpr std::array<int, 9> at{0, 1, 2, 6, 7, 8, 3, 4, 5};
-    for (int i = 0; i < 9; ++i) {
-      const double si = i < 3 ? -1.0 : 1.0;
-      sum.gradient[at[static_cast<std::size_t>(i)]] += si * w.gradient[i];
-      if (request_.order < 2) continue;
-      for (int j = 0; j < 9; ++j) {
-        sum.hessian(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]) +=
-            si * (j < 3 ? -1.0 : 1.0) * w.hessian(i, j);
-      }
-    }
   }
 
   /// Chain rule from (x_A - x_B, w_A, w_B) to the unknowns, through the load case's position maps.

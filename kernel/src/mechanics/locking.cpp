@@ -73,10 +73,7 @@ class Path {
 
   Formulation formulation(double g_hat) const
   {
-    if (choice_ == ContactChoice::nearest) return Formulation::nearest;
-    if (choice_ == ContactChoice::published) return Formulation::published;
-    if (arc_to_the_end_) return Formulation::arc;
-    return g_hat > schedule_.change * 1.001 ? Formulation::arc : Formulation::nearest;
+    return arc_to_the_end_ ? Formulation::arc : formulation_at(choice_, g_hat, schedule_);
   }
 
   bool stage(double g_hat, bool last)
@@ -182,6 +179,22 @@ std::vector<double> activation_distances(const Schedule& s)
     out.push_back(s.first * std::pow(s.last / s.first, static_cast<double>(k) / steps));
   out.push_back(s.last);
   return out;
+}
+
+Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule)
+{
+  switch (choice) {
+    case ContactChoice::nearest:
+      return Formulation::nearest;
+    case ContactChoice::arc:
+      return Formulation::arc;
+    case ContactChoice::published:
+      return Formulation::published;
+    case ContactChoice::automatic:
+      break;
+  }
+  // Slack for the rounding of powers.
+  return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
 }
 
 Vector load_vector(const Model& m, double theta, Sense sense)

@@ -20,6 +20,11 @@ int check_command(const std::vector<std::string>& words)
                loaded.stability.size());
     return exit_done;
   }
+  if (loaded.transition) {
+    fmt::print("{}: no problems; {} paths, {} formulations\n", options.positional(),
+               loaded.transition->spec.paths.size(), loaded.transition->spec.contacts.size());
+    return exit_done;
+  }
   const auto unbounded = std::count_if(loaded.plan.bounded.begin(), loaded.plan.bounded.end(),
                                        [](const auto& task) { return task.second == "unbounded"; });
   fmt::print("{}: no problems; {} elements, {} limits{}{}\n", options.positional(), loaded.plan.elements,

@@ -2,6 +2,7 @@
 #include "presets.hpp"
 #include "stability_loading.hpp"
 #include "tasks.hpp"
+#include "transition_run.hpp"
 
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/experiment/jsonc.hpp>
@@ -113,6 +114,17 @@ void check_targets(const Loaded& loaded, Diagnostics& diagnostics)
   }
 }
 
+void prepare_transition(Loaded& loaded, Diagnostics& diagnostics)
+{
+  const Experiment& e = loaded.experiment;
+  loaded.transition = transition_job(e, loaded.scene, loaded.settings.schedule);
+  for (const auto& [path, problem] : transition_problems(loaded.transition->spec)) {
+    const std::string pointer = fmt::format("/transition/paths/{}", path);
+    diagnostics.problems.add(nearest_node(e.resolved, pointer),
+                             fmt::format("path '{}': {}", e.transition->paths[path].name, problem));
+  }
+}
+
 void prepare_design(Loaded& loaded, Diagnostics& diagnostics)
 {
   const Experiment& e = loaded.experiment;
@@ -177,6 +189,7 @@ Loaded load(const Options& options)
   }
   loaded.plan =
       make_plan(make_model(loaded.scene, *e.load_case, e.solver.clearance), loaded.tasks, loaded.settings);
+  if (e.task == Task::transition) prepare_transition(loaded, diagnostics);
   if (loaded.design) prepare_design(loaded, diagnostics);
   stop_on_problems();
   return loaded;

@@ -8,6 +8,7 @@
 #include <hauberk/host/registry.hpp>
 #include <hauberk/plan/plan.hpp>
 #include <hauberk/results/document.hpp>
+#include <hauberk/transition/run.hpp>
 
 #include <memory>
 #include <optional>
@@ -24,6 +25,12 @@ struct StabilityItem {
   std::size_t scene = 0;  ///< equal numbers: the same scene and load, whatever the solver's settings
 };
 
+/// A transition with the model that it refers to.
+struct TransitionJob {
+  std::shared_ptr<const Model> model;
+  TransitionSpec spec;
+};
+
 /// An experiment that passed every check.
 struct Loaded {
   std::shared_ptr<const Registry> registry;
@@ -33,10 +40,11 @@ struct Loaded {
   double moved = 0.0;          ///< farthest that relaxation moved an element, file units
   std::optional<State> start;  ///< where limits start, if not at rest (PreparedScene)
   LimitSettings settings;
-  std::vector<LimitTask> tasks;          ///< those of the results; of a design: targets first
-  std::optional<DesignSpec> design;      ///< task design only
-  SceneSpec design_scene;                ///< rest with the design's clearance; task design only
-  std::vector<StabilityItem> stability;  ///< by family, member, method; task stability only
+  std::vector<LimitTask> tasks;             ///< those of the results; of a design: targets first
+  std::optional<DesignSpec> design;         ///< task design only
+  SceneSpec design_scene;                   ///< rest with the design's clearance; task design only
+  std::vector<StabilityItem> stability;     ///< by family, member, method; task stability only
+  std::optional<TransitionJob> transition;  ///< task transition only
   Plan plan;
 };
 

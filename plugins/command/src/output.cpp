@@ -82,6 +82,15 @@ void Output::write(const RunResult& run, const StabilityMap& map)
   last_ = std::chrono::steady_clock::now();
 }
 
+void Output::write(const RunResult& run, const TransitionResult& transition)
+{
+  names_.files = transition_files();
+  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_["transition"] = transition_json(transition);
+  write_transition(directory_, document_, transition, labels_.title);
+  last_ = std::chrono::steady_clock::now();
+}
+
 bool Output::is_time() const { return std::chrono::steady_clock::now() - last_ >= write_interval; }
 
 void Output::write_sometimes(const RunResult& run)

@@ -25,6 +25,8 @@ class Output {
   void write(const RunResult& run);
   /// The same for a stability experiment; `run` describes the base scene.
   void write(const RunResult& run, const StabilityMap& map);
+  /// The same for a transition experiment.
+  void write(const RunResult& run, const TransitionResult& transition);
   /// Writes if the last time was a few seconds ago.
   void write_sometimes(const RunResult& run);
   void write_sometimes(const RunResult& run, const StabilityMap& map);

@@ -182,6 +182,16 @@ void read_stability(const json::value& document, const Loaded& loaded, Resumed& 
   }
 }
 
+/// Quick enough to be computed anew unless it is complete.
+void read_transition(const json::value& document, const Loaded& loaded, Resumed& out)
+{
+  const TransitionSpec& spec = loaded.transition->spec;
+  const json::array& paths = document.at("transition").at("paths").as_array();
+  out.complete = paths.size() == spec.paths.size();
+  for (const json::value& path : paths)
+    out.complete = out.complete && path.at("curves").as_array().size() == spec.contacts.size();
+}
+
 void check_origin(const json::value& document, const Loaded& loaded)
 {
   const Provenance now = provenance(loaded, 1);
@@ -208,6 +218,8 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
     check_origin(document, loaded);
     if (loaded.experiment.task == Task::stability)
       read_stability(document, loaded, out);
+    else if (loaded.experiment.task == Task::transition)
+      read_transition(document, loaded, out);
     else
       read_limits(document, loaded, out);
     if (loaded.design) read_design(document, loaded, out);

@@ -6,6 +6,7 @@
 #include "stability_run.hpp"
 #include "stability_summary.hpp"
 #include "summary.hpp"
+#include "transition_run.hpp"
 
 #include <hauberk/experiment/expect.hpp>
 #include <hauberk/results/atomic_file.hpp>
@@ -118,6 +119,28 @@ int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed,
   return missed ? exit_failed : exit_done;
 }
 
+int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progress, Output& output,
+                        const RunResult& base)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  const TransitionResult result =
+      run_transition(loaded.transition->spec, threads, [&progress](std::size_t done, std::size_t total) {
+        progress.limits("transition", done, total);
+        return !interrupted();
+      });
+  progress.clear();
+  output.write(base, result);
+  fmt::print("{}\n\n{}", loaded.experiment.name, transition_summary(result));
+  fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
+  print_files(output, transition_files());
+  if (interrupted()) {
+    fmt::print("{}", interrupted_note);
+    return exit_interrupted;
+  }
+  return missed ? exit_failed : exit_done;
+}
+
 /// Everything after the first file was written: from here on nothing is bad input.
 void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress,
              Output& output, RunResult& run)
@@ -189,6 +212,7 @@ int run_command(const std::vector<std::string>& words)
                   : loaded.design && resumed.design
                       ? "resuming from the best design so far; other starts are not repeated"
                   : loaded.design     ? "the search had not begun: starting anew"
+                  : loaded.transition ? "not finished: starting anew"
                   : resumed.stability ? "resuming: finished cases are kept"
                                       : "resuming: finished limits are kept");
   }
@@ -198,6 +222,7 @@ int run_command(const std::vector<std::string>& words)
   run.scene = loaded.scene;
   if (loaded.experiment.task == Task::stability)
     return run_stability_task(loaded, threads, resumed, progress, output, run);
+  if (loaded.transition) return run_transition_task(loaded, threads, progress, output, run);
   compute(loaded, threads, resumed, progress, output, run);
   progress.clear();
   output.write(run);

@@ -31,9 +31,14 @@ void read_task(const Node& root, Problems& problems, Experiment& experiment)
     experiment.task = Task::stability;
     if (root.find("stability") == nullptr)
       problems.add(root, "missing key 'stability': task stability needs it");
+  } else if (task->string == "transition") {
+    experiment.task = Task::transition;
+    if (root.find("transition") == nullptr)
+      problems.add(root, "missing key 'transition': task transition needs it");
   } else if (task->string != "limits") {
-    problems.add(*task, "task '" + task->string +
-                            "' is not supported yet by this version; use limits, design or stability");
+    problems.add(*task,
+                 "task '" + task->string +
+                     "' is not supported yet by this version; use limits, design, stability or transition");
   }
 }
 
@@ -117,6 +122,10 @@ std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diag
   }
   if (const Node* stability = root->find("stability"))
     experiment.stability = read_stability(*stability, base, problems);
+  if (Node* transition = find_mutable(*root, "transition")) {
+    experiment.transition =
+        read_transition(*transition, experiment.scene, experiment.solver.clearance, scene_complete, problems);
+  }
   complete_directions(*root, problems, experiment);
   if (const Node* expect = find_typed(*root, "expect", Node::Type::array)) {
     experiment.expect = read_expectations(*expect, problems);

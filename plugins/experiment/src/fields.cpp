@@ -2,6 +2,7 @@
 
 #include "field_helpers.hpp"
 #include "stability_fields.hpp"
+#include "transition_fields.hpp"
 
 #include <algorithm>
 
@@ -237,16 +238,18 @@ Field experiment_fields()
       "experiment", "A Hauberk experiment.",
       {string("$schema", "Place of the schema file, for editors."),
        required(string("name", "Name of the experiment.")), string("description", "What it shows."),
-       with_default(choice("task", "What is computed. This version does limits, design and stability.",
-                           {"limits", "design", "sweep", "chart", "stability"}),
-                    "\"limits\""),
+       with_default(
+           choice("task", "What is computed. This version does limits, design, stability and transition.",
+                  {"limits", "design", "sweep", "chart", "stability", "transition"}),
+           "\"limits\""),
        with_default(choice("length_unit",
                            "What lengths in this file mean; a label in everything that is written, and "
                            "what preset paper, whose lengths are absolute, converts by.",
                            {"m", "mm", "um"}),
                     "\"mm\""),
        with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(), cell_field(),
-       load_case_field(), solver_field(), design_field(), stability_field(), expect_field()});
+       load_case_field(), solver_field(), design_field(), stability_field(), transition_field(),
+       expect_field()});
 }
 
 std::optional<PluginSection> plugin_section(const Field& object)

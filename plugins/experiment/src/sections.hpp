@@ -32,6 +32,10 @@ std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec
 /// stability; `base` is the whole file before it was checked.
 ExperimentStability read_stability(const Node& section, const Node& base, Problems& problems);
 
+/// transition; fills in the range. `clearance` is the solver's.
+ExperimentTransition read_transition(Node& section, const SceneSpec& scene, double clearance,
+                                     bool scene_complete, Problems& problems);
+
 /// Everything from a tree with values in place to an experiment. `well_formed`, when wanted: nothing was
 /// wrong with its form (keys, types, ranges).
 std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diagnostics& diagnostics,

@@ -130,7 +130,8 @@ ExperimentStability read_stability(const Node& section, const Node& base, Proble
   }
   out.base = base;
   std::erase_if(out.base.members, [](const auto& member) {
-    return member.first == "stability" || member.first == "design" || member.first == "expect";
+    return member.first == "stability" || member.first == "transition" || member.first == "design" ||
+           member.first == "expect";
   });
   set_member(out.base, "task", string_node("limits"));
   return out;

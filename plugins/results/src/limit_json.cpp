@@ -62,6 +62,7 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   out["links_kept"] = limit.links_kept;
   out["z_range"] = number(limit.z_range);
   out["contact"] = limit.contact;
+  if (limit.quadrature_error) out["quadrature_error"] = number(limit.quadrature_error);
   if (limit.finite_target) out["finite_target"] = number(limit.finite_target);
   out["certificate"] = limit.certificate;
 

@@ -46,4 +46,20 @@ void write_stability(const std::filesystem::path& directory, const boost::json::
   write_file_atomically(directory / results_file, write_json(document));
 }
 
+std::vector<std::pair<std::string, std::string>> transition_files()
+{
+  return {{"transition", transition_file},
+          {"minima", transition_minima_file},
+          {"picture", transition_picture_file}};
+}
+
+void write_transition(const std::filesystem::path& directory, const boost::json::object& document,
+                      const TransitionResult& result, const std::string& title)
+{
+  write_file_atomically(directory / transition_file, transition_csv(result));
+  write_file_atomically(directory / transition_minima_file, transition_minima_csv(result));
+  write_file_atomically(directory / transition_picture_file, transition_svg(result, title));
+  write_file_atomically(directory / results_file, write_json(document));
+}
+
 }  // namespace hauberk

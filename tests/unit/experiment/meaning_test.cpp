@@ -92,7 +92,8 @@ TEST(Meaning, TaskAndLoadCase)
 {
   EXPECT_EQ(
       after("\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"sweep\""),
-      "t.json:2: /task: task 'sweep' is not supported yet by this version; use limits, design or stability");
+      "t.json:2: /task: task 'sweep' is not supported yet by this version; use limits, design, stability or "
+      "transition");
   EXPECT_EQ(after(", \"directions_deg\": [0, 30]", ""),
             "t.json:13: /load_case: missing key 'directions_deg': expected an array of at least 1 numbers");
   EXPECT_EQ(after("[0, 30]", "[0, 30, 0]"),
@@ -111,7 +112,7 @@ TEST(Meaning, TaskAndLoadCase)
             "t.json:1: missing key 'design': task design needs it\n"
             "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
             "'seed', "
-            "'elements', 'cell', 'load_case', 'solver', 'design', 'stability', 'expect'");
+            "'elements', 'cell', 'load_case', 'solver', 'design', 'stability', 'transition', 'expect'");
 }
 
 TEST(Meaning, DesignQuantityAndTargets)

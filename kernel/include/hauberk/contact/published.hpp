@@ -3,6 +3,7 @@
 /// the squared distance between two charts, faded by the smallest eigenvalue of the distance's Hessian.
 
 #include <hauberk/contact/chart_pair.hpp>
+#include <hauberk/contact/formulation.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -117,6 +118,10 @@ struct ChartMinimum {
   Eigen::Matrix4d eigenvectors;  ///< columns
   bool converged = false;        ///< a stationary point with positive semi-definite H, to rounding
 };
+
+/// Chart coordinates of both surface points from a minimum of P's probe set of dimension `dim` in F's field.
+template <int dim>
+ChartPoint<double> chart_start(const PairFrame& frame, const Minimum& m);
 
 /// Full Newton steps from `c` until the norm of the gradient decreases no further (paper, below eq. (3)).
 ChartMinimum refine(const ChartPair<double>& pair, ChartPoint<double> c, int& evaluations);

@@ -36,6 +36,10 @@ struct Schedule {
 /// Activation distances of a schedule's stages, falling.
 std::vector<double> activation_distances(const Schedule& schedule);
 
+/// The formulation that a choice means at an activation distance, before anything has stalled: `automatic` is
+/// arc above schedule.change, else nearest.
+Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule);
+
 /// One finished stage.
 struct StageRecord {
   double g_hat = 0.0, value = 0.0;

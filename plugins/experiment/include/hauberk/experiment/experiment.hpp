@@ -20,7 +20,7 @@ namespace hauberk {
 using PluginLookup =
     std::function<const PluginTable*(PluginKind kind, const std::string& id, std::string& error)>;
 
-enum class Task { limits, design, stability };
+enum class Task { limits, design, stability, transition };
 
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
@@ -99,6 +99,24 @@ struct ExperimentStability {
   Node base;  ///< the file as given, without this section, design and expect
 };
 
+/// A rigid motion of one element, linear in time: a rotation about a line and then a translation, from rest.
+struct TransitionPathInput {
+  std::string name;
+  Vec3 axis = Vec3::Zero();     ///< unit; zero: no rotation
+  Vec3 through = Vec3::Zero();  ///< a point of the line, file units
+  double degrees_from = 0.0, degrees_to = 0.0;
+  Vec3 shift_from = Vec3::Zero(), shift_to = Vec3::Zero();  ///< file units
+  int steps = 200;
+};
+
+/// The section `transition`. Lengths in file units.
+struct ExperimentTransition {
+  int fixed = 0, moving = 1;  ///< placed elements
+  double activation_distance = 0.0, range = 0.0;
+  std::vector<std::string> contacts;  ///< "nearest", "published", "arc", "auto"
+  std::vector<TransitionPathInput> paths;
+};
+
 struct Experiment {
   std::string name;
   Task task = Task::limits;
@@ -111,8 +129,9 @@ struct Experiment {
   std::vector<double> directions_deg;  ///< as given; of the final profile for a design
   std::vector<Sense> senses;           ///< as given; both when absent
   ExperimentSolver solver;
-  std::optional<ExperimentDesign> design;        ///< set whenever the file has the section
-  std::optional<ExperimentStability> stability;  ///< likewise
+  std::optional<ExperimentDesign> design;          ///< set whenever the file has the section
+  std::optional<ExperimentStability> stability;    ///< likewise
+  std::optional<ExperimentTransition> transition;  ///< likewise
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
 };

@@ -4,6 +4,7 @@
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/polar_svg.hpp>
 #include <hauberk/results/stability.hpp>
+#include <hauberk/results/transition.hpp>
 
 #include <boost/json/object.hpp>
 
@@ -20,6 +21,10 @@ inline constexpr const char* designed_file = "designed.json";
 
 inline constexpr const char* stability_file = "stability.csv";
 inline constexpr const char* stability_picture_file = "stability.svg";
+
+inline constexpr const char* transition_file = "transition.csv";
+inline constexpr const char* transition_minima_file = "minima.csv";
+inline constexpr const char* transition_picture_file = "transition.svg";
 
 /// The files that `write_results` makes for `run`, for ResultNames::files: limits, profile and, for a design
 /// of a periodic cell, designed.
@@ -40,5 +45,12 @@ std::vector<std::pair<std::string, std::string>> stability_files();
 /// Writes stability.csv, stability.svg and, last, results.json, under the same rules.
 void write_stability(const std::filesystem::path& directory, const boost::json::object& document,
                      const StabilityMap& map, const std::string& title);
+
+/// Those of a transition experiment: transition, minima and picture.
+std::vector<std::pair<std::string, std::string>> transition_files();
+
+/// Writes transition.csv, minima.csv, transition.svg and, last, results.json, under the same rules.
+void write_transition(const std::filesystem::path& directory, const boost::json::object& document,
+                      const TransitionResult& result, const std::string& title);
 
 }  // namespace hauberk

@@ -1,0 +1,46 @@
+#pragma once
+/// A transition experiment, computed.
+
+#include <hauberk/mechanics/locking.hpp>
+#include <hauberk/results/transition.hpp>
+#include <hauberk/transition/motion.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hauberk {
+
+/// A named motion and the number of steps at which it is looked at.
+struct TransitionMotion {
+  std::string name;
+  RigidMotion motion;  ///< scaled by L
+  int steps = 200;
+};
+
+/// What is computed. Lengths in L.
+struct TransitionSpec {
+  const Model* model = nullptr;
+  int fixed = 0, moving = 1;
+  double g_hat = 0.02;
+  double range = 0.06;                ///< minima with a smaller surface distance are listed
+  std::vector<std::string> contacts;  ///< nearest, published, arc, auto
+  Schedule schedule;                  ///< says where auto changes
+  std::vector<TransitionMotion> paths;
+  std::string length_unit;
+};
+
+/// What is wrong with the paths, a sentence each, with the path's number: surfaces that touch or overlap at
+/// one of the samples.
+std::vector<std::pair<std::size_t, std::string>> transition_problems(const TransitionSpec& spec);
+
+/// Called after every finished part, one call at a time; false: stop.
+using TransitionObserver = std::function<bool(std::size_t done, std::size_t total)>;
+
+/// Samples every path, numbers its contacts, looks for discontinuities of every formulation, and measures the
+/// quadrature of arc against panels half as long. Results do not depend on `threads`. What was not computed
+/// when the observer said stop is left out.
+TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
+                                const TransitionObserver& observer);
+
+}  // namespace hauberk

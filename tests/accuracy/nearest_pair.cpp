@@ -99,14 +99,13 @@ bool probe_a(const Torus& a, const Torus& b) { return a.round() != b.round() ? b
 
 }  // namespace
 
-NearestPlace nearest_place(const Torus& a, const Torus& b, int density)
+NearestPlace nearest_place(const Torus& a, const Torus& b)
 {
   NearestPlace out;
   out.probes_a = probe_a(a, b);
   const Torus &P = out.probes_a ? a : b, &F = out.probes_a ? b : a;
   const bool core = P.round();
-  const Places places = search(PairField<double>(P, F, core), P, F, density);
-  const Place<double>& best = places.front();
+  const Place<double> best = search(PairField<double>(P, F, core), P, F, 1).front();
   out.distance = best.value;
   // One tube wholly inside the other's: probes from inside see the surface from its other side.
   if (!core)
@@ -114,6 +113,13 @@ NearestPlace nearest_place(const Torus& a, const Torus& b, int density)
   const Vec3 normal = foot(F, core ? P.core(best.u) : P.surface(best.u, best.v)).normal;
   out.normal = out.probes_a ? Vec3(-normal) : normal;
   return out;
+}
+
+double dense_distance(const Torus& a, const Torus& b)
+{
+  constexpr int density = 4;
+  return std::min(search(PairField<double>(a, b, a.round()), a, b, density).front().value,
+                  search(PairField<double>(b, a, b.round()), b, a, density).front().value);
 }
 
 PreciseSlack precise_slack(const Torus& a, const Torus& b, double bound)

@@ -81,6 +81,27 @@ TEST(Motion, NoCollisionBeforeTheCertifiedStep)
   EXPECT_GT(tally.touching, tally.motions / 4);
 }
 
+TEST(Motion, StrainBringsElementsTogetherThatHaveLeftTheirPlaces)
+{
+  // The third ring has moved by ten cells: an image of it is 3.5 away from the first ring, as at rest. A
+  // strain of 0.2 moves that one by 0.2 (3.5 - 70) = -13.3.
+  const test::Sheet sheet(3);
+  SceneSpec spec = test::chain({1.0, 0.1, 0.1}, {1.0, 0.1, 0.1}, 7.0);
+  spec.length = 1.0;
+  const Mat3 across = rotation_exp(Vec3(0.0, 0.5 * std::numbers::pi, 0.0));
+  spec.elements[1].rest = {Vec3(0.0, 1.0, 0.0), across};  // linked, as something has to be
+  spec.elements.push_back({0, spec.elements[0].parameters, {Vec3(3.5, 0.0, 0.0), Mat3::Identity()}});
+  const Model m = make_model(spec, sheet, 0.0);
+  State from = rest_state(m);
+  from.e[6] = 70.0;
+  Vector dy = Vector::Zero(m.dofs());
+  dy[0] = 0.2;
+  // Rings of radius 1.1 in one plane meet at 3.5 - 13.3 s = 2.2.
+  const double alpha = largest_safe_step(m, from, dy, keep).alpha;
+  EXPECT_LT(alpha, 1.3 / 13.3);
+  EXPECT_GT(alpha, 0.5 * 1.3 / 13.3);
+}
+
 TEST(Motion, NoCollisionBeforeTheCertifiedChangeOfParameters)
 {
   const test::Sheet sheet(3);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
 
 namespace hauberk::brute {
 namespace {
@@ -47,15 +49,39 @@ Hessian hessian(const Field& f, double u, double v)
 
 double lowest(const Hessian& H) { return 0.5 * (H.uu + H.vv) - std::hypot(0.5 * (H.uu - H.vv), H.uv); }
 
-/// Damped Newton descent on a surface.
+/// A place a little way along the direction of lowest curvature, where that is lower than the saddle (u, v).
+std::optional<std::pair<double, double>> off_saddle(const Field& f, double u, double v, double value,
+                                                    const Hessian& H)
+{
+  constexpr double flat = 1e-7;  // second differences resolve no less
+  if (lowest(H) > -flat) return std::nullopt;
+  const double half = 0.5 * (H.uu - H.vv), spread = std::hypot(half, H.uv);
+  const double x = half > 0.0 ? -H.uv : half - spread, y = half > 0.0 ? half + spread : H.uv;
+  const double length = std::hypot(x, y);
+  if (length == 0.0) return std::nullopt;
+  for (double step = 1e-2 * f.P.R; step > 1e-6 * f.P.R; step *= 0.25) {
+    const double nu = u + step * x / length / u_scale(f.P), nv = v + step * y / length / v_scale(f.P);
+    if (f.value(nu, nv) < value) return std::pair{nu, nv};
+  }
+  return std::nullopt;
+}
+
+/// Damped Newton descent on a surface. Symmetric pairs have saddles exactly on samples, with minima on both
+/// sides that may be less than 1e-8 lower: saddles are left, not taken for what is closest.
 BruteMinimum descend(const Field& f, double u, double v)
 {
   const double su = u_scale(f.P), sv = v_scale(f.P);
   double gu, gv, value = f.value(u, v, gu, gv);
   for (int k = 0; k < 200; ++k) {
     const double x = gu / su, y = gv / sv, size = std::hypot(x, y);
-    if (size < 1e-13) break;
     const Hessian H = hessian(f, u, v);
+    if (size < 1e-13) {
+      const auto lower = off_saddle(f, u, v, value, H);
+      if (!lower) break;
+      std::tie(u, v) = *lower;
+      value = f.value(u, v, gu, gv);
+      continue;
+    }
     // Along negative curvature the Newton step is turned round, so that level valleys are left quickly.
     const double low = lowest(H), shift = low < 1e-9 ? 1e-8 - 2.0 * std::min(low, 0.0) : 0.0;
     const double a = H.uu + shift, c = H.vv + shift, det = a * c - H.uv * H.uv;

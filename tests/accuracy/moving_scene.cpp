@@ -1,5 +1,6 @@
 #include "moving_scene.hpp"
 
+#include "nearest_pair.hpp"
 #include "random_pairs.hpp"
 
 #include <scenes.hpp>
@@ -87,7 +88,7 @@ class Watcher {
   double gap(int a, int b, const Image& image, double s)
   {
     ++out_.looks;
-    return surface_distance(at_(a, {0, 0}, s), at_(b, image, s), quick) - m_.clearance;
+    return nearest_place(at_(a, {0, 0}, s), at_(b, image, s)).distance - m_.clearance;
   }
 
   void pair(int a, int b, const Image& image)
@@ -272,6 +273,26 @@ RandomScene random_scene(long k, std::mt19937_64& rng)
       }
       out.clearance = 0.02;
   }
+  return out;
+}
+
+RandomScene thin_scene(long k, std::mt19937_64& rng)
+{
+  RandomScene out;
+  const auto size = [&](double R, bool round) {
+    const double wide = R * 0.005 * std::pow(8.0, uniform(rng, 0.0, 1.0)),
+                 high = round ? wide : wide * std::pow(10.0, -uniform(rng, 0.0, 1.0));
+    return (rng() & 1U) != 0U ? std::array<double, 3>{R, wide, high} : std::array<double, 3>{R, high, wide};
+  };
+  std::array<double, 3> A = size(1.0, k % 3 != 2), B = size(uniform(rng, 0.6, 1.6), k % 3 == 0);
+  SceneSpec& s = out.spec;
+  out.what = "thin linked pair";
+  s.length = 1.0;
+  s.lattice = {Vec3(40, 0, 0), Vec3(0, 40, 0)};
+  s.types.push_back({"ring", std::make_shared<test::Rings>()});
+  const Pose pose = linked_pose(A, B, rng);
+  s.elements.push_back({0, values({A}), {}});
+  s.elements.push_back({0, values({B}), pose});
   return out;
 }
 

@@ -24,6 +24,10 @@ struct RandomScene {
 /// a published chainmail cell with varied tubes; round, mixed and elliptical tubes take turns.
 RandomScene random_scene(long k, std::mt19937_64& rng);
 
+/// Linked rings whose tubes are 0.5 to 4 % of the ring, up to ten times as wide as high or as high as wide:
+/// fast motions pass through them between two looks.
+RandomScene thin_scene(long k, std::mt19937_64& rng);
+
 /// A random step of the whole model: strain (images move), shifts, turns; sizes over three decades.
 Vector random_step(const Model& model, const State& from, bool strain, std::mt19937_64& rng);
 

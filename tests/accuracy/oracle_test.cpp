@@ -130,6 +130,16 @@ TEST(Oracle, ProbingEitherTorusGivesTheSame)
   }
 }
 
+TEST(Oracle, LeavesASaddleThatLiesOnASample)
+{
+  // u = 0, v = pi is a saddle by symmetry; the minima on both sides of it are 2e-9 lower, 0.03 rad away.
+  const TorusPair p = random_pair(11729);
+  ASSERT_EQ(p.family, Family::through_center);
+  const Sampling dense{4096, 1024, 256};
+  EXPECT_NEAR(surface_distance(p.a, p.b), surface_distance(p.b, p.a, dense), 1e-14);
+  EXPECT_NEAR(surface_distance(p.a, p.b), 0.384943342068083, 1e-14);
+}
+
 TEST(Oracle, GaussIntegralKnowsTheHopfLink)
 {
   Torus a, b;

@@ -104,13 +104,13 @@ class Search {
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
     if (taylor_bound(probe_, s, l.f.m.phi, l.f.rho, l.gu, l.gv) > threshold_) return;
     // Largest curvature of the field on the panel.
-    const double rho = l.f.rho - d, r = rf_ + l.f.m.phi - d;
-    if (rho > 0.0 && r > 0.0) {
-      const double k = std::max(1.0 / rho, 1.0 / r);
+    const FieldCurvature field = field_curvature(*probe_.f.F, l.f, d);
+    if (field.third < std::numeric_limits<double>::infinity()) {
+      const double k = field.second;
       const double uu = probe_.Lu * (probe_.Lu * k + 1.0);
       if constexpr (dim == 1) {
         if (std::abs(l.gu) > uu * s.hu) return;
-        const double third = probe_.Lu * (3.0 * probe_.Lu * probe_.Lu * k * k + 3.0 * probe_.Lu * k + 1.0);
+        const double third = probe_.Lu * (probe_.Lu * probe_.Lu * field.third + 3.0 * probe_.Lu * k + 1.0);
         if (std::abs(l.huu) > third * s.hu) {
           bracket(s);
           return;

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double smallest_panel = 1e-10;  ///< radians; below it rounding of the angle dominates
 constexpr double pi = std::numbers::pi;
+constexpr double rounding =
+    8.0 * std::numeric_limits<double>::epsilon();  ///< of a length, per length involved
 
 template <int dim>
 Separation bound_over_panels(const PairFrame& frame, double clearance, double enough, double tightness)
@@ -57,7 +59,10 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
   // Spheres about the centres first: most pairs end here.
   const Vec3 ca = pose_a.position + pose_a.rotation * A.center;
   const Vec3 cb = pose_b.position + pose_b.rotation * B.center;
-  const double coarse = (ca - cb).norm() - A.bound - B.bound - clearance;
+  // Where they touch at the closest points of the surfaces they leave nothing for rounding.
+  const double size = pose_a.position.norm() + A.center.norm() + A.bound + pose_b.position.norm() +
+                      B.center.norm() + B.bound + clearance;
+  const double coarse = (ca - cb).norm() - A.bound - B.bound - clearance - rounding * size;
   if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
 
   // Of two tubes the smaller ring probes: the field of the larger one is smooth around it, while the core of

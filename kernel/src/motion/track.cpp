@@ -46,8 +46,10 @@ double wall_step(const Model& m, const State& from, const Vector& dy, double kee
 
 std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy)
 {
-  // The relative motion of a pair is at most the elements' own motion plus dF times their distance; both ends
-  // of the step are searched.
+  // x_ij(s) = F(s) X + u_ij(s), X at rest. A pair that touches at s has |x_ij(s)| <= touching, so that
+  //   |X| <= (touching + |u_ij(s)|)/s_min,   |x_ij(0)| <= touching + own + |dF| |X|,
+  // where u_ij is as far as elements have left their places in the deformed lattice. The smallest stretch of
+  // a symmetric F is concave in F: it is least at one of the two ends.
   const State to = advanced(m, from, dy, 1.0);
   const double own = 2.0 * largest_motion(m, dy);
   const double strain = dy.head(m.macro_count).cwiseAbs().sum();
@@ -56,7 +58,14 @@ std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, co
   const double smin =
       std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
                m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
-  const double margin = m.clearance + own + strain * 2.0 * (2.0 * widest + own) / std::max(smin, 1e-3);
+  const int nc = m.coordinate_count;
+  Vector lowest = from.e.head(nc), highest = lowest;
+  for (int k = 1; k < m.element_count(); ++k) {
+    lowest = lowest.cwiseMin(from.e.segment(k * nc, nc));
+    highest = highest.cwiseMax(from.e.segment(k * nc, nc));
+  }
+  const double touching = 2.0 * widest + m.clearance, apart = (highest - lowest).norm() + own;
+  const double margin = m.clearance + own + strain * (touching + apart) / std::max(smin, 1e-3);
 
   std::vector<CandidatePair> out;
   for (const ElementPair& pair : near_pairs(m, from, margin)) {

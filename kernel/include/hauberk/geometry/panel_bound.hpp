@@ -21,7 +21,9 @@ struct FieldCurvature {
 /// c = 3 max |x| (1 - x^2) = 2/sqrt(3). Closest points move by at most d where the field is positive
 /// (projection on a convex set), and by d/(1 + kappa phi) inside. On an ellipse (a, b) with w = |dx/dv|,
 ///   kappa = a b/w^3,  kappa_s = -3 a b w_s/w^4,  |w_s| = |a^2 - b^2| |cos v sin v|/w^2 <= |a^2 - b^2|/(2 a
-///   b).
+///   b),
+/// so that k_s = -3 a b w_s w^5/(w^3 + a b phi)^3. It falls with phi, and as a function of w alone it is
+/// largest where w^3 = 5/4 a b phi: far from a sharp edge the field is smoother than the edge.
 inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double d)
 {
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -44,8 +46,11 @@ inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double
     const double beta = 1.0 - kappa * inside;
     if (inside > 0.0 && beta < deepest) return {unknown, unknown};
     const double ws = std::min(e / (2.0 * a * b), e * (std::abs(f.m.c * f.m.s) + arc / w) / (w * w));
-    k = kappa / beta;
-    ks = 3.0 * a * b * ws / (w * w * w * w) / (beta * beta * beta);
+    const double outside = a * b * std::max(0.0, f.m.phi - d);
+    k = kappa / (beta + kappa * outside / (a * b));
+    const double cube = w * w * w, wide = cube >= 1.25 * outside ? w : std::cbrt(1.25 * outside);
+    const double sum = beta * (wide * wide * wide + outside);  // beta = 1 where outside > 0
+    ks = 3.0 * a * b * ws * (wide * wide) * (wide * wide * wide) / (sum * sum * sum);
   }
   return {std::max(k, 1.0 / rho), ks + c * (k * k + k / rho + 1.0 / (rho * rho))};
 }

@@ -112,7 +112,9 @@ PairInput decode(const std::uint8_t* data, std::size_t size)
   const double strain = 0.5 * bytes.tiny(8.0);
   for (std::size_t k = 0; k < 3; ++k) in.step[k] = strain * bytes.fraction();
   const double scale = bytes.factor(6.0);
-  in.published = bytes.byte() == 255;
+  const int extras = bytes.byte();
+  in.turned = extras % 2 == 1;
+  in.published = extras == 255;
   for (brute::Torus* t : {&in.a, &in.b}) {
     t->R *= scale;
     t->r0 *= scale;

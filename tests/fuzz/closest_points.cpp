@@ -157,12 +157,18 @@ void check_turned_minima(const PairInput& input, const Bodies& p, const std::vec
           fmt::format("nearest minimum {:.17g}, moved {:.17g}", one, other));
 }
 
-/// Nearly of one axis: all around they are nearly equally far.
-bool is_coaxial(const Bodies& p)
+/// Minima that take seconds to list: of pairs that are nearly of one axis, because all around they are nearly
+/// equally far, and of two surfaces of which one is bent sharply.
+bool is_dear(const Bodies& p)
 {
-  constexpr double nearly = 1e-3;
+  constexpr double nearly = 1e-3, sharp = 0.03;
   const Vec3 axis = p.pa.rotation.col(2), across = p.pb.position - p.pa.position;
-  return axis.cross(p.pb.rotation.col(2)).norm() < nearly && axis.cross(across).norm() < nearly;
+  if (axis.cross(p.pb.rotation.col(2)).norm() < nearly && axis.cross(across).norm() < nearly) return true;
+  if (p.a.is_tube() || p.b.is_tube()) return false;
+  double radius = infinite;
+  for (const Body* b : {&p.a, &p.b})
+    radius = std::min({radius, b->r0 * b->r0 / b->r1, b->r1 * b->r1 / b->r0});
+  return radius < sharp * std::max(p.a.bound, p.b.bound);
 }
 
 void check_distances(const PairInput& input, const Bodies& p)
@@ -187,7 +193,7 @@ void check_distances(const PairInput& input, const Bodies& p)
   require(clear.lower <= std::max(s.upper - clearance, 0.0) + r, input, "clearance is not subtracted");
 
   if (s.lower > 0.0) {
-    if (input.families || !is_coaxial(p)) {
+    if (input.dear || !is_dear(p)) {
       const double threshold = 1.5 * s.upper + clearance;
       const std::vector<Minimum> minima = checked_minima(input, p, threshold, s.lower);
       if (input.turned) check_turned_minima(input, p, minima, threshold, s);

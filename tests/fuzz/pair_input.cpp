@@ -114,7 +114,7 @@ PairInput decode(const std::uint8_t* data, std::size_t size)
   const double scale = bytes.factor(6.0);
   const int extras = bytes.byte();
   in.turned = extras % 2 == 1;
-  in.families = extras >= 192;
+  in.dear = extras >= 240;
   in.published = extras == 255;
   for (brute::Torus* t : {&in.a, &in.b}) {
     t->R *= scale;

@@ -15,7 +15,7 @@ struct PairInput {
   brute::Torus a, b;
   double clearance = 0.0;  ///< in L and in a.R: small against both
   Pose frame;              ///< a rigid motion that must not matter, in L
-  bool families = false;   ///< list the minima of coaxial pairs, too: whole circles of them, a second each
+  bool dear = false;       ///< list minima also where that takes seconds
   bool turned = false;     ///< also list the minima of the moved pair
   bool published = false;  ///< also try the published check of steps, which takes a hundred times as long
   std::array<double, 15> step{};  ///< strain, then translation and turn of both: unknowns of a model in L

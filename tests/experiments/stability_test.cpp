@@ -17,25 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace json = boost::json;
 
-/// The chain: easy, with a wrong and a right exact value, overlapping, and pulled where nothing holds it.
-std::string map_text()
-{
-  return with(with(with(chain_text(), R"("name": "chain",)", R"("name": "map", "task": "stability",)"),
-                   R"([ { "pointer": "/limits/0/value", "value": 0.43333333333333, "rel": 1e-8 } ])",
-                   R"([ { "pointer": "/stability/counts/silent_wrong", "value": 2 } ])"),
-              R"("solver": { "preset": "accurate" },)", R"("stability": {
-    "methods": [
-      { "name": "fast", "set": { "/solver/preset": "fast", "/solver/contact": "nearest" } },
-      { "name": "accurate", "set": { "/solver/preset": "accurate" } } ],
-    "families": [
-      { "name": "thickness", "why": "until it overlaps",
-        "vary": [ { "pointer": ["/elements/link/parameters/ring.r0", "/elements/link/parameters/ring.r1"],
-                    "values": [0.7, 0.5, 0.6, 2.9] } ],
-        "exact": [0.43333333333333, 0.4, 0.6, null] },
-      { "name": "across", "set": { "/load_case/directions_deg": [90] }, "solvable": false,
-        "vary": [ { "pointer": "/solver/starts", "values": [1] } ] } ] },)");
-}
-
 std::string outcome_at(const json::value& results, int k)
 {
   return std::string(results.at_pointer("/stability/cases/" + std::to_string(k) + "/outcome").as_string());

@@ -30,9 +30,14 @@ inline constexpr std::uint32_t interface_revision = 2;
 #else
 #define HAUBERK_STDLIB "libstdc++ cxx11-abi=" HAUBERK_STR(_GLIBCXX_USE_CXX11_ABI)
 #endif
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)  // clang's way to ask
+#define HAUBERK_HAS_FEATURE(x) __has_feature(x)
+#else
+#define HAUBERK_HAS_FEATURE(x) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || HAUBERK_HAS_FEATURE(address_sanitizer)
 #define HAUBERK_SANITIZERS "address"
-#elif defined(__SANITIZE_THREAD__)
+#elif defined(__SANITIZE_THREAD__) || HAUBERK_HAS_FEATURE(thread_sanitizer)
 #define HAUBERK_SANITIZERS "thread"
 #else
 #define HAUBERK_SANITIZERS "none"

@@ -8,6 +8,11 @@ namespace hauberk {
 namespace {
 
 constexpr double smallest_panel = 1e-10;  ///< radians; below it rounding of the angle dominates
+/// Gaps below this part of the lengths they are the difference of are none: rounding decides their sign.
+constexpr double rounding = 2e-15;
+/// Surfaces that conform all around at a gap near rounding take so many; what is left then stays as coarse as
+/// it is.
+constexpr int most_evaluations = 2000000;
 constexpr double pi = std::numbers::pi;
 constexpr double rounding =
     8.0 * std::numeric_limits<double>::epsilon();  ///< of a length, per length involved
@@ -17,6 +22,7 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
 {
   const Probe<dim> probe(frame);
   const double shift = probe.offset + clearance;
+  const double touching = rounding * (frame.a.norm() + frame.P->bound + frame.F->bound);
   Separation s;
   s.lower = s.upper = std::numeric_limits<double>::infinity();
   std::vector<Panel> stack;
@@ -38,8 +44,13 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
       s.lower = s.upper;
       return s;
     }
+    if (s.upper <= touching) {
+      s.lower = 0.0;
+      return s;
+    }
     const double lower = b.bound - shift;
-    if (lower >= std::min(enough, tightness * s.upper) || panel.hu < smallest_panel) {
+    if (lower >= std::min(enough, tightness * s.upper) || panel.hu < smallest_panel ||
+        s.evaluations >= most_evaluations) {
       s.lower = std::min(s.lower, lower);
       continue;
     }
@@ -70,6 +81,11 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
   if (A.is_tube() && !(B.is_tube() && B.R < A.R))
     return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
   if (B.is_tube()) return bound_over_panels<1>(PairFrame(B, pose_b, A, pose_a), clearance, enough, tightness);
+  // A core that is probed knows the inside of its own tube; a surface does not. Where all of B is inside of
+  // A, so is any point of it.
+  const PairFrame back(B, pose_b, A, pose_a);
+  const double inside = field_at(A, Probe<2>(back).at(0.0, 0.0).p).m.phi;
+  if (inside < 0.0) return {inside - clearance, inside - clearance, 1};
   return bound_over_panels<2>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace hauberk {
 namespace {
@@ -17,6 +18,52 @@ double squared_arm(const Model& m)
   if (!m.lattice.empty()) return std::max(1.0, sum / static_cast<double>(4 * m.lattice.size()));
   for (const Pose& p : m.rest) sum += p.position.squaredNorm();
   return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, m.rest.size())));
+}
+
+/// Images of one pair that are looked at. More at rest are no fabric but a slip in a length.
+constexpr double most_images_at_rest = 1e4, most_images = 1e8;
+
+/// Lattice translations to either side that may bring a pair within its reach.
+class ImageRange {
+ public:
+  explicit ImageRange(const Model& m)
+  {
+    const Vec3 &t1 = m.lattice[0], &t2 = m.lattice[1];
+    const double area = t1.cross(t2).norm();
+    b1_ = t2.norm() / area;
+    b2_ = t1.norm() / area;
+  }
+
+  /// Largest |k| and |l| of translations k T1 + l T2 that are at most `far` long, as |T| >= |k|/|b1| with b1
+  /// the reciprocal vector; null when they are more than `most`.
+  std::optional<Image> within(double far, double most) const
+  {
+    const double k = std::floor(far * b1_), l = std::floor(far * b2_);
+    if (!((2.0 * k + 1.0) * (2.0 * l + 1.0) <= most)) return std::nullopt;
+    return Image{static_cast<int>(k), static_cast<int>(l)};
+  }
+
+ private:
+  double b1_, b2_;
+};
+
+/// Refuses scenes whose images would take forever to look at.
+void check_images(const Model& m)
+{
+  if (m.lattice.empty()) return;
+  const ImageRange range(m);
+  for (std::size_t i = 0; i < m.rest.size(); ++i) {
+    for (std::size_t j = i; j < m.rest.size(); ++j) {
+      const double far =
+          (m.rest[i].position - m.rest[j].position).norm() + m.reach[i] + m.reach[j] + m.clearance;
+      if (range.within(far, most_images_at_rest)) continue;
+      throw InputError(fmt::format(
+          "elements {} and {}: more than {:g} images of the cell are within their reach: its vectors are far "
+          "shorter than the elements, or an element is far away from the cell; correct cell.vectors, "
+          "positions, radii or solver.clearance",
+          i, j, most_images_at_rest));
+    }
+  }
 }
 
 void set_metric(Model& m)
@@ -64,6 +111,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
     positions.push_back(m.rest.back().position);
   }
   m.first_body.push_back(static_cast<int>(m.bodies.size()));
+  check_images(m);
   m.walls = load.inequalities(positions);
   set_metric(m);
   m.links = find_links(m, rest_state(m));
@@ -158,20 +206,23 @@ std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margi
     }
     return pairs;
   }
-  // |F T| >= s_min |T| and |T| >= |m_k| / |b_k| with b_k the reciprocal vectors.
+  // |F T| >= s_min |T|.
   const auto [smin, smax] = m.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m.macro_count)});
   static_cast<void>(smax);
-  const Vec3 &t1 = m.lattice[0], &t2 = m.lattice[1];
-  const double area = t1.cross(t2).norm();
-  const double b1 = t2.norm() / area, b2 = t1.norm() / area;
+  const ImageRange range(m);
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       const double r = m.reach[a] + m.reach[b] + margin;
       const double far = ((p[a].position - p[b].position).norm() + r) / std::max(smin, 1e-6);
-      const int m1 = static_cast<int>(std::floor(far * b1)), m2 = static_cast<int>(std::floor(far * b2));
-      for (int k = -m1; k <= m1; ++k) {
-        for (int l = -m2; l <= m2; ++l) {
+      const std::optional<Image> most = range.within(far, most_images);
+      if (!most) {
+        throw ComputationError(
+            fmt::format("elements {} and {}: more than {:g} images of the cell are within their reach", i, j,
+                        most_images));
+      }
+      for (int k = -(*most)[0]; k <= (*most)[0]; ++k) {
+        for (int l = -(*most)[1]; l <= (*most)[1]; ++l) {
           if (i == j && (k < 0 || (k == 0 && l <= 0))) continue;  // an image pair counts once
           const Vec3 x = image_pose(m, s, j, {k, l}).position;
           if ((p[a].position - x).norm() < r) pairs.push_back({i, j, {k, l}});

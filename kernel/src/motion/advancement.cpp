@@ -13,6 +13,9 @@ constexpr double pi = std::numbers::pi;
 constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advances are not worth their cost
 constexpr int most_advances = 4000;
 constexpr double smallest_panel = 1e-9;  ///< radians
+/// Closest points that one pair is worth: conforming surfaces near contact could take any number. What is
+/// certified until then stands.
+constexpr long most_evaluations = 2000000;
 
 /// Certifies one pair of bodies, P probing F, over the remaining step.
 template <int dim>
@@ -20,7 +23,13 @@ class PairAdvance {
  public:
   PairAdvance(const Body& P, const Track& tp, const Body& F, const Track& tf, double clearance,
               SafeStep& count)
-      : P_(P), F_(F), tp_(tp), tf_(tf), clearance_(clearance), count_(count)
+      : P_(P),
+        F_(F),
+        tp_(tp),
+        tf_(tf),
+        clearance_(clearance),
+        count_(count),
+        last_(count.evaluations + most_evaluations)
   {
   }
 
@@ -33,7 +42,7 @@ class PairAdvance {
       tau = std::min(tau, limit - s);
       while (!holds(tau, target)) {
         tau *= 0.5;
-        if (tau < smallest_advance) return s;
+        if (tau < smallest_advance || count_.evaluations >= last_) return s;
       }
       s += tau;
       tau *= 2.0;
@@ -111,7 +120,7 @@ class PairAdvance {
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
     if (g - std::min(alone, travel) < target && g - lost(motion, f, {}, tau) < target) return false;
-    if (s.hu < smallest_panel) return false;
+    if (s.hu < smallest_panel || count_.evaluations >= last_) return false;
     Panel first, second_panel;
     split(probe, s, first, second_panel);
     return panel_holds(probe, first, tau, target) && panel_holds(probe, second_panel, tau, target);
@@ -165,6 +174,7 @@ class PairAdvance {
   const Track& tf_;
   double clearance_;
   SafeStep& count_;
+  long last_;  ///< evaluation after which to give up
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;

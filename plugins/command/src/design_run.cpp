@@ -54,7 +54,7 @@ class DesignRun {
                                      output_.write_sometimes(run_);
                                    });
     enter_initial();
-    output_.write(run_);
+    output_.write_partial(run_);
     if (interrupted()) return;
     search();
     if (interrupted()) return;
@@ -207,7 +207,7 @@ class DesignRun {
     }
     if (resumed_) d.message += "; resumed from the best design of an interrupted run";
     d.objective = std::numeric_limits<double>::quiet_NaN();  // until limits are recomputed
-    output_.write(run_);
+    output_.write_partial(run_);
   }
 
   /// Limits of the design from its rest state, with all stages and starts.

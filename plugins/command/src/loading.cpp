@@ -158,13 +158,18 @@ std::shared_ptr<const Registry> open_registry(const Options& options)
 
 Loaded load(const Options& options)
 {
-  Loaded loaded;
-  loaded.registry = open_registry(options);
-  Diagnostics diagnostics;
   const std::string& file = options.positional();
+  std::shared_ptr<const Registry> registry = open_registry(options);
+  return load(std::move(registry), {file, read_text_file(file), options.list("set")});
+}
+
+Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& source)
+{
+  Loaded loaded;
+  loaded.registry = std::move(registry);
+  Diagnostics diagnostics;
   std::optional<Experiment> experiment =
-      read_experiment({file, read_text_file(file), options.list("set")},
-                      recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+      read_experiment(source, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
   const auto stop_on_problems = [&diagnostics] {
     if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
   };

@@ -52,6 +52,9 @@ struct Loaded {
 /// ReportedProblems with a line per problem, InputError when the file cannot be read.
 Loaded load(const Options& options);
 
+/// The same for a text with plugins of a registry: reads no file of its own.
+Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& source);
+
 /// The registry for --plugin-path, HAUBERK_PLUGIN_PATH and this program's place.
 std::shared_ptr<const Registry> open_registry(const Options& options);
 

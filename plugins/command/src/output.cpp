@@ -1,11 +1,15 @@
 #include "output.hpp"
 
+#include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/results/atomic_file.hpp>
 #include <hauberk/version.hpp>
 
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <boost/version.hpp>
+
+#include <cstdlib>
 
 namespace hauberk::command {
 namespace {
@@ -22,6 +26,23 @@ std::string unit_of(const Loaded& loaded)
       return "1/" + loaded.experiment.length_unit;
     default:
       return "value";
+  }
+}
+
+/// Writes into a new folder for temporary files and returns its name; empty where that fails, too.
+std::string rescue(const std::vector<NamedContent>& files)
+{
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error) return "";
+  std::string name = (folder / "hauberk-results-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) return "";
+  try {
+    write_files_atomically(name, files);
+    return name;
+  } catch (const ComputationError&) {
+    std::filesystem::remove(name, error);
+    return "";
   }
 }
 
@@ -46,8 +67,11 @@ Provenance provenance(const Loaded& loaded, unsigned threads)
   return p;
 }
 
-Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned threads)
+Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned threads, bool resuming,
+               Progress& progress)
     : directory_(std::move(directory)),
+      progress_(progress),
+      own_(resuming),
       experiment_json_(write_json(loaded.experiment.resolved)),
       provenance_(provenance(loaded, threads))
 {
@@ -61,7 +85,7 @@ Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned t
   labels_.unit = unit_of(loaded);
 }
 
-void Output::write(const RunResult& run)
+Output::Files Output::content(const RunResult& run)
 {
   names_.files = result_files(run);
   document_ = results_document(run, experiment_json_, provenance_, names_);
@@ -69,38 +93,79 @@ void Output::write(const RunResult& run)
   for (std::size_t k = 0; k < kept_.size() && k < limits.size(); ++k) {
     if (!kept_[k].is_null()) limits[k] = kept_[k];
   }
-  write_results(directory_, document_, run, experiment_json_, names_, labels_);
-  last_ = std::chrono::steady_clock::now();
+  return results_content(document_, run, experiment_json_, names_, labels_);
 }
 
-void Output::write(const RunResult& run, const StabilityMap& map)
+Output::Files Output::content(const RunResult& run, const StabilityMap& map)
 {
   names_.files = stability_files();
   document_ = results_document(run, experiment_json_, provenance_, names_);
   document_["stability"] = stability_json(map);
-  write_stability(directory_, document_, map, labels_.title);
-  last_ = std::chrono::steady_clock::now();
+  return stability_content(document_, map, labels_.title);
 }
 
-void Output::write(const RunResult& run, const TransitionResult& transition)
+Output::Files Output::content(const RunResult& run, const TransitionResult& transition)
 {
   names_.files = transition_files();
   document_ = results_document(run, experiment_json_, provenance_, names_);
   document_["transition"] = transition_json(transition);
-  write_transition(directory_, document_, transition, labels_.title);
-  last_ = std::chrono::steady_clock::now();
+  return transition_content(document_, transition, labels_.title);
 }
+
+void Output::replace(const Files& files)
+{
+  last_ = std::chrono::steady_clock::now();  // also when it fails: a full disk is not asked at every iterate
+  write_files_atomically(directory_, files, own_ ? FormerResults::replaced : FormerResults::kept);
+  own_ = true;
+}
+
+void Output::write_or_rescue(const Files& files)
+try {
+  replace(files);
+} catch (const ComputationError& error) {
+  const std::string elsewhere = rescue(files);
+  if (elsewhere.empty())
+    throw ComputationError(
+        fmt::format("{}; make room, then go on with --resume from what was written before", error.what()));
+  throw ComputationError(
+      fmt::format("{}; the results are in {}: make room and move them, or go on with --resume from what was "
+                  "written before",
+                  error.what(), elsewhere));
+}
+
+void Output::try_writing(const Files& files)
+try {
+  replace(files);
+  warned_.clear();
+} catch (const ComputationError& error) {
+  if (warned_ == error.what()) return;
+  warned_ = error.what();
+  progress_.warn(fmt::format("warning: {}; going on, and trying again", error.what()));
+}
+
+void Output::write(const RunResult& run) { write_or_rescue(content(run)); }
+
+void Output::write(const RunResult& run, const StabilityMap& map) { write_or_rescue(content(run, map)); }
+
+void Output::write(const RunResult& run, const TransitionResult& transition)
+{
+  write_or_rescue(content(run, transition));
+}
+
+void Output::write_partial(const RunResult& run) { try_writing(content(run)); }
+
+void Output::done() { drop_previous(directory_); }
 
 bool Output::is_time() const { return std::chrono::steady_clock::now() - last_ >= write_interval; }
 
 void Output::write_sometimes(const RunResult& run)
 {
-  if (is_time()) write(run);
+  if (is_time()) try_writing(content(run));
 }
 
 void Output::write_sometimes(const RunResult& run, const StabilityMap& map)
 {
-  if (is_time()) write(run, map);
+  if (is_time()) try_writing(content(run, map));
 }
 
 }  // namespace hauberk::command

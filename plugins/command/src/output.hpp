@@ -2,6 +2,7 @@
 /// The output folder of a run: partial results while it lasts, final ones at its end.
 
 #include "loading.hpp"
+#include "progress.hpp"
 
 #include <hauberk/results/write_results.hpp>
 
@@ -12,33 +13,53 @@
 
 namespace hauberk::command {
 
-/// Not thread safe.
+/// Partial results that cannot be written are no reason to lose what is being computed: a warning says so,
+/// and the next ones are tried. Results of a former run in the folder are kept beside until `done`. Not
+/// thread safe.
 class Output {
  public:
-  /// The folder must have been prepared.
-  Output(std::filesystem::path directory, const Loaded& loaded, unsigned threads);
+  /// The folder must have been prepared. `resuming`: it holds results of this very run.
+  Output(std::filesystem::path directory, const Loaded& loaded, unsigned threads, bool resuming,
+         Progress& progress);
 
   /// Entries of `limits` to be written exactly as they are in results read before (null: as computed).
   void keep(std::vector<boost::json::value> limits) { kept_ = std::move(limits); }
 
-  /// Writes everything. Throws ComputationError naming the file that cannot be written.
+  /// Writes everything. Where the folder cannot be written, writes to a new folder for temporary files
+  /// instead. Throws ComputationError naming the file that cannot be written, and the place or the way out.
   void write(const RunResult& run);
   /// The same for a stability experiment; `run` describes the base scene.
   void write(const RunResult& run, const StabilityMap& map);
   /// The same for a transition experiment.
   void write(const RunResult& run, const TransitionResult& transition);
-  /// Writes if the last time was a few seconds ago.
+  /// Writes what there is. Never throws.
+  void write_partial(const RunResult& run);
+  /// Does so if the last time was a few seconds ago.
   void write_sometimes(const RunResult& run);
   void write_sometimes(const RunResult& run, const StabilityMap& map);
+
+  /// Results are complete: those of former runs go.
+  void done();
 
   /// The document that was written last.
   const boost::json::object& document() const { return document_; }
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
+  using Files = std::vector<NamedContent>;
+
   bool is_time() const;
+  Files content(const RunResult& run);
+  Files content(const RunResult& run, const StabilityMap& map);
+  Files content(const RunResult& run, const TransitionResult& transition);
+  void replace(const Files& files);
+  void write_or_rescue(const Files& files);
+  void try_writing(const Files& files);
 
   std::filesystem::path directory_;
+  Progress& progress_;
+  bool own_;  ///< the folder's results are this run's
+  std::string warned_;
   std::string experiment_json_;
   Provenance provenance_;
   ResultNames names_;

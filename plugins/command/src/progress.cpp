@@ -66,7 +66,11 @@ void Progress::draw(const std::vector<std::string>& lines)
 
 void Progress::note(const std::string& text)
 {
-  if (mode_ == Mode::quiet) return;
+  if (mode_ != Mode::quiet) warn(text);
+}
+
+void Progress::warn(const std::string& text)
+{
   const std::lock_guard lock(mutex_);
   erase();
   put(text + "\n");

@@ -26,6 +26,8 @@ class Progress {
 
   /// A line that stays.
   void note(const std::string& text);
+  /// The same for what must be seen even where no progress is asked for.
+  void warn(const std::string& text);
   /// Limits done of all.
   void limits(const std::string& label, std::size_t done, std::size_t total);
   /// An iterate of the design, with the table of its targets; `final`: the best start is being continued.

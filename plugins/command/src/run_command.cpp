@@ -108,6 +108,7 @@ int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed,
                 [&](const StabilityMap& so_far) { output.write_sometimes(base, so_far); });
   progress.clear();
   output.write(base, map);
+  if (!interrupted()) output.done();
   fmt::print("{}\n\n{}", loaded.experiment.name, stability_summary(map));
   fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
@@ -130,6 +131,7 @@ int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progre
       });
   progress.clear();
   output.write(base, result);
+  if (!interrupted()) output.done();
   fmt::print("{}\n\n{}", loaded.experiment.name, transition_summary(result));
   fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
@@ -141,6 +143,17 @@ int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progre
   return missed ? exit_failed : exit_done;
 }
 
+[[noreturn]] void fail_with_partial_results(const std::string& reason, Output& output, const RunResult& run)
+{
+  try {
+    output.write(run);
+  } catch (const ComputationError& error) {
+    throw ComputationError(
+        fmt::format("{}; and what was computed cannot be saved: {}", reason, error.what()));
+  }
+  throw ComputationError(fmt::format("{}; what was computed is in {}", reason, output.directory().string()));
+}
+
 /// Everything after the first file was written: from here on nothing is bad input.
 void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress,
              Output& output, RunResult& run)
@@ -150,16 +163,12 @@ try {
   else
     run_limits_task(loaded, threads, resumed, progress, output, run);
 } catch (const ComputationError& error) {
-  output.write(run);
-  throw ComputationError(
-      fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
+  fail_with_partial_results(error.what(), output, run);
 } catch (const InputError& error) {
-  output.write(run);
-  throw ComputationError(
-      fmt::format("{}; what was computed is in {}", error.what(), output.directory().string()));
+  fail_with_partial_results(error.what(), output, run);
 }
 
-int finish(const Loaded& loaded, const Output& output, const RunResult& run, double seconds)
+int finish(const Loaded& loaded, Output& output, const RunResult& run, double seconds)
 {
   fmt::print("{}", summary(loaded, run));
   fmt::print("{:.2f} s\n", seconds);
@@ -168,6 +177,7 @@ int finish(const Loaded& loaded, const Output& output, const RunResult& run, dou
     fmt::print("{}", interrupted_note);
     return exit_interrupted;
   }
+  output.done();
   const bool missed = report_expectations(loaded.experiment, output.document());
   print_files(output, result_files(run));
   return missed || any_failed(run) ? exit_failed : exit_done;
@@ -216,7 +226,7 @@ int run_command(const std::vector<std::string>& words)
                   : resumed.stability ? "resuming: finished cases are kept"
                                       : "resuming: finished limits are kept");
   }
-  Output output(folder, loaded, threads);
+  Output output(folder, loaded, threads, resuming, progress);
   RunResult run;
   run.plan_json = write_json(boost::json::value(plan_json(loaded)));
   run.scene = loaded.scene;

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -52,49 +55,162 @@ int write_all(int fd, std::string_view content)
   return ::fsync(fd) == 0 ? 0 : errno;
 }
 
-/// 0 or errno; on errors nothing is left behind.
-int replace_file(const fs::path& path, std::string_view content)
+/// Where a file is written before it gets its name; `abandoned` knows such names.
+fs::path temporary_for(const fs::path& path)
 {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const fs::path temporary = folder / fmt::format(".{}.tmp-{}", path.filename().string(), ::getpid());
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0) return errno;
-  int error = write_all(file.get(), content);
-  const int close_error = file.close();
+  return folder / fmt::format(".{}.tmp-{}", path.filename().string(), ::getpid());
+}
+
+/// 0 or errno; on errors nothing is left behind.
+int write_new(const fs::path& file, std::string_view content)
+{
+  Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (descriptor.get() < 0) return errno;
+  int error = write_all(descriptor.get(), content);
+  const int close_error = descriptor.close();
   if (error == 0) error = close_error;
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    return error;
-  }
-  // The rename is only durable once its folder is on the disk; some file systems cannot do that: no error.
-  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (error != 0) ::unlink(file.c_str());
+  return error;
+}
+
+/// A rename is only durable once its folder is on the disk; some file systems cannot do that: no error.
+void flush_folder(const fs::path& folder)
+{
+  const Descriptor directory(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.get() >= 0) (void)::fsync(directory.get());
-  return 0;
+}
+
+[[noreturn]] void cannot_write(const fs::path& path, int error)
+{
+  throw ComputationError(path.string() + ": cannot be written: " + reason(error));
+}
+
+/// True for the temporary file of a process that is no more.
+bool is_abandoned(const std::string& name)
+{
+  const auto belongs_to_none = [&name](std::size_t digits) {
+    pid_t process = 0;
+    const char* end = name.data() + name.size();
+    const auto [stop, error] = std::from_chars(name.data() + digits, end, process);
+    return error == std::errc() && stop == end && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
+  };
+  constexpr std::string_view probe = ".hauberk-write-test.", mark = ".tmp-";
+  if (name.starts_with(probe)) return belongs_to_none(probe.size());
+  return std::any_of(result_names.begin(), result_names.end(), [&](const char* result) {
+    const std::string start = std::string(".") + result + std::string(mark);
+    return name.starts_with(start) && belongs_to_none(start.size());
+  });
+}
+
+void remove_abandoned(const fs::path& directory)
+{
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_abandoned(entry->path().filename().string())) found.push_back(entry->path());
+  }
+  for (const fs::path& file : found) ::unlink(file.c_str());
+}
+
+/// Removes results other than those named.
+void remove_others(const fs::path& directory, const std::vector<std::string>& names)
+{
+  std::error_code ignored;
+  for (const char* name : result_names) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) fs::remove(directory / name, ignored);
+  }
+}
+
+fs::path previous_folder(const fs::path& directory) { return directory / "previous"; }
+
+/// Gives the results in `directory` a second name, which takes no room; they are there under one of the two
+/// at any time.
+void keep_previous(const fs::path& directory)
+{
+  std::error_code error;
+  const fs::path folder = previous_folder(directory);
+  if (fs::exists(folder / results_file, error)) return;
+  for (const char* name : result_names) {
+    if (!fs::exists(directory / name, error)) continue;
+    fs::create_directory(folder, error);
+    if (error) cannot_write(folder, error.value());
+    fs::remove(folder / name, error);
+    fs::create_hard_link(directory / name, folder / name, error);
+    if (error) fs::copy_file(directory / name, folder / name, error);
+    if (error) cannot_write(folder / name, error.value());
+  }
 }
 
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view content)
 {
-  if (const int error = replace_file(path, content); error != 0)
-    throw ComputationError(path.string() + ": cannot be written: " + reason(error));
+  const fs::path temporary = temporary_for(path);
+  int error = write_new(temporary, content);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
+    error = errno;
+    ::unlink(temporary.c_str());
+  }
+  if (error != 0) cannot_write(path, error);
+  flush_folder(path.parent_path());
+}
+
+void write_files_atomically(const fs::path& directory, const std::vector<NamedContent>& files,
+                            FormerResults former)
+{
+  const auto temporary = [&](std::size_t k) { return temporary_for(directory / files[k].name); };
+  const auto remove_from = [&](std::size_t first) {
+    for (std::size_t k = first; k < files.size(); ++k) ::unlink(temporary(k).c_str());
+  };
+  std::size_t named = 0;
+  try {
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      if (const int error = write_new(temporary(k), files[k].content); error != 0)
+        cannot_write(directory / files[k].name, error);
+    }
+    if (former == FormerResults::kept) keep_previous(directory);
+    for (; named < files.size(); ++named) {
+      const fs::path path = directory / files[named].name;
+      if (::rename(temporary(named).c_str(), path.c_str()) != 0) cannot_write(path, errno);
+    }
+  } catch (const ComputationError&) {
+    remove_from(named);
+    throw;
+  }
+  if (former == FormerResults::kept) {
+    std::vector<std::string> names;
+    for (const NamedContent& file : files) names.push_back(file.name);
+    remove_others(directory, names);
+  }
+  flush_folder(directory);
 }
 
 void prepare_output_directory(const fs::path& directory, bool force)
 {
   std::error_code error;
-  for (const char* name : {results_file, limits_file, profile_file, designed_file}) {
+  for (const char* name : result_names) {
     if (!force && fs::exists(directory / name, error))
       throw InputError(fmt::format("{}: holds results already ({}); give another folder with -o, or --force",
                                    directory.string(), name));
   }
-  fs::create_directories(directory, error);
+  const bool made = fs::create_directories(directory, error);
   if (error) throw InputError(directory.string() + ": this output folder cannot be made: " + error.message());
+  remove_abandoned(directory);
   const fs::path probe = directory / fmt::format(".hauberk-write-test.{}", ::getpid());
-  if (const int failed = replace_file(probe, ""); failed != 0)
-    throw InputError(directory.string() + ": this output folder cannot be written: " + reason(failed));
+  const int failed = write_new(probe, "");
   ::unlink(probe.c_str());
+  if (failed == 0) return;
+  if (made) fs::remove(directory, error);
+  throw InputError(directory.string() + ": this output folder cannot be written: " + reason(failed));
+}
+
+void drop_previous(const fs::path& directory)
+{
+  remove_others(previous_folder(directory), {});
+  std::error_code ignored;
+  fs::remove(previous_folder(directory), ignored);  // unless somebody put more into it
 }
 
 }  // namespace hauberk

@@ -21,16 +21,23 @@ std::vector<std::pair<std::string, std::string>> result_files(const RunResult& r
   return out;
 }
 
+std::vector<NamedContent> results_content(const boost::json::object& document, const RunResult& run,
+                                          const std::string& experiment_json, const ResultNames& names,
+                                          const PlotLabels& labels)
+{
+  std::vector<NamedContent> files{{limits_file, limits_csv(run.limits, names.macro)},
+                                  {profile_file, polar_svg(run, labels)}};
+  if (has_designed_scene(run))
+    files.push_back({designed_file, write_json(designed_experiment(experiment_json, run.scene))});
+  files.push_back({results_file, write_json(document)});
+  return files;
+}
+
 void write_results(const std::filesystem::path& directory, const boost::json::object& document,
                    const RunResult& run, const std::string& experiment_json, const ResultNames& names,
                    const PlotLabels& labels)
 {
-  write_file_atomically(directory / limits_file, limits_csv(run.limits, names.macro));
-  write_file_atomically(directory / profile_file, polar_svg(run, labels));
-  if (has_designed_scene(run))
-    write_file_atomically(directory / designed_file,
-                          write_json(designed_experiment(experiment_json, run.scene)));
-  write_file_atomically(directory / results_file, write_json(document));
+  write_files_atomically(directory, results_content(document, run, experiment_json, names, labels));
 }
 
 std::vector<std::pair<std::string, std::string>> stability_files()
@@ -38,12 +45,12 @@ std::vector<std::pair<std::string, std::string>> stability_files()
   return {{"stability", stability_file}, {"picture", stability_picture_file}};
 }
 
-void write_stability(const std::filesystem::path& directory, const boost::json::object& document,
-                     const StabilityMap& map, const std::string& title)
+std::vector<NamedContent> stability_content(const boost::json::object& document, const StabilityMap& map,
+                                            const std::string& title)
 {
-  write_file_atomically(directory / stability_file, stability_csv(map));
-  write_file_atomically(directory / stability_picture_file, stability_svg(map, title));
-  write_file_atomically(directory / results_file, write_json(document));
+  return {{stability_file, stability_csv(map)},
+          {stability_picture_file, stability_svg(map, title)},
+          {results_file, write_json(document)}};
 }
 
 std::vector<std::pair<std::string, std::string>> transition_files()
@@ -53,13 +60,13 @@ std::vector<std::pair<std::string, std::string>> transition_files()
           {"picture", transition_picture_file}};
 }
 
-void write_transition(const std::filesystem::path& directory, const boost::json::object& document,
-                      const TransitionResult& result, const std::string& title)
+std::vector<NamedContent> transition_content(const boost::json::object& document,
+                                             const TransitionResult& result, const std::string& title)
 {
-  write_file_atomically(directory / transition_file, transition_csv(result));
-  write_file_atomically(directory / transition_minima_file, transition_minima_csv(result));
-  write_file_atomically(directory / transition_picture_file, transition_svg(result, title));
-  write_file_atomically(directory / results_file, write_json(document));
+  return {{transition_file, transition_csv(result)},
+          {transition_minima_file, transition_minima_csv(result)},
+          {transition_picture_file, transition_svg(result, title)},
+          {results_file, write_json(document)}};
 }
 
 }  // namespace hauberk

@@ -15,7 +15,9 @@ struct Separation {
 /// Branch and bound over panels of the probing body with `panel_bound`: a panel is split until its bound is
 /// at least `tightness` times the smallest gap seen, or at least `enough`. Gaps are surface distances minus
 /// `clearance`, here and in the result. So lower >= min(enough, tightness * upper) whenever the gap is
-/// positive; otherwise lower <= upper <= 0. Thread safe.
+/// positive; otherwise lower <= upper <= 0. A surface wholly inside of the other overlaps it. Where the gap
+/// is below rounding lower is 0; where it is near rounding all along two surfaces, which takes millions of
+/// panels, lower may be less than promised. Thread safe.
 Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance,
                       double enough, double tightness = 0.5);
 

@@ -68,7 +68,7 @@ struct State {
   std::vector<Mat3> rotation;  ///< per element
 };
 
-/// Builds the model and finds its links. Throws InputError when nothing is linked or a primitive is bad.
+/// Builds the model and finds its links. Throws InputError when a primitive is bad or the cell far too small.
 Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance_in_file_units);
 
 /// Rest: macro = 0, e = 0, rest rotations.

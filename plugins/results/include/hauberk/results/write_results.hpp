@@ -1,6 +1,7 @@
 #pragma once
 /// Everything a run leaves on the disk.
 
+#include <hauberk/results/atomic_file.hpp>
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/polar_svg.hpp>
 #include <hauberk/results/stability.hpp>
@@ -8,6 +9,7 @@
 
 #include <boost/json/object.hpp>
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -25,16 +27,25 @@ inline constexpr const char* stability_picture_file = "stability.svg";
 inline constexpr const char* transition_file = "transition.csv";
 inline constexpr const char* transition_minima_file = "minima.csv";
 inline constexpr const char* transition_picture_file = "transition.svg";
+/// All of them: what a run may leave.
+inline constexpr std::array result_names{
+    results_file,           limits_file,     profile_file,           designed_file,          stability_file,
+    stability_picture_file, transition_file, transition_minima_file, transition_picture_file};
 
 /// The files that `write_results` makes for `run`, for ResultNames::files: limits, profile and, for a design
 /// of a periodic cell, designed.
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run);
 
-/// Writes limits.csv, profile.svg, designed.json (for a design of a periodic cell) and, last, results.json,
-/// so that a results.json on the disk means that the files it names are complete. `document` is that of
-/// `results_document`. May be called again with more results (partial results of a long run). Every file is
-/// replaced atomically; throws ComputationError naming the file that could not be written, which then is as
-/// before. The folder must exist.
+/// limits.csv, profile.svg, designed.json (for a design of a periodic cell) and, last, results.json, so that
+/// a results.json on the disk means that the files it names are complete. `document` is that of
+/// `results_document`.
+std::vector<NamedContent> results_content(const boost::json::object& document, const RunResult& run,
+                                          const std::string& experiment_json, const ResultNames& names,
+                                          const PlotLabels& labels);
+
+/// Writes them. May be called again with more results. The files are replaced together; throws
+/// ComputationError naming the file that could not be written, and all of them are as before. The folder must
+/// exist.
 void write_results(const std::filesystem::path& directory, const boost::json::object& document,
                    const RunResult& run, const std::string& experiment_json, const ResultNames& names,
                    const PlotLabels& labels);
@@ -42,15 +53,15 @@ void write_results(const std::filesystem::path& directory, const boost::json::ob
 /// Those of a stability experiment: stability and picture.
 std::vector<std::pair<std::string, std::string>> stability_files();
 
-/// Writes stability.csv, stability.svg and, last, results.json, under the same rules.
-void write_stability(const std::filesystem::path& directory, const boost::json::object& document,
-                     const StabilityMap& map, const std::string& title);
+/// stability.csv, stability.svg and, last, results.json.
+std::vector<NamedContent> stability_content(const boost::json::object& document, const StabilityMap& map,
+                                            const std::string& title);
 
 /// Those of a transition experiment: transition, minima and picture.
 std::vector<std::pair<std::string, std::string>> transition_files();
 
-/// Writes transition.csv, minima.csv, transition.svg and, last, results.json, under the same rules.
-void write_transition(const std::filesystem::path& directory, const boost::json::object& document,
-                      const TransitionResult& result, const std::string& title);
+/// transition.csv, minima.csv, transition.svg and, last, results.json.
+std::vector<NamedContent> transition_content(const boost::json::object& document,
+                                             const TransitionResult& result, const std::string& title);
 
 }  // namespace hauberk

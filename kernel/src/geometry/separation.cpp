@@ -8,14 +8,12 @@ namespace hauberk {
 namespace {
 
 constexpr double smallest_panel = 1e-10;  ///< radians; below it rounding of the angle dominates
-/// Gaps below this part of the lengths they are the difference of are none: rounding decides their sign.
-constexpr double rounding = 2e-15;
 /// Surfaces that conform all around at a gap near rounding take so many; what is left then stays as coarse as
 /// it is.
 constexpr int most_evaluations = 2000000;
 constexpr double pi = std::numbers::pi;
-constexpr double rounding =
-    8.0 * std::numeric_limits<double>::epsilon();  ///< of a length, per length involved
+/// Gaps below this part of the lengths they are the difference of are none: rounding decides their sign.
+constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 template <int dim>
 Separation bound_over_panels(const PairFrame& frame, double clearance, double enough, double tightness)

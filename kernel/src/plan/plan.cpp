@@ -110,9 +110,9 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
         "carries no load",
         settings.schedule.target));
   }
-  p.decisions.push_back(fmt::format("stages: activation distance {:g} L to {:g} L in factors of {:g}",
-                                    activation_distances(settings.schedule).front(), settings.schedule.last,
-                                    settings.schedule.ratio));
+  const std::vector<double> stages = activation_distances(settings.schedule);
+  p.decisions.push_back(fmt::format("stages: {}, activation distances {:g} L to {:g} L", stages.size(),
+                                    stages.front(), stages.back()));
 }
 
 }  // namespace

@@ -181,6 +181,7 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
   }
   if (former == FormerResults::kept) {
     std::vector<std::string> names;
+    names.reserve(files.size());
     for (const NamedContent& file : files) names.push_back(file.name);
     remove_others(directory, names);
   }

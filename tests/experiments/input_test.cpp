@@ -52,6 +52,19 @@ TEST(BadInput, Syntax)
                  "2: /name: duplicate key 'name': first given on line 2");
 }
 
+/// Slips of a unit: looking at all images would take forever.
+TEST(BadInput, LengthsThatDoNotGoTogether)
+{
+  const std::string problem =
+      ": more than 10000 images of the cell are within their reach: its vectors are far shorter than the "
+      "elements, or an element is far away from the cell; correct cell.vectors, positions, radii or "
+      "solver.clearance";
+  expect_refused("[[12, 0], [0, 100]]", "[[12e-6, 0], [0, 1e-4]]", "6: /cell: elements 0 and 0" + problem);
+  expect_refused("[6, 0, 0]", "[6e15, 0, 0]", "6: /cell: elements 0 and 1" + problem);
+  expect_refused("[6, 0, 0]", "[1e308, 0, 0]", "6: /cell: elements 0 and 1" + problem);
+  expect_refused(R"("preset": "accurate")", R"("clearance": 1e9)", "6: /cell: elements 0 and 0" + problem);
+}
+
 TEST(BadInput, Numbers)
 {
   expect_refused(

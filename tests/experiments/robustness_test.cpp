@@ -251,6 +251,7 @@ TEST(FoldersThatCannotBeWritten, AreBadInputBeforeAnythingIsComputed)
     const Outcome o = run_program({"run", file, "-o", out});
     EXPECT_EQ(o.code, 2) << out;
     EXPECT_EQ(o.err.find("hauberk: " + out + ": this output folder cannot be "), 0U) << o.err;
+    EXPECT_TRUE(o.err.ends_with("; give another one with -o\n")) << o.err;
   }
 }
 

@@ -175,7 +175,9 @@ TEST(Run, FolderThatCannotBeMade)
   const std::string file = folder.write("c.json", chain_text());
   const Outcome o = run_program({"run", file, "-o", file + "/out"});
   EXPECT_EQ(o.code, 2);
-  EXPECT_EQ(o.err, "hauberk: " + file + "/out: this output folder cannot be made: Not a directory\n");
+  EXPECT_EQ(o.err, "hauberk: " + file +
+                       "/out: this output folder cannot be made: Not a directory; give another one with "
+                       "-o\n");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <hauberk/contact/formulation.hpp>
 #include <hauberk/contact/published.hpp>
+#include <hauberk/error.hpp>
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/motion/advancement.hpp>
 
@@ -27,7 +28,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Closest-point evaluations that one question may cost: about a second.
 constexpr long most_evaluations = 2100000;
 /// Families of equally near points, of coaxial flat tubes for instance, are searched point by point.
-constexpr int most_in_families = 20000000;
+constexpr int most_in_families = 21000000;
 /// Part of the gap that a step must leave, as the solver asks for.
 constexpr double keep = 0.1;
 
@@ -119,12 +120,29 @@ std::vector<Minimum> checked_minima(const PairInput& input, const Bodies& p, dou
   return minima;
 }
 
-/// As the solver does: a tube is the one that is probed.
-std::vector<Minimum> checked_minima(const PairInput& input, const Bodies& p, double threshold, double lower)
+/// Minima that take seconds to list: of pairs that are nearly of one axis, because all around they are nearly
+/// equally far, and of two surfaces of which one is bent sharply.
+bool is_dear(const Bodies& p)
 {
+  constexpr double nearly = 1e-3, sharp = 0.03;
+  const Vec3 axis = p.pa.rotation.col(2), across = p.pb.position - p.pa.position;
+  if (axis.cross(p.pb.rotation.col(2)).norm() < nearly && axis.cross(across).norm() < nearly) return true;
+  if (p.a.is_tube() || p.b.is_tube()) return false;
+  double radius = infinite;
+  for (const Body* b : {&p.a, &p.b})
+    radius = std::min({radius, b->r0 * b->r0 / b->r1, b->r1 * b->r1 / b->r0});
+  return radius < sharp * std::max(p.a.bound, p.b.bound);
+}
+
+/// As the solver does: a tube is the one that is probed. None where the kernel gives up.
+std::vector<Minimum> checked_minima(const PairInput& input, const Bodies& p, double threshold, double lower)
+try {
   if (p.a.is_tube()) return checked_minima<1>(input, p, threshold, lower);
   if (p.b.is_tube()) return checked_minima<1>(input, swapped(p), threshold, lower);
   return checked_minima<2>(input, p, threshold, lower);
+} catch (const ComputationError&) {
+  require(is_dear(p), input, "the minima of an ordinary pair are too many");
+  return {};
 }
 
 void check_sampled_minima(const PairInput& input, const Bodies& p, double lower)
@@ -156,20 +174,6 @@ void check_turned_minima(const PairInput& input, const Bodies& p, const std::vec
   if (one > s.upper + r || other > s.upper + r) return;
   require(std::abs(one - other) <= 100.0 * r, input,
           fmt::format("nearest minimum {:.17g}, moved {:.17g}", one, other));
-}
-
-/// Minima that take seconds to list: of pairs that are nearly of one axis, because all around they are nearly
-/// equally far, and of two surfaces of which one is bent sharply.
-bool is_dear(const Bodies& p)
-{
-  constexpr double nearly = 1e-3, sharp = 0.03;
-  const Vec3 axis = p.pa.rotation.col(2), across = p.pb.position - p.pa.position;
-  if (axis.cross(p.pb.rotation.col(2)).norm() < nearly && axis.cross(across).norm() < nearly) return true;
-  if (p.a.is_tube() || p.b.is_tube()) return false;
-  double radius = infinite;
-  for (const Body* b : {&p.a, &p.b})
-    radius = std::min({radius, b->r0 * b->r0 / b->r1, b->r1 * b->r1 / b->r0});
-  return radius < sharp * std::max(p.a.bound, p.b.bound);
 }
 
 void check_distances(const PairInput& input, const Bodies& p)

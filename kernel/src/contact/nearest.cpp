@@ -1,6 +1,9 @@
 #include <hauberk/contact/barrier.hpp>
 #include <hauberk/contact/formulation.hpp>
+#include <hauberk/error.hpp>
 #include <hauberk/geometry/panel_bound.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -16,6 +19,11 @@ constexpr double merge_width = 1e-4;  // radians
 constexpr double seed_width = 0.06;  // L
 
 constexpr double seed_fraction = 1.0;
+
+/// Evaluations that the minima of one pair are worth. Blades, with thousands of radii of curvature around
+/// them, or tubes that are thousands of times as tall as wide, would take hours; nothing wrong is said about
+/// them instead.
+constexpr int most_evaluations = 20000000;
 
 /// Slope at which a descent has arrived (rounding).
 constexpr double smallest_slope = 2e-16;
@@ -78,6 +86,7 @@ class Search {
         threshold_(threshold + probe_.offset),
         out_(out),
         evaluations_(evaluations),
+        last_(evaluations + most_evaluations),
         rf_(smallest_radius(*frame.F)),
         rp_(smallest_radius(*frame.P))
   {
@@ -100,7 +109,7 @@ class Search {
   void visit(const Panel& s)
   {
     const Local l = local_at(probe_, s.u, s.v);
-    ++evaluations_;
+    if (++evaluations_ > last_) give_up();
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
     if (taylor_bound(probe_, s, l.f.m.phi, l.f.rho, l.gu, l.gv) > threshold_) return;
     // Largest curvature of the field on the panel.
@@ -135,6 +144,15 @@ class Search {
     split(probe_, s, first, second);
     visit(first);
     visit(second);
+  }
+
+  [[noreturn]] void give_up() const
+  {
+    const Body &P = *probe_.f.P, &F = *probe_.f.F;
+    throw ComputationError(fmt::format(
+        "closest points of elements {} and {} take more than {} evaluations: their cross-sections are "
+        "too flat for their size (r1/r0 {:.3g} and {:.3g})",
+        P.element, F.element, most_evaluations, P.r1 / P.r0, F.r1 / F.r0));
   }
 
   /// Panels this small hold at most one basin, or one that starts from a neighbour: a fraction of the
@@ -239,6 +257,7 @@ class Search {
   double threshold_;
   std::vector<Minimum>& out_;
   int& evaluations_;
+  int last_;  ///< evaluation after which to give up
   double rf_, rp_;
 };
 

@@ -66,7 +66,7 @@ const Node& nearest_node(const Node& root, std::string_view pointer)
   return *node;
 }
 
-/// Runs `step`; what it says about bad input becomes a problem at `pointer`.
+/// Runs `step`; what stops it becomes a problem at `pointer`.
 template <class Step>
 bool attempt(Diagnostics& diagnostics, const Experiment& experiment, const char* pointer, Step&& step)
 {
@@ -75,8 +75,10 @@ bool attempt(Diagnostics& diagnostics, const Experiment& experiment, const char*
     return true;
   } catch (const InputError& error) {
     diagnostics.problems.add(nearest_node(experiment.resolved, pointer), error.what());
-    return false;
+  } catch (const ComputationError& error) {  // not even the rest state can be computed
+    diagnostics.problems.add(nearest_node(experiment.resolved, pointer), error.what());
   }
+  return false;
 }
 
 /// Rest state as used; problems of the cell otherwise.

@@ -181,6 +181,7 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
   }
   if (former == FormerResults::kept) {
     std::vector<std::string> names;
+    names.reserve(files.size());
     for (const NamedContent& file : files) names.push_back(file.name);
     remove_others(directory, names);
   }
@@ -196,14 +197,17 @@ void prepare_output_directory(const fs::path& directory, bool force)
                                    directory.string(), name));
   }
   const bool made = fs::create_directories(directory, error);
-  if (error) throw InputError(directory.string() + ": this output folder cannot be made: " + error.message());
+  if (error)
+    throw InputError(directory.string() + ": this output folder cannot be made: " + error.message() +
+                     "; give another one with -o");
   remove_abandoned(directory);
   const fs::path probe = directory / fmt::format(".hauberk-write-test.{}", ::getpid());
   const int failed = write_new(probe, "");
   ::unlink(probe.c_str());
   if (failed == 0) return;
   if (made) fs::remove(directory, error);
-  throw InputError(directory.string() + ": this output folder cannot be written: " + reason(failed));
+  throw InputError(directory.string() + ": this output folder cannot be written: " + reason(failed) +
+                   "; give another one with -o");
 }
 
 void drop_previous(const fs::path& directory)

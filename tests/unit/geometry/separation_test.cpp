@@ -37,5 +37,20 @@ TEST(Separation, OneInsideTheOtherOverlaps)
   }
 }
 
+/// Two equal rings on each other, all around as near as rounding allows: no gap, and found out soon.
+TEST(Separation, ConformingSurfacesAtRoundingAreBoundedWork)
+{
+  const Body ring = torus(1.0, 0.1, 0.1);
+  for (const double gap : {1e-15, 2e-15, 1e-14, 1e-12}) {
+    Pose above;
+    above.position.z() = 0.2 + gap;
+    const Separation s = separation(ring, {}, ring, above, 0.0, infinite);
+    EXPECT_LE(s.evaluations, 2100000) << gap;
+    EXPECT_LE(s.lower, gap + 1e-15);
+    EXPECT_GE(s.lower, 0.0) << gap;
+    EXPECT_LE(s.upper, gap + 1e-15) << gap;
+  }
+}
+
 }  // namespace
 }  // namespace hauberk::test

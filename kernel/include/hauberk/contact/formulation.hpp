@@ -69,7 +69,7 @@ struct Minimum {
 /// A panel is dropped when its bound exceeds the threshold, or when the gradient at its centre exceeds what
 /// the bound of the second derivatives lets it change: then it holds no stationary point. What remains is
 /// split until the sign of the second derivative is certain (dimension 1), or until a Newton iteration from
-/// the centre decides (dimension 2).
+/// the centre decides (dimension 2). Throws ComputationError where that takes more than 2e7 evaluations.
 template <int dim>
 std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations);
 

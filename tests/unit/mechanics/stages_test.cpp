@@ -23,7 +23,9 @@ TEST(Stages, FallFromTheFirstToTheLastByEqualFactors)
     }
     // No more of them than that needs.
     const double all = s.last / s.first, steps = static_cast<double>(g.size()) - 1.0;
-    if (steps > 1.0) EXPECT_LT(std::pow(all, 1.0 / (steps - 1.0)), s.ratio);
+    if (steps > 1.0) {
+      EXPECT_LT(std::pow(all, 1.0 / (steps - 1.0)), s.ratio);
+    }
   }
 }
 

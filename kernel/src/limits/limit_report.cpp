@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hauberk {
 namespace {
@@ -23,6 +24,10 @@ constexpr double same_state = 1e-5;
 /// leaves up to 3e-5; `arc` lists resultants, whose wrench is off by a multiple of gap / L.
 constexpr double balanced = 1e-4;
 constexpr double balanced_per_gap = 100.0;
+/// A barrier's force at a gap g is as exact as g: rounding of coordinates (L) over g. On hair-thin tubes `arc`
+/// leaves gaps of 1e-12 L. More than `most_rounding` is not put down to that.
+constexpr double rounding_of_gap = 1e-15;
+constexpr double most_rounding = 1e-3;
 /// Rounding of a value; what is less than rest by more is no limit.
 constexpr double wrong_side = 1e-11;
 
@@ -48,9 +53,13 @@ double z_range(const Model& m, const State& s)
 /// What the equilibrium may miss what drives it by.
 double allowed_imbalance(const LimitResult& r, double length)
 {
-  double gap = 0.0;
-  for (const ContactForce& c : r.contacts) gap = std::max(gap, c.gap / length);
-  return balanced + (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
+  double gap = 0.0, least = std::numeric_limits<double>::infinity();
+  for (const ContactForce& c : r.contacts) {
+    gap = std::max(gap, c.gap / length);
+    least = std::min(least, c.gap / length);
+  }
+  return balanced + std::min(most_rounding, rounding_of_gap / least) +
+         (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
 }
 
 /// Largest component of the energy's gradient, by the load that is not subtracted yet.

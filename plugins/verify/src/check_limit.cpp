@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hauberk::verification {
 namespace {
@@ -59,7 +60,9 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
                           const VerifyTolerances& tolerances, Sentences& problems)
 {
   const double found = imbalance(scene, setting, limit);
-  double allowed = tolerances.balance;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : limit.contacts) least = std::min(least, contact.gap / scene.length);
+  double allowed = tolerances.balance + std::min(tolerances.most_rounding, tolerances.rounding / least);
   if (limit.contact == "arc") {
     double gap = 0.0;
     for (const Contact& contact : limit.contacts) gap = std::max(gap, contact.gap);

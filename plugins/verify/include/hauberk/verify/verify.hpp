@@ -18,8 +18,8 @@ struct VerifyTolerances {
   /// are good to the root of rounding.
   double normal = 1e-6;
   /// Largest admissible imbalance, over the norm of the load. Barrier forces at a gap g carry a relative
-  /// rounding error of about 1e-15 L / g, 1e-5 at g = 1e-10 L.
-  double balance = 1e-4;
+  /// rounding error of about 1e-15 L / g, 1e-5 at g = 1e-10 L, which is added, but no more than that much.
+  double balance = 1e-4, rounding = 1e-15, most_rounding = 1e-3;
   /// Of the reported imbalance against the one found here: the same sum of the same numbers.
   double balance_agreement = 1e-6;
   /// Of the mean translation: one element in a thousand, moved by 1e-3 mm, shows.

@@ -24,12 +24,12 @@ constexpr double same_state = 1e-5;
 /// leaves up to 3e-5; `arc` lists resultants, whose wrench is off by a multiple of gap / L.
 constexpr double balanced = 1e-4;
 constexpr double balanced_per_gap = 100.0;
-/// A barrier's force at a gap g is as exact as g: rounding of coordinates (L) over g. On hair-thin tubes `arc`
-/// leaves gaps of 1e-12 L. More than `most_rounding` is not put down to that.
+/// A barrier's force at a gap g is as exact as g: rounding of coordinates (L) over g. On hair-thin tubes
+/// `arc` leaves gaps of 1e-12 L. More than `most_rounding` is not put down to that.
 constexpr double rounding_of_gap = 1e-15;
 constexpr double most_rounding = 1e-3;
-/// Rounding of a value; what is less than rest by more is no limit.
-constexpr double wrong_side = 1e-11;
+/// Rest may overlap by this much and still count as touching; what is less than rest by more is no limit.
+constexpr double wrong_side = 1e-9;
 
 std::span<const double> macro_span(const Model& m, const State& s)
 {
@@ -256,9 +256,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     }
     if (settings.contact == ContactChoice::nearest) r.message += "; use contact arc or auto";
   } else if (r.status == LimitStatus::locked &&
-             (task.sense == Sense::positive ? *r.value : -*r.value) <
-                 -(settings.start ? settings.schedule.last : wrong_side) * scale) {
-    // (A cell that is taut at rest has its limit there, but for the gaps of the last stage.)
+             (task.sense == Sense::positive ? *r.value : -*r.value) < -wrong_side * scale) {
     r.status = LimitStatus::stalled;
     r.message = fmt::format(
         "rest is nearer to the limit than the gaps that this schedule leaves: value {:.3g} is on the wrong "

@@ -71,7 +71,7 @@ void check_values(const Scene& scene, const Setting& setting, const Limit& limit
       problems.push_back(fmt::format("starts/{}: value {:.10g} reported, {:.10g} from macro", i,
                                      limit.starts[i].value, reached));
   }
-  if (limit.sense == "stretch" ? expected < -tolerances.value : expected > tolerances.value)
+  if ((limit.sense == "stretch" ? expected : -expected) < -tolerances.wrong_side)
     problems.push_back(
         fmt::format("value {:.6g} is on the wrong side of zero for {}", expected, limit.sense));
   const double trace = 2.0 + macro.exx + macro.eyy;

@@ -26,6 +26,8 @@ struct VerifyTolerances {
   double translation = 1e-8;
   /// Of values that are functions of other values in the file.
   double value = 1e-11;
+  /// How far a limit may lie on the wrong side of rest: rest may overlap by that much and count as touching.
+  double wrong_side = 1e-9;
   /// `arc` spreads each force along a stretch of tube of which the file lists the resultant. Within a stretch
   /// of half-width w = sqrt(2 r g) the surfaces turn by w / r and bow by g: points are exact to that many
   /// gaps and normals to this many times sqrt(gap / L).

@@ -36,6 +36,8 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
   if (!warm.empty()) {
     const std::optional<State> start = followed(*current_, warm.front(), p, design_.variables);
     if (start) loose = run(*start, schedule_);
+    out.followed = true;
+    out.changed = !start || loose.status != LockStatus::locked;
   }
   for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
     const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
@@ -45,7 +47,6 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     out.locked = std::move(loose);
     return out;
   }
-  out.followed = out.changed = !warm.empty();
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
     const std::optional<State> start = followed(*current_, warm[j], p, design_.variables);

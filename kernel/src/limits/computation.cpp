@@ -238,8 +238,7 @@ class Computation {
   std::optional<double> reached_by(std::size_t donor, const LimitTask& task) const
   {
     const LimitResult& r = results_[donor];
-    if (r.status != LimitStatus::locked || static_cast<int>(r.macro.size()) != model_.macro_count)
-      return std::nullopt;
+    if (static_cast<int>(r.macro.size()) != model_.macro_count) return std::nullopt;
     std::vector<double> macro;
     for (int k = 0; k < model_.macro_count; ++k) {
       const int power = model_.load->macros()[static_cast<std::size_t>(k)].length_power;
@@ -257,13 +256,16 @@ class Computation {
     for (;;) {
       std::vector<std::pair<std::size_t, std::size_t>> lessons;  // task, donor
       for (std::size_t k = 0; k < asked_; ++k) {
+        // One that stalled learns too, also from a state that is as far as its own.
+        const bool stalled = results_[k].status == LimitStatus::stalled;
         const auto own = reached_by(k, tasks_[k]);
-        if (!own) continue;
-        double most = std::max(*own, tried[k]) + further_than(settings_);
+        if (!own || !(stalled || results_[k].status == LimitStatus::locked)) continue;
+        double most = std::max(stalled ? *own - 2.0 * further_than(settings_) : *own, tried[k]) +
+                      further_than(settings_);
         std::optional<std::size_t> donor;
         for (std::size_t j = 0; j < tasks_.size(); ++j) {
           const auto there = reached_by(j, tasks_[k]);
-          if (j == k || !there || *there <= most) continue;
+          if (j == k || results_[j].status != LimitStatus::locked || !there || *there <= most) continue;
           most = *there;
           donor = j;
         }

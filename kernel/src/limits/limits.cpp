@@ -63,8 +63,22 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
 {
   // The furthest sound locked state; if there is none, the first start tells what happened.
   const std::optional<std::size_t> sound_best = furthest(m, task, settings, found);
-  const std::size_t best = sound_best.value_or(0);
+  std::size_t best = sound_best.value_or(0);
   LimitResult r = fill_limit(m, spec, task, settings, found[best].locked);
+  if (sound_best && r.status == LimitStatus::stalled) {
+    // Its forces do not balance. Another search may have ended at the same state with forces that do.
+    constexpr double same_state = 1e-6;
+    for (std::size_t k = 0; k < found.size() && r.status == LimitStatus::stalled; ++k) {
+      if (k == *sound_best || !sound(m, found[k].locked, settings.schedule) ||
+          reached(m, task, found[k].locked.state) <
+              reached(m, task, found[*sound_best].locked.state) - same_state)
+        continue;
+      LimitResult other = fill_limit(m, spec, task, settings, found[k].locked);
+      if (other.status != LimitStatus::locked) continue;
+      r = std::move(other);
+      best = k;
+    }
+  }
   for (std::size_t k = 0; k < found.size(); ++k) {
     r.iterations += k == best ? 0 : found[k].locked.iterations;
     r.evaluations += k == best ? 0 : found[k].locked.evaluations;

@@ -175,6 +175,7 @@ std::vector<double> activation_distances(const Schedule& s)
   // The widest stage lets symmetric states buckle, so it is never left out; slack for rounding.
   const int steps = static_cast<int>(std::ceil(std::log(s.last / s.first) / std::log(s.ratio) - 1e-6));
   std::vector<double> out;
+  out.reserve(static_cast<std::size_t>(steps) + 1);
   for (int k = 0; k < steps; ++k)
     out.push_back(s.first * std::pow(s.last / s.first, static_cast<double>(k) / steps));
   out.push_back(s.last);

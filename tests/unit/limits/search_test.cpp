@@ -34,6 +34,7 @@ struct Sheet4in1 {
                                   const std::vector<std::optional<LimitResult>>& known = {}) const
   {
     std::vector<LimitTask> tasks;
+    tasks.reserve(directions.size());
     for (const double d : directions) tasks.push_back({d, Sense::negative});
     return compute_limits(model, scene, tasks, settings, 2, observer, known);
   }
@@ -140,6 +141,7 @@ TEST(Search, InterruptedAnywhereEndsAtTheSame)
   ASSERT_GE(told.size(), 3U);
   for (const std::vector<LimitResult>& part : told) {
     std::vector<std::optional<LimitResult>> known;
+    known.reserve(part.size());
     for (const LimitResult& l : part)
       known.push_back(l.status == LimitStatus::interrupted ? std::nullopt : std::optional(l));
     const std::vector<LimitResult> again = s.limits(directions, {}, known);

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <ranges>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -104,16 +105,6 @@ bool is_abandoned(const std::string& name)
   });
 }
 
-void remove_abandoned(const fs::path& directory)
-{
-  std::error_code error;
-  std::vector<fs::path> found;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    if (is_abandoned(entry->path().filename().string())) found.push_back(entry->path());
-  }
-  for (const fs::path& file : found) ::unlink(file.c_str());
-}
-
 /// Removes results other than those named.
 void remove_others(const fs::path& directory, const std::vector<std::string>& names)
 {
@@ -123,39 +114,33 @@ void remove_others(const fs::path& directory, const std::vector<std::string>& na
   }
 }
 
-fs::path previous_folder(const fs::path& directory) { return directory / "previous"; }
+/// Not a name that a user would give: what it holds is removed.
+fs::path previous_folder(const fs::path& directory) { return directory / ".hauberk-previous"; }
 
 /// Gives the results in `directory` a second name, which takes no room; they are there under one of the two
-/// at any time.
+/// at any time. results.json is the last: once it is there, all are kept.
 void keep_previous(const fs::path& directory)
 {
   std::error_code error;
   const fs::path folder = previous_folder(directory);
   if (fs::exists(folder / results_file, error)) return;
-  for (const char* name : result_names) {
+  static_assert(result_names.front() == results_file);
+  for (const char* name : result_names | std::views::reverse) {
     if (!fs::exists(directory / name, error)) continue;
     fs::create_directory(folder, error);
     if (error) cannot_write(folder, error.value());
     fs::remove(folder / name, error);
     fs::create_hard_link(directory / name, folder / name, error);
     if (error) fs::copy_file(directory / name, folder / name, error);
-    if (error) cannot_write(folder / name, error.value());
+    if (error) {
+      const int why = error.value();
+      fs::remove(folder / name, error);  // half a copy
+      cannot_write(folder / name, why);
+    }
   }
 }
 
 }  // namespace
-
-void write_file_atomically(const fs::path& path, std::string_view content)
-{
-  const fs::path temporary = temporary_for(path);
-  int error = write_new(temporary, content);
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
-    error = errno;
-    ::unlink(temporary.c_str());
-  }
-  if (error != 0) cannot_write(path, error);
-  flush_folder(path.parent_path());
-}
 
 void write_files_atomically(const fs::path& directory, const std::vector<NamedContent>& files,
                             FormerResults former)
@@ -179,13 +164,21 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
     remove_from(named);
     throw;
   }
-  if (former == FormerResults::kept) {
-    std::vector<std::string> names;
-    names.reserve(files.size());
-    for (const NamedContent& file : files) names.push_back(file.name);
-    remove_others(directory, names);
-  }
+  std::vector<std::string> names;
+  names.reserve(files.size());
+  for (const NamedContent& file : files) names.push_back(file.name);
+  remove_others(directory, names);
   flush_folder(directory);
+}
+
+void remove_abandoned(const fs::path& directory)
+{
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_abandoned(entry->path().filename().string())) found.push_back(entry->path());
+  }
+  for (const fs::path& file : found) ::unlink(file.c_str());
 }
 
 void prepare_output_directory(const fs::path& directory, bool force)

@@ -104,6 +104,8 @@ json::object transition_json(const TransitionResult& result)
   json::object out;
   out["activation_distance"] = number(result.activation_distance);
   out["range"] = number(result.range);
+  out["length"] = number(result.length);
+  out["message"] = result.message;
   out["eigenvalue_threshold"] = number(result.eigenvalue_threshold);
   json::array& paths = out["paths"].emplace_array();
   for (const TransitionPath& path : result.paths) {

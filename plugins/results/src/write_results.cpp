@@ -1,4 +1,3 @@
-#include <hauberk/results/atomic_file.hpp>
 #include <hauberk/results/csv.hpp>
 #include <hauberk/results/designed_experiment.hpp>
 #include <hauberk/results/json_text.hpp>
@@ -31,13 +30,6 @@ std::vector<NamedContent> results_content(const boost::json::object& document, c
     files.push_back({designed_file, write_json(designed_experiment(experiment_json, run.scene))});
   files.push_back({results_file, write_json(document)});
   return files;
-}
-
-void write_results(const std::filesystem::path& directory, const boost::json::object& document,
-                   const RunResult& run, const std::string& experiment_json, const ResultNames& names,
-                   const PlotLabels& labels)
-{
-  write_files_atomically(directory, results_content(document, run, experiment_json, names, labels));
 }
 
 std::vector<std::pair<std::string, std::string>> stability_files()

@@ -21,6 +21,12 @@ std::string content(const fs::path& path)
   return text.str();
 }
 
+/// One file of a folder.
+void write_file(const fs::path& path, const std::string& text)
+{
+  write_files_atomically(path.parent_path(), {{path.filename().string(), text}});
+}
+
 class AtomicFile : public ::testing::Test {
  protected:
   void SetUp() override
@@ -60,8 +66,8 @@ class SmallDisk {
 
 TEST_F(AtomicFile, ReplacesAndLeavesNothingElse)
 {
-  write_file_atomically(folder_ / "results.json", "first");
-  write_file_atomically(folder_ / "results.json", std::string(100000, 'x'));
+  write_file(folder_ / "results.json", "first");
+  write_file(folder_ / "results.json", std::string(100000, 'x'));
   EXPECT_EQ(content(folder_ / "results.json"), std::string(100000, 'x'));
   EXPECT_EQ(entries(), 1u);
 }
@@ -69,12 +75,12 @@ TEST_F(AtomicFile, ReplacesAndLeavesNothingElse)
 TEST_F(AtomicFile, FullDiskKeepsTheFormerFileAndNamesIt)
 {
   const fs::path path = folder_ / "results.json";
-  write_file_atomically(path, "former");
+  write_file(path, "former");
   std::string message;
   {
     const SmallDisk disk(4096);
     try {
-      write_file_atomically(path, std::string(100000, 'x'));
+      write_file(path, std::string(100000, 'x'));
     } catch (const ComputationError& error) {
       message = error.what();
     }
@@ -86,9 +92,9 @@ TEST_F(AtomicFile, FullDiskKeepsTheFormerFileAndNamesIt)
 
 TEST_F(AtomicFile, MissingFolderAndFolderInTheWay)
 {
-  EXPECT_THROW(write_file_atomically(folder_ / "none" / "a.json", "x"), ComputationError);
+  EXPECT_THROW(write_file(folder_ / "none" / "a.json", "x"), ComputationError);
   fs::create_directory(folder_ / "a.json");
-  EXPECT_THROW(write_file_atomically(folder_ / "a.json", "x"), ComputationError);
+  EXPECT_THROW(write_file(folder_ / "a.json", "x"), ComputationError);
   EXPECT_EQ(entries(), 1u);
 }
 
@@ -98,7 +104,7 @@ TEST_F(AtomicFile, OutputFolderIsPreparedOrRefused)
   prepare_output_directory(out, false);
   EXPECT_TRUE(fs::is_directory(out));
   EXPECT_TRUE(fs::is_empty(out));
-  write_file_atomically(out / "results.json", "{}");
+  write_file(out / "results.json", "{}");
   try {
     prepare_output_directory(out, false);
     FAIL() << "no error";
@@ -108,10 +114,10 @@ TEST_F(AtomicFile, OutputFolderIsPreparedOrRefused)
         out.string() + ": holds results already (results.json); give another folder with -o, or --force");
   }
   EXPECT_NO_THROW(prepare_output_directory(out, true));
-  write_file_atomically(folder_ / "limits.csv", "somebody's");
+  write_file(folder_ / "limits.csv", "somebody's");
   EXPECT_THROW(prepare_output_directory(folder_, false), InputError);
   EXPECT_EQ(content(out / "results.json"), "{}");
-  write_file_atomically(folder_ / "file", "");
+  write_file(folder_ / "file", "");
   EXPECT_THROW(prepare_output_directory(folder_ / "file", false), InputError);
   EXPECT_THROW(prepare_output_directory(folder_ / "file" / "out", false), InputError);
 }

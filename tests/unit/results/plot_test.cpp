@@ -75,8 +75,9 @@ TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
   const RunResult run = test::sample_design();
   const auto document = results_document(run, test::sample_experiment(), test::sample_provenance(),
                                          {.files = result_files(run)});
-  write_results(folder, document, run, test::sample_experiment(), {}, {"chain", "tensor"});
-  write_results(folder, document, run, test::sample_experiment(), {}, {"chain", "tensor"});
+  const auto files = results_content(document, run, test::sample_experiment(), {}, {"chain", "tensor"});
+  write_files_atomically(folder, files);
+  write_files_atomically(folder, files);
   const auto back = read_json_file((folder / "results.json").string());
   EXPECT_EQ(write_json(back), write_json(document));
   EXPECT_EQ(back.at("files").as_object().size(), 3u);

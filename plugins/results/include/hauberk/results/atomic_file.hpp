@@ -3,15 +3,9 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace hauberk {
-
-/// Replaces `path` by `content`: written to a temporary file in the same folder, flushed to the disk,
-/// renamed. Throws ComputationError naming the file and the cause (disk full, read-only); a former file then
-/// stays as it was and the temporary file is removed. Thread safe for different paths.
-void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// A file of a folder, and what is to be in it.
 struct NamedContent {
@@ -21,19 +15,24 @@ struct NamedContent {
 /// What becomes of results that a folder holds when others are written.
 enum class FormerResults {
   replaced,
-  kept  ///< in the folder `previous` below it, until `drop_previous`; what that holds already is older and
-        ///< stays
+  kept  ///< in the folder `.hauberk-previous` below it, until `drop_previous`; what that holds already is
+        ///< older and stays
 };
 
-/// Replaces several files of `directory` together: all are written and flushed under temporary names before
-/// the first is renamed, in the order given. A full disk leaves everything as it was, so that no mixture of
-/// old and new remains; of results of other names only what is kept. Throws as `write_file_atomically`.
+/// Replaces files of `directory` together, and removes results of other names: all are written and flushed
+/// under temporary names before the first is renamed, in the order given. Throws ComputationError naming the
+/// file and the cause (disk full, read-only); if that is before the first rename, as a full disk is,
+/// everything is as it was. A kill between the renames leaves new files beside former ones, each whole.
+/// Thread safe for different folders.
 void write_files_atomically(const std::filesystem::path& directory, const std::vector<NamedContent>& files,
                             FormerResults former = FormerResults::replaced);
 
+/// Removes temporary files that a killed process left. What cannot be removed stays.
+void remove_abandoned(const std::filesystem::path& directory);
+
 /// Makes sure that results can be written to `directory` before anything is computed: creates it when
-/// missing, refuses one that holds results unless `force`, and tries a file. Removes temporary files that a
-/// killed process left there. Throws InputError naming the folder; a folder that was made is then removed.
+/// missing, refuses one that holds results unless `force`, and tries a file. Removes what is abandoned.
+/// Throws InputError naming the folder; a folder that was made is then removed.
 void prepare_output_directory(const std::filesystem::path& directory, bool force);
 
 /// Removes former results that were kept: to be called once a run is done. Files that cannot be removed stay.

@@ -70,6 +70,7 @@ struct TransitionResult {
   double activation_distance = 0.0, range = 0.0, clearance = 0.0, length = 0.0;
   double eigenvalue_threshold = 0.0;  ///< published: below it a contact is faded
   std::string length_unit;
+  std::string message;  ///< what could not be computed; empty: nothing
   std::vector<TransitionPath> paths;
 };
 

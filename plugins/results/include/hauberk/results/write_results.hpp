@@ -32,7 +32,7 @@ inline constexpr std::array result_names{
     results_file,           limits_file,     profile_file,           designed_file,          stability_file,
     stability_picture_file, transition_file, transition_minima_file, transition_picture_file};
 
-/// The files that `write_results` makes for `run`, for ResultNames::files: limits, profile and, for a design
+/// The files of `results_content` for `run`, for ResultNames::files: limits, profile and, for a design
 /// of a periodic cell, designed.
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run);
 
@@ -42,13 +42,6 @@ std::vector<std::pair<std::string, std::string>> result_files(const RunResult& r
 std::vector<NamedContent> results_content(const boost::json::object& document, const RunResult& run,
                                           const std::string& experiment_json, const ResultNames& names,
                                           const PlotLabels& labels);
-
-/// Writes them. May be called again with more results. The files are replaced together; throws
-/// ComputationError naming the file that could not be written, and all of them are as before. The folder must
-/// exist.
-void write_results(const std::filesystem::path& directory, const boost::json::object& document,
-                   const RunResult& run, const std::string& experiment_json, const ResultNames& names,
-                   const PlotLabels& labels);
 
 /// Those of a stability experiment: stability and picture.
 std::vector<std::pair<std::string, std::string>> stability_files();

@@ -169,6 +169,13 @@ class Path {
 
 }  // namespace
 
+ContactChoice contact_named(std::string_view name)
+{
+  if (name == "nearest") return ContactChoice::nearest;
+  if (name == "arc") return ContactChoice::arc;
+  return name == "published" ? ContactChoice::published : ContactChoice::automatic;
+}
+
 std::vector<double> activation_distances(const Schedule& s)
 {
   if (!(s.last < s.first)) return {s.last};
@@ -196,6 +203,14 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
   }
   // Slack for the rounding of powers.
   return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
+}
+
+Schedule without_widest(const Schedule& s)
+{
+  const std::vector<double> stages = activation_distances(s);
+  Schedule out = s;
+  out.first = stages[std::min<std::size_t>(1, stages.size() - 1)];
+  return out;
 }
 
 Vector load_vector(const Model& m, double theta, Sense sense)

@@ -57,10 +57,9 @@ Schedule preset_schedule(const ExperimentSolver& solver, const SceneSpec& scene,
 
 ContactChoice contact_choice(const ExperimentSolver& solver)
 {
-  if (solver.contact == "nearest") return ContactChoice::nearest;
-  if (solver.contact == "arc") return ContactChoice::arc;
-  if (solver.contact == "published" || solver.preset == "paper") return ContactChoice::published;
-  return ContactChoice::automatic;
+  const ContactChoice named = contact_named(solver.contact);
+  const bool paper = named == ContactChoice::automatic && solver.preset == "paper";
+  return paper ? ContactChoice::published : named;
 }
 
 /// Why preset paper, whose lengths are absolute, makes no sense for a scene; else empty.

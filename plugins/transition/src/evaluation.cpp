@@ -1,7 +1,10 @@
 #include <hauberk/transition/evaluation.hpp>
 
 #include <hauberk/contact/body_pair.hpp>
+#include <hauberk/error.hpp>
 #include <hauberk/geometry/separation.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,12 +59,13 @@ PathPoint evaluate(const MovingPair& pair, const ContactSettings& settings, doub
   const Pose pose = moved(pair.motion, rest, s);
   PathPoint out;
   out.s = s;
-  out.min_gap = std::numeric_limits<double>::infinity();
   MovingTerms sum;
   for_bodies(pair, [&](const Body& A, const Body& B, int, int) {
     const PairContact c = pair_contact(A, rest_of(pair, pair.fixed), B, pose, settings, order);
     add_moving(c.terms, sum);
-    out.min_gap = std::min(out.min_gap, c.min_gap);
+    // An overlapping contact has no energy: it would look like a discontinuity.
+    if (!(c.min_gap > 0.0))
+      throw ComputationError(fmt::format("the surfaces touch or overlap at s = {:g}", s));
   });
   out.energy = sum.energy;
   if (order < 1) return out;

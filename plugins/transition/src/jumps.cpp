@@ -63,18 +63,14 @@ Jump largest_jump(const PathFunction& f, Quantity quantity, int intervals, int m
   };
   std::priority_queue<Interval, std::vector<Interval>, decltype(smaller)> queue(smaller);
   Jump jump;
-  const auto at = [&](double s) {
-    ++jump.evaluations;
-    return f(s);
-  };
   const auto insert = [&](const PathPoint& a, const PathPoint& b) {
-    Interval i{a, at(0.5 * (a.s + b.s)), b, 0.0};
+    Interval i{a, f(0.5 * (a.s + b.s)), b, 0.0};
     i.residual = residual(i, quantity);
     queue.push(std::move(i));
   };
-  PathPoint last = at(0.0);
+  PathPoint last = f(0.0);
   for (int k = 1; k <= intervals; ++k) {
-    const PathPoint next = at(static_cast<double>(k) / intervals);
+    const PathPoint next = f(static_cast<double>(k) / intervals);
     insert(last, next);
     last = next;
   }

@@ -1,6 +1,7 @@
 #include <hauberk/transition/run.hpp>
 
 #include <hauberk/contact/published.hpp>
+#include <hauberk/error.hpp>
 #include <hauberk/parallel.hpp>
 #include <hauberk/transition/jumps.hpp>
 #include <hauberk/transition/tracks.hpp>
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <mutex>
 
@@ -29,13 +29,6 @@ constexpr double finer_panels = 0.5;
 
 /// A contact that moves farther than this between two samples counts as another one; L.
 constexpr double contact_reach = 0.5;
-
-ContactChoice choice_of(const std::string& contact)
-{
-  if (contact == "nearest") return ContactChoice::nearest;
-  if (contact == "arc") return ContactChoice::arc;
-  return contact == "published" ? ContactChoice::published : ContactChoice::automatic;
-}
 
 MovingPair pair_of(const TransitionSpec& spec, std::size_t path)
 {
@@ -64,11 +57,22 @@ struct CurveItem {
   std::size_t same_as = 0;  ///< item of the same path and formulation, itself if it is the first
 };
 
-void sample_curve(const TransitionSpec& spec, CurveItem& item)
+/// Thrown where KeepGoing says no.
+struct Stopped {};
+
+/// `evaluate` that can be interrupted.
+PathPoint evaluated(const CurveItem& item, const ContactSettings& settings, double s, int order,
+                    const KeepGoing& keep_going)
+{
+  if (!keep_going()) throw Stopped{};
+  return evaluate(item.pair, settings, s, order);
+}
+
+void sample_curve(const TransitionSpec& spec, CurveItem& item, const KeepGoing& keep_going)
 {
   const int steps = spec.paths[item.path].steps;
   for (int k = 0; k <= steps; ++k) {
-    item.points.push_back(evaluate(item.pair, item.settings, static_cast<double>(k) / steps, 1));
+    item.points.push_back(evaluated(item, item.settings, static_cast<double>(k) / steps, 1, keep_going));
     item.result.largest_energy = std::max(item.result.largest_energy, std::abs(item.points.back().energy));
     item.result.largest_force = std::max(item.result.largest_force, size_of(item.points.back()));
   }
@@ -80,14 +84,15 @@ TransitionJump relative(const Jump& jump, double largest)
   return {jump.size / largest, jump.at, jump.resolution / largest};
 }
 
-void search_jumps(CurveItem& item)
+void search_jumps(CurveItem& item, const KeepGoing& keep_going)
 {
   // Both searches halve many of the same intervals.
   std::map<double, PathPoint> known;
   const auto f = [&](double s) {
     const auto found = known.find(s);
-    return found != known.end() ? found->second
-                                : known.emplace(s, evaluate(item.pair, item.settings, s, 2)).first->second;
+    return found != known.end()
+               ? found->second
+               : known.emplace(s, evaluated(item, item.settings, s, 2, keep_going)).first->second;
   };
   const auto search = [&](Quantity quantity, double largest) {
     const Jump jump = largest_jump(f, quantity, first_intervals, most_splits, smallest_jump * largest);
@@ -98,14 +103,14 @@ void search_jumps(CurveItem& item)
   item.result.evaluations = static_cast<int>(known.size());
 }
 
-void measure_quadrature(CurveItem& item)
+void measure_quadrature(CurveItem& item, const KeepGoing& keep_going)
 {
   if (item.settings.formulation != Formulation::arc) return;
   ContactSettings finer = item.settings;
   finer.panel_ratio *= finer_panels;
   double energy = 0.0, force = 0.0;
   for (const PathPoint& p : item.points) {
-    const PathPoint better = evaluate(item.pair, finer, p.s, 1);
+    const PathPoint better = evaluated(item, finer, p.s, 1, keep_going);
     energy = std::max(energy, std::abs(better.energy - p.energy));
     force = std::max(force, (better.gradient - p.gradient).norm());
   }
@@ -155,7 +160,7 @@ std::vector<std::pair<std::size_t, std::string>> transition_problems(const Trans
 }
 
 TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
-                                const TransitionObserver& observer)
+                                const TransitionObserver& observer, const KeepGoing& keep_going)
 {
   const Model& m = *spec.model;
   TransitionResult out;
@@ -169,8 +174,11 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
   std::vector<CurveItem> items;
   for (std::size_t p = 0; p < spec.paths.size(); ++p) {
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-      CurveItem item{p, c, pair_of(spec, p), {}, {}, {}, 0};
-      item.settings = {formulation_at(choice_of(spec.contacts[c]), spec.g_hat, spec.schedule), spec.g_hat,
+      CurveItem item;
+      item.path = p;
+      item.curve = c;
+      item.pair = pair_of(spec, p);
+      item.settings = {formulation_at(contact_named(spec.contacts[c]), spec.g_hat, spec.schedule), spec.g_hat,
                        m.clearance};
       item.result.contact = spec.contacts[c];
       item.result.formulation = name_of(item.settings.formulation);
@@ -187,29 +195,43 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
   std::vector<char> done(total, 0);
   std::mutex mutex;  // guards the observer and its count
   std::size_t finished = 0;
-  std::atomic<bool> stop = false;
+  std::vector<std::string> failures(total);
   parallel_for(total, threads, [&](std::size_t i) {
-    if (stop) return;
-    if (i < paths) {
-      sampled[i] = sampled_path(spec, i);
-    } else {
-      CurveItem& item = items[i - paths];
-      if (item.same_as == i - paths) {
-        sample_curve(spec, item);
-        search_jumps(item);
-        measure_quadrature(item);
+    if (!keep_going()) return;
+    try {
+      if (i < paths) {
+        sampled[i] = sampled_path(spec, i);
+      } else {
+        CurveItem& item = items[i - paths];
+        if (item.same_as == i - paths) {
+          sample_curve(spec, item, keep_going);
+          search_jumps(item, keep_going);
+          measure_quadrature(item, keep_going);
+        }
       }
+    } catch (const Stopped&) {
+      return;
+    } catch (const ComputationError& error) {
+      failures[i] =
+          fmt::format("path {}: {}", spec.paths[i < paths ? i : items[i - paths].path].name, error.what());
+      return;
     }
     done[i] = 1;
     const std::lock_guard lock(mutex);
-    if (!observer(++finished, total)) stop = true;
+    observer(++finished, total);
   });
+  for (const std::string& failure : failures)
+    if (out.message.empty()) out.message = failure;
   for (std::size_t p = 0; p < paths; ++p) {
-    if (done[p] == 0) continue;
+    // Rows and pictures have the same curves on every path: one that lacks some is left out.
+    bool whole = done[p] != 0;
+    for (std::size_t i = 0; i < items.size(); ++i)
+      whole = whole && (items[i].path != p || done[paths + items[i].same_as] != 0);
+    if (!whole) continue;
     TransitionPath& path = sampled[p];
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::size_t same = items[i].same_as;
-      if (items[i].path != p || done[paths + same] == 0) continue;
+      if (items[i].path != p) continue;
       if (same != i) {
         const std::string contact = items[i].result.contact;
         items[i].points = items[same].points;

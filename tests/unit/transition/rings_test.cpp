@@ -72,7 +72,8 @@ TransitionSpec spec_of(const Model& model, std::vector<TransitionMotion> paths)
 
 TransitionResult run(const TransitionSpec& spec, unsigned threads = 1)
 {
-  return run_transition(spec, threads, [](std::size_t, std::size_t) { return true; });
+  return run_transition(
+      spec, threads, [](std::size_t, std::size_t) {}, [] { return true; });
 }
 
 double bound(const TransitionJump& jump) { return std::max(jump.relative, jump.resolution); }

@@ -5,7 +5,9 @@
 #include <hauberk/contact/formulation.hpp>
 
 #include <array>
+#include <limits>
 #include <span>
+#include <vector>
 
 namespace hauberk {
 

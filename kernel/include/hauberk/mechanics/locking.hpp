@@ -4,6 +4,7 @@
 #include <hauberk/mechanics/equilibrium.hpp>
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace hauberk {
@@ -15,6 +16,9 @@ enum class ContactChoice {
   arc,
   published  ///< the paper's, in every stage
 };
+
+/// The choice of that name in experiments: nearest, arc, published; automatic for any other.
+ContactChoice contact_named(std::string_view name);
 
 /// Stages of activation distances from `first` to `last` (L), falling by equal factors that are not smaller
 /// than `ratio`; mu = stiffness * g_hat * |load|.
@@ -39,6 +43,10 @@ std::vector<double> activation_distances(const Schedule& schedule);
 /// The formulation that a choice means at an activation distance, before anything has stalled: `automatic` is
 /// arc above schedule.change, else nearest.
 Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule);
+
+/// The schedule without its widest stage, if it has more than one: for states that come from elsewhere, which
+/// the widest stage would let go back to where they came from.
+Schedule without_widest(const Schedule& schedule);
 
 /// One finished stage.
 struct StageRecord {

@@ -20,11 +20,10 @@ struct PathPoint {
   double s = 0.0;
   double energy = 0.0, slope = 0.0;
   Vec6 gradient = Vec6::Zero(), gradient_slope = Vec6::Zero();
-  double min_gap = 0.0;  ///< smallest seen within the activation distance, else infinite
 };
 
 /// Evaluates the pair at s, up to the energy (order 0), its gradient (1) or also the gradient's slope (2).
-/// Scaled by L. Thread safe.
+/// Scaled by L. Throws ComputationError where surfaces within the activation distance overlap. Thread safe.
 PathPoint evaluate(const MovingPair& pair, const ContactSettings& settings, double s, int order);
 
 /// All local minima of the distance below `range` (L), nearest first; contact numbers are not given yet.

@@ -17,7 +17,6 @@ enum class Quantity { energy, force };
 struct Jump {
   double size = 0.0, at = 0.0;
   double resolution = 0.0;  ///< what a discontinuity elsewhere is smaller than
-  int evaluations = 0;
 };
 
 /// The largest discontinuity of `quantity` on [0, 1].

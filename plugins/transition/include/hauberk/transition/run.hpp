@@ -34,13 +34,13 @@ struct TransitionSpec {
 /// one of the samples.
 std::vector<std::pair<std::size_t, std::string>> transition_problems(const TransitionSpec& spec);
 
-/// Called after every finished part, one call at a time; false: stop.
-using TransitionObserver = std::function<bool(std::size_t done, std::size_t total)>;
+/// Called after every finished part, one call at a time.
+using TransitionObserver = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Samples every path, numbers its contacts, looks for discontinuities of every formulation, and measures the
-/// quadrature of arc against panels half as long. Results do not depend on `threads`. What was not computed
-/// when the observer said stop is left out.
+/// quadrature of arc against panels half as long. Results do not depend on `threads`. A path on which
+/// `keep_going` said no, or something could not be computed (`message`), is left out.
 TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
-                                const TransitionObserver& observer);
+                                const TransitionObserver& observer, const KeepGoing& keep_going);
 
 }  // namespace hauberk

@@ -5,6 +5,8 @@
 #include <hauberk/results/json_text.hpp>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
@@ -93,9 +95,49 @@ TEST(Resuming, GivesTheSameResultsAsOneRun)
   resumed.at_pointer("/limits/0/message") = whole.at_pointer("/limits/0/message");
   EXPECT_EQ(write_json(timeless(resumed)), write_json(timeless(whole)));
 
+  // What a kill after the last result leaves: a file without its name, and results of the run before.
+  const pid_t killed = ::fork();
+  if (killed == 0) ::_exit(0);
+  ::waitpid(killed, nullptr, 0);
+  const std::string unnamed = out + "/.limits.csv.tmp-" + std::to_string(killed);
+  const std::string previous = out + "/.hauberk-previous";
+  std::filesystem::create_directory(previous);
+  for (const std::string& left : {unnamed, previous + "/limits.csv"}) std::ofstream(left) << "old";
   const Outcome again = run_program({"run", file, "-o", out, "--resume"});
   EXPECT_EQ(again.code, 0);
   EXPECT_EQ(again.out, out + "/results.json: complete already\n");
+  EXPECT_FALSE(std::filesystem::exists(unnamed));
+  EXPECT_FALSE(std::filesystem::exists(previous));
+}
+
+/// A limit that was finished before the kill learns from one that was not.
+TEST(Resuming, FinishedLimitsLearnFromNewOnes)
+{
+  const TemporaryFolder folder;
+  const std::string alone_text =
+      with(with(with(chainmail_text(), R"("repeat": [2, 1])", R"("repeat": [2, 2])"), "[0, 30, 90]",
+                R"([0], "senses": ["compress"])"),
+           R"("starts": 2 })", R"("neighbours": 0 }, "seed": 3)");
+  const std::string text = with(alone_text, "[0]", "[0, 10]"), out = folder / "out";
+  const std::string file = folder.write("mail.json", text);
+  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
+  const json::value whole = read_results(out);
+  ASSERT_EQ(run_program({"run", folder.write("alone.json", alone_text), "-o", folder / "alone"}).code, 0);
+  const json::value alone = read_results(folder / "alone");
+  ASSERT_GT(number_at(alone, "/limits/0/value"), 0.9 * number_at(whole, "/limits/0/value"))
+      << "there is nothing to learn here";
+  json::value partial = whole;
+  partial.at_pointer("/limits/0") = alone.at_pointer("/limits/0");
+  partial.at_pointer("/limits/1/status") = "interrupted";
+  std::ofstream(out + "/results.json") << write_json(partial);
+  EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0);
+  EXPECT_EQ(write_json(timeless(read_results(out))), write_json(timeless(whole)));
+  // What has learnt learns again, from states of its own run.
+  partial = whole;
+  partial.at_pointer("/limits/1/status") = "interrupted";
+  std::ofstream(out + "/results.json") << write_json(partial);
+  EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0);
+  EXPECT_EQ(write_json(timeless(read_results(out))), write_json(timeless(whole)));
 }
 
 TEST(Resuming, StartsAnewWhereNothingIs)

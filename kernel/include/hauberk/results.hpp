@@ -38,6 +38,7 @@ struct LockedState {
 };
 
 struct LimitResult {
+  bool resumed = false;  ///< read from a former run's results, without poses and contacts
   std::string load_case;
   double direction_deg = 0.0;
   std::string sense;

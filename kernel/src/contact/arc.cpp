@@ -111,8 +111,8 @@ void inside_pieces(At&& at, double from, double to, Piece&& piece)
       piece(onset.t, b.t);
   };
   const LinePoint a = at(from), b = at(to);
-  const bool turns =
-      a.inside() == b.inside() && (a.slope > 0.0) == a.inside() && (b.slope < 0.0) == a.inside();
+  const bool turns = a.inside() == b.inside() &&
+                     (a.inside() ? a.slope > 0.0 && b.slope < 0.0 : a.slope < 0.0 && b.slope > 0.0);
   if (turns) {
     const LinePoint m = root_between(at, slope, a, b);
     if (m.inside() != a.inside()) {

@@ -1,6 +1,7 @@
 /// The limits that a design's targets ask for, with their gradients.
 
 #include <hauberk/design/design_problem.hpp>
+#include <hauberk/limits/lessons.hpp>
 #include <hauberk/parallel.hpp>
 
 #include <fmt/format.h>
@@ -79,38 +80,25 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
 void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads,
                           std::vector<LockedTarget>& targets) const
 {
-  const double further = std::max(1e-8, schedule_.last);
-  std::vector<double> tried(targets.size(), -std::numeric_limits<double>::infinity());
+  Lessons rounds(targets.size(), targets.size(), std::max(1e-8, schedule_.last));
+  const auto given = [&](std::size_t donor, std::size_t k) -> std::optional<double> {
+    const Locked& l = targets[donor].locked;
+    return l.status == LockStatus::locked ? std::optional(loads[k].dot(l.state.macro)) : std::nullopt;
+  };
+  const auto own = [&](std::size_t k) { return given(k, k); };
   for (;;) {
-    std::vector<std::pair<std::size_t, std::size_t>> lessons;  // target, donor
-    for (std::size_t k = 0; k < targets.size(); ++k) {
-      if (targets[k].locked.status != LockStatus::locked) continue;
-      double most = std::max(loads[k].dot(targets[k].locked.state.macro), tried[k]) + further;
-      std::optional<std::size_t> donor;
-      for (std::size_t j = 0; j < targets.size(); ++j) {
-        if (targets[j].locked.status != LockStatus::locked) continue;
-        const double there = loads[k].dot(targets[j].locked.state.macro);
-        if (there <= most) continue;
-        most = there;
-        donor = j;
-      }
-      if (!donor) continue;
-      tried[k] = most;
-      lessons.emplace_back(k, *donor);
-    }
+    const std::vector<Lesson> lessons = rounds.next(own, given);
     if (lessons.empty()) return;
     std::vector<Locked> found(lessons.size());
     parallel_for(lessons.size(), threads_, [&](std::size_t i) {
       const auto [k, donor] = lessons[i];
-      Schedule schedule = schedule_;
-      const std::vector<double> stages = activation_distances(schedule);
-      schedule.first = stages[std::min<std::size_t>(1, stages.size() - 1)];
-      found[i] = lock(p.model, targets[donor].locked.state, loads[k], limits_.contact, schedule, keep_going_);
+      found[i] = lock(p.model, targets[donor].locked.state, loads[k], limits_.contact,
+                      without_widest(schedule_), keep_going_);
     });
     for (std::size_t i = 0; i < lessons.size(); ++i) {
-      LockedTarget& t = targets[lessons[i].first];
+      LockedTarget& t = targets[lessons[i].learner];
       t.evaluations += found[i].evaluations;
-      const Vector& load = loads[lessons[i].first];
+      const Vector& load = loads[lessons[i].learner];
       if (found[i].status != LockStatus::locked ||
           !(load.dot(found[i].state.macro) > load.dot(t.locked.state.macro) + same_value))
         continue;

@@ -1,5 +1,6 @@
 #include "limit_report.hpp"
 
+#include <hauberk/limits/lessons.hpp>
 #include <hauberk/parallel.hpp>
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace hauberk {
 namespace {
 
-/// One start of one task, and at most one more state that another limit led to.
+/// One start of one task.
 struct Attempt {
   std::optional<Locked> locked;  ///< null: not begun, interrupted, or it threw
   std::string error;
@@ -25,26 +26,12 @@ struct TaskState {
   std::vector<Attempt> starts;
   std::vector<FoundState> further;  ///< by tilts, and from other limits
   std::string error;                ///< of those
-  double seconds = 0.0;             ///< of those
+  double seconds = 0.0;             ///< of those, and of what led nowhere
+  int iterations = 0;               ///< of what led nowhere
+  long evaluations = 0;             ///< the same
   std::size_t missing = 0;          ///< starts not done
   bool known = false;               ///< its result came with the call; there are no states
 };
-
-/// The tasks, and those to either side of lone ones.
-std::vector<LimitTask> with_neighbours(const std::vector<LimitTask>& asked, double apart)
-{
-  std::vector<LimitTask> all = asked;
-  if (apart <= 0.0) return all;
-  for (const LimitTask& task : asked) {
-    const bool lone = std::none_of(asked.begin(), asked.end(), [&](const LimitTask& o) {
-      const double to = std::abs(o.direction_deg - task.direction_deg);
-      return o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
-    });
-    if (!lone) continue;
-    for (const double by : {-apart, apart}) all.push_back({task.direction_deg + by, task.sense});
-  }
-  return all;
-}
 
 class Computation {
  public:
@@ -52,7 +39,7 @@ class Computation {
               const LimitSettings& settings, const LimitsObserver& observer)
       : model_(model),
         spec_(spec),
-        tasks_(with_neighbours(tasks, settings.neighbours)),
+        tasks_(with_neighbours(model, tasks, settings.neighbours)),
         asked_(tasks.size()),
         settings_(settings),
         observer_(observer),
@@ -116,7 +103,7 @@ class Computation {
   static bool learnt(const LimitResult& r)
   {
     return std::any_of(r.starts.begin(), r.starts.end(),
-                       [](const LockedState& s) { return s.origin.starts_with("from "); });
+                       [](const LockedState& s) { return s.origin.starts_with(learnt_origin); });
   }
 
   Attempt attempt(std::size_t task, std::size_t start) const
@@ -174,8 +161,8 @@ class Computation {
     try {
       for (int k = 0; k < settings_.tilts; ++k) {
         const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
-        const State from = perturbed(model_, settings_.start ? *settings_.start : rest_state(model_),
-                                     settings_.perturbation, seed, Copies::apart);
+        const State from =
+            perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
         Locked found = lock(model_, from, tilted(model_, load, settings_, seed), settings_.contact,
                             settings_.schedule, keep_going);
         if (found.status == LockStatus::interrupted) return false;
@@ -183,8 +170,11 @@ class Computation {
         const std::optional<std::size_t> best = furthest(model_, limit, settings_, known);
         if (found.status != LockStatus::locked ||
             (best && reached(model_, limit, found.state) <
-                         reached(model_, limit, known[*best].locked.state) + further_than(settings_)))
+                         reached(model_, limit, known[*best].locked.state) + further_than(settings_))) {
+          t.iterations += found.iterations;
+          t.evaluations += found.evaluations;
           continue;
+        }
         Locked own = limit_from_state(model_, limit, settings_, found.state, keep_going);
         if (own.status == LockStatus::interrupted) return false;
         own.iterations += found.iterations;
@@ -227,6 +217,8 @@ class Computation {
       error = failure.what();
     }
     result.seconds = seconds;
+    result.iterations += t.iterations;
+    result.evaluations += t.evaluations;
     if (!error.empty()) {
       result.status = LimitStatus::failed;
       result.message = error;
@@ -234,7 +226,7 @@ class Computation {
     return result;
   }
 
-  /// How far the state of a result is along a task; null: it has no sound state.
+  /// How far the state of a result is along a task; null: it has none.
   std::optional<double> reached_by(std::size_t donor, const LimitTask& task) const
   {
     const LimitResult& r = results_[donor];
@@ -248,31 +240,45 @@ class Computation {
     return task.sense == Sense::positive ? v : -v;
   }
 
+  /// Locked state of a task from where another one's best state is; null: there is none, or it threw, and
+  /// what was known before stands.
+  std::optional<FoundState> taught(std::size_t task, std::size_t donor)
+  {
+    const std::vector<FoundState> states = found_of(donor);
+    const auto best = furthest(model_, tasks_[donor], settings_, states);
+    if (!best) return std::nullopt;
+    const auto t0 = std::chrono::steady_clock::now();
+    std::optional<FoundState> out;
+    try {
+      out = FoundState{limit_from_state(model_, tasks_[task], settings_, states[*best].locked.state,
+                                        [this] { return going(); }),
+                       fmt::format("{}{} degrees, {}", learnt_origin, results_[donor].direction_deg,
+                                   results_[donor].sense),
+                       states[*best].seed};
+    } catch (const std::exception&) {
+      out.reset();
+    }
+    states_[task].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    return out;
+  }
+
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other has found for it, until none is further.
   void learn(unsigned threads)
   {
-    std::vector<double> tried(tasks_.size(), -std::numeric_limits<double>::infinity());
+    Lessons rounds(asked_, tasks_.size(), further_than(settings_));
+    const auto own = [&](std::size_t k) -> std::optional<double> {
+      const LimitStatus status = results_[k].status;
+      if (status == LimitStatus::locked) return reached_by(k, tasks_[k]);
+      // One that stalled learns also from a state that is only as far as its own.
+      const auto there = status == LimitStatus::stalled ? reached_by(k, tasks_[k]) : std::nullopt;
+      return there ? std::optional(*there - 2.0 * further_than(settings_)) : std::nullopt;
+    };
+    const auto given = [&](std::size_t donor, std::size_t k) {
+      return results_[donor].status == LimitStatus::locked ? reached_by(donor, tasks_[k]) : std::nullopt;
+    };
     for (;;) {
-      std::vector<std::pair<std::size_t, std::size_t>> lessons;  // task, donor
-      for (std::size_t k = 0; k < asked_; ++k) {
-        // One that stalled learns too, also from a state that is as far as its own.
-        const bool stalled = results_[k].status == LimitStatus::stalled;
-        const auto own = reached_by(k, tasks_[k]);
-        if (!own || !(stalled || results_[k].status == LimitStatus::locked)) continue;
-        double most = std::max(stalled ? *own - 2.0 * further_than(settings_) : *own, tried[k]) +
-                      further_than(settings_);
-        std::optional<std::size_t> donor;
-        for (std::size_t j = 0; j < tasks_.size(); ++j) {
-          const auto there = reached_by(j, tasks_[k]);
-          if (j == k || results_[j].status != LimitStatus::locked || !there || *there <= most) continue;
-          most = *there;
-          donor = j;
-        }
-        if (!donor) continue;
-        tried[k] = most;
-        lessons.emplace_back(k, *donor);
-      }
+      const std::vector<Lesson> lessons = rounds.next(own, given);
       if (lessons.empty()) return;
       std::vector<std::size_t> unknown;  // tasks whose states are needed but came as results
       for (const auto& [task, donor] : lessons) {
@@ -292,15 +298,7 @@ class Computation {
       for (const std::size_t k : unknown) states_[k].known = false;
       std::vector<std::optional<FoundState>> found(lessons.size());
       parallel_for(lessons.size(), threads, [&](std::size_t i) {
-        const auto [task, donor] = lessons[i];
-        const std::vector<FoundState> states = found_of(donor);
-        const auto best = furthest(model_, tasks_[donor], settings_, states);
-        if (!best || !going()) return;
-        found[i] = FoundState{
-            limit_from_state(model_, tasks_[task], settings_, states[*best].locked.state,
-                             [this] { return going(); }),
-            fmt::format("from {} degrees, {}", results_[donor].direction_deg, results_[donor].sense),
-            states[*best].seed};
+        if (going()) found[i] = taught(lessons[i].learner, lessons[i].donor);
       });
       if (!going()) {
         for (const auto& [task, donor] : lessons) {
@@ -312,7 +310,7 @@ class Computation {
       }
       for (std::size_t i = 0; i < lessons.size(); ++i) {
         if (!found[i]) continue;
-        const std::size_t task = lessons[i].first;
+        const std::size_t task = lessons[i].learner;
         states_[task].further.push_back(std::move(*found[i]));
         results_[task] = result_of(task);
       }
@@ -350,6 +348,27 @@ class Computation {
 };
 
 }  // namespace
+
+std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& asked, double apart)
+{
+  std::vector<LimitTask> all = asked;
+  if (apart <= 0.0) return all;
+  for (const LimitTask& task : asked) {
+    const bool lone = std::none_of(asked.begin(), asked.end(), [&](const LimitTask& o) {
+      const double to = std::abs(o.direction_deg - task.direction_deg);
+      return o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
+    });
+    if (!lone || decided_by_links(model, task)) continue;
+    for (const double by : {-apart, apart}) {
+      const LimitTask beside{task.direction_deg + by, task.sense};
+      const bool there = std::any_of(all.begin(), all.end(), [&](const LimitTask& o) {
+        return o.sense == task.sense && std::abs(o.direction_deg - beside.direction_deg) < 1e-9;
+      });
+      if (!there && !decided_by_links(model, beside)) all.push_back(beside);
+    }
+  }
+  return all;
+}
 
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,

@@ -56,6 +56,11 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
   return s;
 }
 
+State start_state(const Model& m, const LimitSettings& settings)
+{
+  return settings.start ? *settings.start : rest_state(m);
+}
+
 Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings, std::uint64_t seed)
 {
   Normal normal(seed);
@@ -72,11 +77,8 @@ Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings,
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going)
 {
-  Schedule schedule = settings.schedule;
-  const std::vector<double> stages = activation_distances(schedule);
-  schedule.first = stages[std::min<std::size_t>(1, stages.size() - 1)];
-  return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact, schedule,
-              keep_going);
+  return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact,
+              without_widest(settings.schedule), keep_going);
 }
 
 Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettings& settings, int start,
@@ -85,10 +87,9 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
   bool repeated = false;
   for (int i = 0; i < m.element_count(); ++i) repeated |= m.source[static_cast<std::size_t>(i)] != i;
   const bool small = start == 0 || (start == 1 && repeated && settings.perturbation > 0.0);
-  const State from = perturbed(m, settings.start ? *settings.start : rest_state(m),
-                               small ? settings.perturbation : settings.further_perturbation,
-                               settings.seed + static_cast<std::uint64_t>(start),
-                               start == 0 ? Copies::alike : Copies::apart);
+  const State from = perturbed(
+      m, start_state(m, settings), small ? settings.perturbation : settings.further_perturbation,
+      settings.seed + static_cast<std::uint64_t>(start), start == 0 ? Copies::alike : Copies::apart);
   return lock(m, from, load_vector(m, task.direction_deg * degree, task.sense), settings.contact,
               settings.schedule, keep_going);
 }

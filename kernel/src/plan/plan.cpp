@@ -69,7 +69,7 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
   if (p.tightest.size() > most_tight_pairs) p.tightest.resize(most_tight_pairs);
 }
 
-void decide(Plan& p, const Model& m, const LimitSettings& settings)
+void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const LimitSettings& settings)
 {
   if (p.inert > 0) {
     p.decisions.push_back(
@@ -113,6 +113,12 @@ void decide(Plan& p, const Model& m, const LimitSettings& settings)
   const std::vector<double> stages = activation_distances(settings.schedule);
   p.decisions.push_back(fmt::format("stages: {}, activation distances {:g} L to {:g} L", stages.size(),
                                     stages.front(), stages.back()));
+  const std::size_t neighbours = with_neighbours(m, tasks, settings.neighbours).size() - tasks.size();
+  if (neighbours > 0) {
+    p.decisions.push_back(
+        fmt::format("search: limits without company learn from {} neighbours {:g} degrees beside them",
+                    neighbours, settings.neighbours));
+  }
 }
 
 }  // namespace
@@ -156,7 +162,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   }
   list_tightest(p, m, rest);
   for (auto& [name, k] : kinds) p.pairs.push_back(k);
-  decide(p, m, settings);
+  decide(p, m, tasks, settings);
   for (const LimitTask& t : tasks) {
     const auto decided = decided_by_links(m, t);
     p.bounded.emplace_back(t, !decided                                    ? "attained"

@@ -91,7 +91,8 @@ Output::Files Output::content(const RunResult& run)
   document_ = results_document(run, experiment_json_, provenance_, names_);
   boost::json::array& limits = document_["limits"].as_array();
   for (std::size_t k = 0; k < kept_.size() && k < limits.size(); ++k) {
-    if (!kept_[k].is_null()) limits[k] = kept_[k];
+    // A limit that was there may have learnt from one that was not: then it is a new one.
+    if (run.limits[k].resumed) limits[k] = kept_[k];
   }
   return results_content(document_, run, experiment_json_, names_, labels_);
 }

@@ -41,6 +41,7 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   LimitResult r;
   const auto status = status_of(text(entry.at("status")));
   if (!status) return std::nullopt;
+  r.resumed = true;
   r.status = *status;
   r.load_case = text(entry.at("load_case"));
   r.direction_deg = number(entry.at("direction_deg"));
@@ -63,7 +64,11 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   r.z_range = number(entry.at("z_range"));
   r.better_state = entry.at("better_state").as_bool();
   r.force_balance = optional_number(entry.at("force_balance"));
-  r.starts.resize(entry.at("starts").as_array().size());
+  // Where states came from: what was learnt from other limits is learnt again.
+  for (const json::value& start : entry.at("starts").as_array()) {
+    r.starts.emplace_back();
+    r.starts.back().origin = text(start.at("origin"));
+  }
   r.contacts.resize(entry.at("contacts").as_array().size());
   return r;
 }

@@ -97,6 +97,23 @@ void print_files(const Output& output, const std::vector<std::pair<std::string, 
   fmt::print("results in {}: {}\n", output.directory().string(), names);
 }
 
+/// The end of a run whose results are written: what came of it, on the terminal.
+int conclude(const Loaded& loaded, Output& output, const std::string& summary,
+             const std::vector<std::pair<std::string, std::string>>& files,
+             std::chrono::steady_clock::time_point begin)
+{
+  if (!interrupted()) output.done();
+  fmt::print("{}\n\n{}", loaded.experiment.name, summary);
+  fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
+  print_files(output, files);
+  if (interrupted()) {
+    fmt::print("{}", interrupted_note);
+    return exit_interrupted;
+  }
+  return missed ? exit_failed : exit_done;
+}
+
 /// Whole run of a stability experiment. Cases that fail are what it is for: they do not fail the run, but an
 /// `expect` about their counts may.
 int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
@@ -108,39 +125,23 @@ int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed,
                 [&](const StabilityMap& so_far) { output.write_sometimes(base, so_far); });
   progress.clear();
   output.write(base, map);
-  if (!interrupted()) output.done();
-  fmt::print("{}\n\n{}", loaded.experiment.name, stability_summary(map));
-  fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
-  print_files(output, stability_files());
-  if (interrupted()) {
-    fmt::print("{}", interrupted_note);
-    return exit_interrupted;
-  }
-  return missed ? exit_failed : exit_done;
+  return conclude(loaded, output, stability_summary(map), stability_files(), begin);
 }
 
 int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progress, Output& output,
                         const RunResult& base)
 {
   const auto begin = std::chrono::steady_clock::now();
-  const TransitionResult result =
-      run_transition(loaded.transition->spec, threads, [&progress](std::size_t done, std::size_t total) {
-        progress.limits("transition", done, total);
-        return !interrupted();
-      });
+  const TransitionResult result = run_transition(
+      loaded.transition->spec, threads,
+      [&progress](std::size_t done, std::size_t total) { progress.limits("transition", done, total); },
+      [] { return !interrupted(); });
   progress.clear();
   output.write(base, result);
-  if (!interrupted()) output.done();
-  fmt::print("{}\n\n{}", loaded.experiment.name, transition_summary(result));
-  fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
-  print_files(output, transition_files());
-  if (interrupted()) {
-    fmt::print("{}", interrupted_note);
-    return exit_interrupted;
-  }
-  return missed ? exit_failed : exit_done;
+  if (!result.message.empty())
+    throw ComputationError(
+        fmt::format("{}; what was computed is in {}", result.message, output.directory().string()));
+  return conclude(loaded, output, transition_summary(result), transition_files(), begin);
 }
 
 [[noreturn]] void fail_with_partial_results(const std::string& reason, Output& output, const RunResult& run)
@@ -186,6 +187,9 @@ int finish(const Loaded& loaded, Output& output, const RunResult& run, double se
 /// Of a run that has nothing left to do.
 int already_complete(const Loaded& loaded, const Resumed& resumed, const std::filesystem::path& folder)
 {
+  // The run may have been killed after its last result, before it had tidied up.
+  remove_abandoned(folder);
+  drop_previous(folder);
   fmt::print("{}: complete already\n", (folder / results_file).string());
   bool failed = report_expectations(loaded.experiment, resumed.document);
   for (const auto& limit : resumed.limits)

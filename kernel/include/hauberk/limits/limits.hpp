@@ -43,6 +43,9 @@ enum class Copies {
 /// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
 State perturbed(const Model& model, const State& from, double size, std::uint64_t seed, Copies copies);
 
+/// Where starts begin.
+State start_state(const Model& model, const LimitSettings& settings);
+
 /// A load turned by `settings.tilt` towards a random direction of the macroscopic unknowns, in the norm of
 /// loads (the dual of that of steps). Deterministic in `seed`.
 Vector tilted(const Model& model, const Vector& load, const LimitSettings& settings, std::uint64_t seed);
@@ -58,10 +61,13 @@ Locked limit_from_state(const Model& model, const LimitTask& task, const LimitSe
 Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,
                         const KeepGoing& keep_going);
 
+/// Beginning of the origin of states that began from another limit's.
+inline constexpr const char* learnt_origin = "from ";
+
 /// A locked state and where it came from.
 struct FoundState {
   Locked locked;
-  std::string origin;      ///< "start", "tilt", or "from " and the limit whose state it began with
+  std::string origin;      ///< "start", "tilt", or learnt_origin and the limit whose state it began with
   std::uint64_t seed = 0;  ///< of the start or tilt
 };
 
@@ -82,6 +88,10 @@ struct LimitsObserver {
   /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
   std::function<void(const std::vector<LimitResult>&)> on_limit;
 };
+
+/// The tasks, then those `apart` degrees to either side of every one that has no other of its sense within
+/// that angle; only tasks that links do not decide have neighbours and are neighbours.
+std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart);
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///

@@ -1,0 +1,38 @@
+#pragma once
+/// Who can learn from whom: a locked state of one limit is a reachable state for all.
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace hauberk {
+
+/// `learner` is to be locked again from the state of `donor`.
+struct Lesson {
+  std::size_t learner = 0, donor = 0;
+};
+
+/// Rounds of lessons, until there are none. Every learner is paired with the donor whose state is furthest
+/// along it, if that is further by `margin` (more than the gaps of a last stage) than its own state and than
+/// every state that it has begun from before; so rounds end.
+class Lessons {
+ public:
+  Lessons(std::size_t learners, std::size_t donors, double margin);
+
+  /// How far the learner's own state is, null where it does not learn; how far a donor's is along a learner,
+  /// null where it has no state to give. A learner's own state is not asked for as a donor.
+  using Own = std::function<std::optional<double>(std::size_t learner)>;
+  using Reached = std::function<std::optional<double>(std::size_t donor, std::size_t learner)>;
+
+  /// The next round, by learner; empty: nothing is left to learn.
+  std::vector<Lesson> next(const Own& own, const Reached& reached);
+
+ private:
+  std::size_t donors_;
+  double margin_;
+  std::vector<double> begun_;  ///< per learner: the furthest state that it began from
+};
+
+}  // namespace hauberk

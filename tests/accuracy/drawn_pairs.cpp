@@ -116,12 +116,7 @@ class Drawing {
   void turn_all()
   {
     if (chance()) return;
-    const Mat3 Q = any_rotation(rng_);
-    const Vec3 shift = 2.0 * any_direction(rng_);
-    for (Torus* t : {&pair_.a, &pair_.b}) {
-      t->center = Q * t->center + shift;
-      t->axes = Q * t->axes;
-    }
+    move_together(pair_.a, pair_.b, rng_);
   }
 
   PairKind kind_;

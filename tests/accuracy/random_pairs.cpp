@@ -26,14 +26,7 @@ class Draw {
       if (surface_distance(p.a, p.b, coarse) > 0.0) break;
     }
     // Half of all pairs away from the axes of the world.
-    if (chance()) {
-      const Mat3 Q = any_rotation(rng_);
-      const Vec3 shift = 2.0 * any_direction(rng_);
-      for (Torus* t : {&p.a, &p.b}) {
-        t->center = Q * t->center + shift;
-        t->axes = Q * t->axes;
-      }
-    }
+    if (chance()) move_together(p.a, p.b, rng_);
     return p;
   }
 
@@ -132,6 +125,16 @@ Vec3 any_direction(std::mt19937_64& rng)
   std::normal_distribution<double> normal;
   const double x = normal(rng), y = normal(rng), z = normal(rng);
   return Vec3(x, y, z).normalized();
+}
+
+void move_together(Torus& a, Torus& b, std::mt19937_64& rng)
+{
+  const Mat3 Q = any_rotation(rng);
+  const Vec3 shift = 2.0 * any_direction(rng);
+  for (Torus* t : {&a, &b}) {
+    t->center = Q * t->center + shift;
+    t->axes = Q * t->axes;
+  }
 }
 
 Mat3 any_rotation(std::mt19937_64& rng)

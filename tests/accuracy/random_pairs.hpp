@@ -37,4 +37,7 @@ Mat3 any_rotation(std::mt19937_64& rng);
 /// Uniformly distributed unit vector.
 Vec3 any_direction(std::mt19937_64& rng);
 
+/// Turns both about one axis and shifts them: away from the axes of the world.
+void move_together(Torus& a, Torus& b, std::mt19937_64& rng);
+
 }  // namespace hauberk::brute

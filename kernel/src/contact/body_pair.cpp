@@ -118,6 +118,7 @@ PairContact pair_contact(const Body& A, const Pose& pose_a, const Body& B, const
     add_side(to_world(terms, frame.M, side.swapped ? Vec3(-shift) : shift, order), side.swapped, order,
              out.terms);
     out.min_gap = std::min(out.min_gap, terms.min_gap);
+    out.regularity = std::min(out.regularity, terms.regularity);
     out.evaluations += terms.evaluations;
   }
   return out;

@@ -68,6 +68,8 @@ class Newton {
     bool escaping = false;
     for (;;) {
       if (!keep_going_()) return finish(now, StageStatus::interrupted, "interrupted");
+      if (now.contact.regularity < stage_.least_curvature)
+        return finish(now, StageStatus::merging, "a contact comes near to merging with another");
       // A state may have to slide a long way through a channel as narrow as the gaps, in many short steps:
       // what counts is whether it still goes down.
       if (now.energy < noticed - stage_.mu) {

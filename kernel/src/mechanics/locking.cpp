@@ -68,6 +68,8 @@ class Path {
     s.balance = last;
     s.tolerance = last ? schedule_.last_tolerance : schedule_.tolerance;
     s.most_iterations = schedule_.most_iterations;
+    if (choice_ == ContactChoice::automatic && f == Formulation::nearest)
+      s.least_curvature = least_regular_curvature(g_hat);
     return s;
   }
 
@@ -81,6 +83,10 @@ class Path {
     const State before = out_.state;
     Formulation f = formulation(g_hat);
     StageResult r = attempt(before, g_hat, last, f);
+    if (r.status == StageStatus::merging) {
+      f = Formulation::arc;
+      r = attempt(before, g_hat, last, f);
+    }
     if (choice_ == ContactChoice::automatic && f == Formulation::nearest &&
         (r.status == StageStatus::stalled || r.status == StageStatus::iteration_limit)) {
       arc_to_the_end_ = true;
@@ -204,6 +210,8 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
   // Slack for the rounding of powers.
   return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
 }
+
+double least_regular_curvature(double g_hat) { return 2.0 * std::sqrt(g_hat); }
 
 Schedule without_widest(const Schedule& s)
 {

@@ -86,7 +86,7 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
     case ContactChoice::automatic:
       p.decisions.push_back(
           fmt::format("contact: arc down to an activation distance of {:g} L, nearest below; arc "
-                      "again from where nearest stalls",
+                      "again where contacts merge, and from where nearest stalls",
                       settings.schedule.change));
       break;
     case ContactChoice::nearest:

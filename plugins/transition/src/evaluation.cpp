@@ -63,6 +63,7 @@ PathPoint evaluate(const MovingPair& pair, const ContactSettings& settings, doub
   for_bodies(pair, [&](const Body& A, const Body& B, int, int) {
     const PairContact c = pair_contact(A, rest_of(pair, pair.fixed), B, pose, settings, order);
     add_moving(c.terms, sum);
+    out.regularity = std::min(out.regularity, c.regularity);
     // An overlapping contact has no energy: it would look like a discontinuity.
     if (!(c.min_gap > 0.0))
       throw ComputationError(fmt::format("the surfaces touch or overlap at s = {:g}", s));

@@ -54,8 +54,14 @@ struct CurveItem {
   ContactSettings settings;
   std::vector<PathPoint> points;
   TransitionCurve result;
+  double regularity = std::numeric_limits<double>::infinity();  ///< smallest of all points
   std::size_t same_as = 0;  ///< item of the same path and formulation, itself if it is the first
 };
+
+bool is_automatic(const TransitionSpec& spec, std::size_t curve)
+{
+  return contact_named(spec.contacts[curve]) == ContactChoice::automatic;
+}
 
 /// Thrown where KeepGoing says no.
 struct Stopped {};
@@ -101,6 +107,7 @@ void search_jumps(CurveItem& item, const KeepGoing& keep_going)
   item.result.energy = search(Quantity::energy, item.result.largest_energy);
   item.result.force = search(Quantity::force, item.result.largest_force);
   item.result.evaluations = static_cast<int>(known.size());
+  for (const auto& [s, point] : known) item.regularity = std::min(item.regularity, point.regularity);
 }
 
 void measure_quadrature(CurveItem& item, const KeepGoing& keep_going)
@@ -116,6 +123,24 @@ void measure_quadrature(CurveItem& item, const KeepGoing& keep_going)
   }
   const auto over = [](double x, double largest) { return largest > 0.0 ? x / largest : 0.0; };
   item.result.quadrature = {over(energy, item.result.largest_energy), over(force, item.result.largest_force)};
+}
+
+void compute_curve(const TransitionSpec& spec, CurveItem& item, const KeepGoing& keep_going)
+{
+  sample_curve(spec, item, keep_going);
+  search_jumps(item, keep_going);
+  const bool merges = item.settings.formulation == Formulation::nearest &&
+                      item.regularity < least_regular_curvature(item.settings.g_hat);
+  if (is_automatic(spec, item.curve) && merges) {
+    // What a stage does that meets a merge on its way: it begins again with arc.
+    item.settings.formulation = Formulation::arc;
+    item.result.formulation = name_of(Formulation::arc);
+    item.result.largest_energy = item.result.largest_force = 0.0;
+    item.points.clear();
+    sample_curve(spec, item, keep_going);
+    search_jumps(item, keep_going);
+  }
+  measure_quadrature(item, keep_going);
 }
 
 TransitionPath sampled_path(const TransitionSpec& spec, std::size_t path)
@@ -184,7 +209,10 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
       item.result.formulation = name_of(item.settings.formulation);
       item.same_as = items.size();
       for (std::size_t k = 0; k < items.size(); ++k) {
-        const bool same = items[k].path == p && items[k].settings.formulation == item.settings.formulation;
+        // Automatic with nearest may change to arc on the way.
+        const bool same = items[k].path == p && items[k].settings.formulation == item.settings.formulation &&
+                          (item.settings.formulation != Formulation::nearest ||
+                           is_automatic(spec, items[k].curve) == is_automatic(spec, c));
         if (same) item.same_as = std::min(item.same_as, k);
       }
       items.push_back(std::move(item));
@@ -204,9 +232,7 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
       } else {
         CurveItem& item = items[i - paths];
         if (item.same_as == i - paths) {
-          sample_curve(spec, item, keep_going);
-          search_jumps(item, keep_going);
-          measure_quadrature(item, keep_going);
+          compute_curve(spec, item, keep_going);
         }
       }
     } catch (const Stopped&) {

@@ -1,5 +1,7 @@
 /// The ladder of activation distances.
 
+#include "scenes.hpp"
+
 #include <hauberk/mechanics/locking.hpp>
 
 #include <gtest/gtest.h>
@@ -34,6 +36,26 @@ TEST(Stages, OneStageWhereFirstIsLast)
   Schedule s;
   s.first = s.last = 2e-5;
   EXPECT_EQ(activation_distances(s), std::vector<double>{2e-5});
+}
+
+/// A taut chain of perpendicular rings: seen from a ring, the next one's core is 2 r away and curved by 1/(2
+/// r), its own by 1/R. A stage ends as merging just where the limit on curvatures is above that.
+TEST(Stages, EndWhereContactsAreLessCurvedThanTheyMay)
+{
+  const double R = 5.0, r = 0.7;
+  const Sheet load;
+  const Model m = make_model(chain({R, r, r}, {R, r, r}, 4.0 * R - 4.0 * r - 1e-3), load, 0.0);
+  const double curvature = (1.0 / (2.0 * r) - 1.0 / R) * m.length;
+  for (const double part : {0.999, 1.001}) {
+    Stage stage;
+    stage.contact = {Formulation::nearest, 1e-4, 0.0};
+    stage.mu = 1e-6;
+    stage.least_curvature = part * curvature;
+    State s = rest_state(m);
+    const StageResult r_ =
+        solve_stage(m, s, load_vector(m, 0.0, Sense::positive), stage, [] { return true; });
+    EXPECT_EQ(r_.status, part < 1.0 ? StageStatus::minimum : StageStatus::merging) << r_.message;
+  }
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ constexpr double core_distance = 2.0 * r + gap;
 const double split_degrees = std::acos(1.0 - core_distance / R) / degree;
 
 /// Two rings that touch nearly, on the x axis, at a cross angle; r1 = r unless given.
-SceneSpec rings(double cross_degrees, double r1 = r)
+SceneSpec rings(double cross_degrees, double r1 = r, double apart = gap)
 {
   SceneSpec scene = test::chain({R, r, r1}, {R, r, r1}, 100.0);
   scene.elements[0].rest = {};
-  scene.elements[1].rest = {{2.0 * R - core_distance, 0, 0}, rotation_exp({cross_degrees * degree, 0, 0})};
+  scene.elements[1].rest = {{2.0 * R - 2.0 * r - apart, 0, 0}, rotation_exp({cross_degrees * degree, 0, 0})};
   return scene;
 }
 
@@ -275,6 +275,27 @@ TEST(Rings, AutoIsNearestWhereTheActivationDistanceIsSmall)
   spec.g_hat = 1e-4;
   spec.contacts = {"auto"};
   EXPECT_EQ(run(spec).paths[0].curves[0].formulation, "nearest");
+}
+
+/// A hundred times nearer, where auto is nearest: what comes near a merge is done again with arc.
+TEST(Rings, AutoBeginsAgainWithArcWhereContactsMerge)
+{
+  const double small = 0.01 * gap, split = std::acos(1.0 - (2.0 * r + small) / R) / degree;
+  const Scene s(rings(split, r, small));
+  TransitionSpec spec =
+      spec_of(s.model, {{"pitchfork", twist(0.3, -0.15), 20}, {"regular", twist(2.0, 4.0), 2}});
+  spec.g_hat = 0.01 * activation / s.model.length;
+  spec.contacts = {"nearest", "auto"};
+  const TransitionResult result = run(spec);
+  ASSERT_EQ(result.paths.size(), 2U);
+  const TransitionCurve& nearest = result.paths[0].curves[0];
+  EXPECT_GT(nearest.energy.relative, 0.2);
+  EXPECT_GT(nearest.force.relative, 0.2);
+  const TransitionCurve& automatic = result.paths[0].curves[1];
+  EXPECT_EQ(automatic.formulation, "arc");
+  EXPECT_LT(bound(automatic.energy), 1e-7);
+  EXPECT_LT(bound(automatic.force), 1e-6);
+  EXPECT_EQ(result.paths[1].curves[1].formulation, "nearest");
 }
 
 TEST(Rings, ThreadsDoNotMatter)

@@ -33,7 +33,9 @@ void add_side(const PairTerms& side, bool swapped, int order, PairTerms& sum);
 struct PairContact {
   PairTerms terms;
   double min_gap = std::numeric_limits<double>::infinity();  ///< smallest gap seen; <= 0: not admissible
-  int evaluations = 0;                                       ///< closest-point evaluations
+  double regularity =
+      std::numeric_limits<double>::infinity();  ///< see SideTerms; with derivatives to order 2
+  int evaluations = 0;                          ///< closest-point evaluations
 };
 
 /// Evaluates a pair up to derivatives of order `order` (0 to 2). Scaled lengths. Thread safe.

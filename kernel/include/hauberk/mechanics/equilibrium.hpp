@@ -6,6 +6,7 @@
 #include <hauberk/motion/advancement.hpp>
 
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace hauberk {
@@ -18,12 +19,14 @@ struct Stage {
   /// T of the published objective (paper equations (12) and (14)), 1/2 |macro - T load|^2: divided by T and
   /// without its constant, -load . macro + |macro|^2/(2 T). Infinite: the load alone.
   double target = std::numeric_limits<double>::infinity();
+  /// Ends as `merging` at a state with a contact less curved than this (relative curvature, 1/L; nearest).
+  double least_curvature = -std::numeric_limits<double>::infinity();
   bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
   double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
 };
 
-enum class StageStatus { minimum, stalled, iteration_limit, unbounded, interrupted };
+enum class StageStatus { minimum, stalled, iteration_limit, unbounded, merging, interrupted };
 
 /// Outcome of a stage.
 struct StageResult {

@@ -44,6 +44,11 @@ std::vector<double> activation_distances(const Schedule& schedule);
 /// arc above schedule.change, else nearest.
 Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule);
 
+/// Relative curvature (1/L) below which a contact is not regular at the activation distance g_hat (L). Near a
+/// merge the gap along the surface is g0 - a t^2/2 + b t^4/24; its two minima have the curvature 2 a, and the
+/// hump between them is higher than g_hat only where 2 a > sqrt(8 b g_hat / 3). Taken with b = 1.5 / L^3.
+double least_regular_curvature(double g_hat);
+
 /// The schedule without its widest stage, if it has more than one: for states that come from elsewhere, which
 /// the widest stage would let go back to where they came from.
 Schedule without_widest(const Schedule& schedule);

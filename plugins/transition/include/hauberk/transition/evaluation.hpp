@@ -20,6 +20,8 @@ struct PathPoint {
   double s = 0.0;
   double energy = 0.0, slope = 0.0;
   Vec6 gradient = Vec6::Zero(), gradient_slope = Vec6::Zero();
+  /// Smallest relative curvature of a contact, 1/L (nearest, order 2).
+  double regularity = std::numeric_limits<double>::infinity();
 };
 
 /// Evaluates the pair at s, up to the energy (order 0), its gradient (1) or also the gradient's slope (2).

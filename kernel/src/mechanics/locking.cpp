@@ -98,7 +98,8 @@ class Path {
       // Contacts that merge can leave forces on points that do not balance; spread forces do.
       const State points = out_.state;
       const StageResult spread = attempt(before, g_hat, last, Formulation::arc);
-      if (spread.status == StageStatus::minimum && spread.residual < r.residual) {
+      if (spread.status == StageStatus::interrupted ||
+          (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
         f = Formulation::arc;
         r = spread;
       } else {

@@ -153,5 +153,32 @@ TEST(Search, InterruptedAnywhereEndsAtTheSame)
   }
 }
 
+/// Whenever it is interrupted, also in an attempt that would have been dropped, a start says so and is not
+/// taken for finished.
+TEST(Search, InterruptedStartsSaySo)
+{
+  const Sheet load;
+  LimitSettings settings;
+  settings.schedule.last = 3e-9;
+  bool attempts = false;  // with arc, after nearest did not balance
+  for (const double r : {0.5, 0.6, 0.7}) {
+    const Model m = make_model(chain({5.0, r, r}, {5.0, r, r}, 12.0), load, 0.0);
+    const LimitTask task{0.0, Sense::positive};
+    int calls = 0;
+    const Locked whole = limit_from_start(m, task, settings, 0, [&calls] { return ++calls > 0; });
+    ASSERT_EQ(whole.status, LockStatus::locked);
+    int recorded = 0;
+    for (const StageRecord& stage : whole.stages) recorded += stage.iterations;
+    attempts |= whole.iterations > recorded;
+    for (int stop = 0; stop < calls; ++stop) {
+      int left = stop;
+      EXPECT_EQ(limit_from_start(m, task, settings, 0, [&left] { return left-- > 0; }).status,
+                LockStatus::interrupted)
+          << "tubes of " << r << ", interrupted at call " << stop << " of " << calls;
+    }
+  }
+  EXPECT_TRUE(attempts);
+}
+
 }  // namespace
 }  // namespace hauberk::test

@@ -349,12 +349,12 @@ class Computation {
 
 }  // namespace
 
-std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& asked, double apart)
+std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart)
 {
-  std::vector<LimitTask> all = asked;
+  std::vector<LimitTask> all = tasks;
   if (apart <= 0.0) return all;
-  for (const LimitTask& task : asked) {
-    const bool lone = std::none_of(asked.begin(), asked.end(), [&](const LimitTask& o) {
+  for (const LimitTask& task : tasks) {
+    const bool lone = std::none_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
       const double to = std::abs(o.direction_deg - task.direction_deg);
       return o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
     });

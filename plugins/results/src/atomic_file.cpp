@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
-#include <ranges>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -125,7 +124,8 @@ void keep_previous(const fs::path& directory)
   const fs::path folder = previous_folder(directory);
   if (fs::exists(folder / results_file, error)) return;
   static_assert(result_names.front() == results_file);
-  for (const char* name : result_names | std::views::reverse) {
+  for (auto it = result_names.rbegin(); it != result_names.rend(); ++it) {
+    const char* name = *it;
     if (!fs::exists(directory / name, error)) continue;
     fs::create_directory(folder, error);
     if (error) cannot_write(folder, error.value());

@@ -251,8 +251,7 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
   for (std::size_t p = 0; p < paths; ++p) {
     // Rows and pictures have the same curves on every path: one that lacks some is left out.
     bool whole = done[p] != 0;
-    for (std::size_t i = 0; i < items.size(); ++i)
-      whole = whole && (items[i].path != p || done[paths + items[i].same_as] != 0);
+    for (const CurveItem& item : items) whole = whole && (item.path != p || done[paths + item.same_as] != 0);
     if (!whole) continue;
     TransitionPath& path = sampled[p];
     for (std::size_t i = 0; i < items.size(); ++i) {

@@ -52,12 +52,29 @@ double profile_radius(const Body& b)
   return b.is_tube() ? b.r0 : std::min(b.r0 * b.r0 / b.r1, b.r1 * b.r1 / b.r0);
 }
 
-/// Smallest relative radius of curvature between P's probe set and F along any line of the probe set.
+/// Half-width of the largest panels: the gap's second derivative, taken at the middle of a panel, may change
+/// over it. In parts of the smallest radius of curvature of either profile, on a core circle of both
+/// together.
 template <int dim>
-double relative_radius(const PairFrame& f)
+double widest_panel(const PairFrame& f)
 {
   const double rf = profile_radius(*f.F), rp = profile_radius(*f.P);
-  return dim == 1 ? rf + rp : rf * rp / (rf + rp);
+  return dim == 1 ? 0.3 * (rf + rp) : 0.25 * std::min(rf, rp);
+}
+
+/// Second derivatives of the gap along u and v.
+template <int dim>
+std::array<double, 2> second_derivatives(const Probe<dim>& probe, const Panel& s)
+{
+  const ProbePoint q = probe.at(s.u, s.v);
+  const FieldValue f = field_at(*probe.f.F, q.p);
+  const Body& P = *probe.f.P;
+  const double w = dim == 1 ? P.R : P.R + P.r0 * q.cv;
+  std::array<double, 2> out{field_hessian(f, q.pu, q.pu) - w * f.n.dot(q.radial), 0.0};
+  if constexpr (dim == 2) {
+    out[1] = field_hessian(f, q.pv, q.pv) - f.n.dot(P.r0 * q.cv * q.radial + P.r1 * q.sv * probe.f.e3);
+  }
+  return out;
 }
 
 /// A place on a line of integration: the gap less g_hat there, and its derivative.
@@ -134,7 +151,7 @@ class ArcIntegral {
         settings_(settings),
         request_(request),
         out_(out),
-        radius_(relative_radius<dim>(frame)),
+        widest_(widest_panel<dim>(frame)),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
                                   : surface_element / (2.0 * pi * reference_radius * settings.g_hat)))
   {
@@ -160,11 +177,18 @@ class ArcIntegral {
     out_.min_gap = std::min(out_.min_gap, g);
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
     if (g <= 0.0) return;  // min_gap tells
-    const double half = std::max(probe_.Lu * s.hu, probe_.Lv * s.hv);
-    if (half > settings_.panel_ratio * std::sqrt(2.0 * radius_ * std::min(g, 4.0 * settings_.g_hat)) &&
-        s.hu > smallest_panel) {
-      Panel first, second;
-      split(probe_, s, first, second);
+    const std::array<double, 2> size = sizes(s, std::min(g, 4.0 * settings_.g_hat));
+    if (std::max(size[0], size[1]) > 1.0 && std::max(s.hu, s.hv) > smallest_panel) {
+      Panel first = s, second = s;
+      if (size[0] >= size[1]) {
+        first.hu = second.hu = 0.5 * s.hu;
+        first.u -= first.hu;
+        second.u += second.hu;
+      } else {
+        first.hv = second.hv = 0.5 * s.hv;
+        first.v -= first.hv;
+        second.v += second.hv;
+      }
       visit(first);
       visit(second);
       return;
@@ -174,6 +198,19 @@ class ArcIntegral {
       integrate(s);
     else
       integrate_inside(s);
+  }
+
+  /// Half-widths of a panel over the largest that it may have. Along a line the gap is g + g' t + g'' t^2/2,
+  /// positive for all t, so that its complex roots, the singularities of the barrier, are sqrt(2 g/g'') away:
+  /// where surfaces conform (g'' small) panels are large.
+  std::array<double, 2> sizes(const Panel& s, double g) const
+  {
+    const std::array<double, 2> second = second_derivatives(probe_, s);
+    const auto size = [&](double half, double length, double curvature) {
+      return std::max(half * std::sqrt(std::max(curvature, 0.0) / (2.0 * g)) / settings_.panel_ratio,
+                      half * length / widest_);
+    };
+    return {size(s.hu, probe_.Lu, second[0]), dim == 2 ? size(s.hv, probe_.Lv, second[1]) : 0.0};
   }
 
   static constexpr int n = dim == 1 ? 7 : 5;
@@ -200,11 +237,12 @@ class ArcIntegral {
     } else {
       for (std::size_t i = 0; i < n; ++i) {
         const double u = s.u + s.hu * rule.x[i], w = weight_ * s.hu * rule.w[i];
+        const Angle at_u(u);
         inside_pieces([this, u](double v) { return line_point(u, v, true); }, s.v - s.hv, s.v + s.hv,
                       [&](double from, double to) {
                         const double middle = 0.5 * (from + to), half = 0.5 * std::abs(to - from);
                         for (std::size_t j = 0; j < n; ++j)
-                          node(u, middle + half * rule.x[j], w * half * rule.w[j]);
+                          node(at_u, Angle(middle + half * rule.x[j]), w * half * rule.w[j]);
                       });
       }
     }
@@ -213,19 +251,20 @@ class ArcIntegral {
   void integrate(const Panel& s)
   {
     const auto& rule = gauss_rule<n>();
+    std::array<Angle, n> at_v;
+    for (std::size_t j = 0; dim == 2 && j < n; ++j) at_v[j] = Angle(s.v + s.hv * rule.x[j]);
     for (std::size_t i = 0; i < n; ++i) {
-      const double u = s.u + s.hu * rule.x[i];
+      const Angle at_u(s.u + s.hu * rule.x[i]);
+      const double w = weight_ * s.hu * rule.w[i];
       if constexpr (dim == 1) {
-        node(u, 0.0, weight_ * s.hu * rule.w[i]);
+        node(at_u, {}, w);
       } else {
-        for (std::size_t j = 0; j < n; ++j) {
-          node(u, s.v + s.hv * rule.x[j], weight_ * s.hu * rule.w[i] * s.hv * rule.w[j]);
-        }
+        for (std::size_t j = 0; j < n; ++j) node(at_u, at_v[j], w * s.hv * rule.w[j]);
       }
     }
   }
 
-  void node(double u, double v, double w)
+  void node(const Angle& u, const Angle& v, double w)
   {
     const ProbePoint q = probe_.at(u, v);
     const FieldValue f = field_at(*frame_.F, q.p);
@@ -302,7 +341,7 @@ class ArcIntegral {
   const ContactSettings& settings_;
   const Request& request_;
   SideTerms& out_;
-  double radius_;
+  double widest_;
   double weight_;
   std::vector<ContactPoint> nodes_;
 };

@@ -2,29 +2,46 @@
 
 namespace hauberk {
 
+namespace {
+
+/// Steps shorter than this are the last: the error that is left is of their third order.
+constexpr double last_step = 2e-6;
+
+/// A first guess: exact for points on the ellipse, and to first order in their distance from it.
+void first_guess(double a, double b, double px, double py, double& c, double& s)
+{
+  const double qx = px / a, qy = py / b, q = std::sqrt(qx * qx + qy * qy);
+  if (!(q > 0.0)) {
+    c = b < a ? 0.0 : 1.0;
+    s = b < a ? 1.0 : 0.0;
+    return;
+  }
+  // The point is (c (a + d b), s (b + d a)), d its distance over the length w of the normal (b c, a s).
+  const double gx = b * qx / q, gy = a * qy / q;
+  const double d = std::max((q - 1.0) * a * b / (gx * gx + gy * gy), -0.5 * std::min(a / b, b / a));
+  c = px / (a + d * b);
+  s = py / (b + d * a);
+  const double n = std::sqrt(c * c + s * s);
+  c /= n;
+  s /= n;
+}
+
+}  // namespace
+
 MeridianDistance ellipse_distance(double a, double b, double x, double y)
 {
   const double px = std::abs(x);
   const double py = std::abs(y);
   const double e = a * a - b * b;
 
-  // Bracket [lo, hi] of the root as unit vectors; start from the direction that is exact for a circle and
-  // good for points far away.
+  // Bracket [lo, hi] of the root as unit vectors.
   double lc = 1.0, ls = 0.0, hc = 0.0, hs = 1.0;
-  double c = px * a, s = py * b;
-  {
-    const double q = std::hypot(c, s);
-    if (q > 0.0) {
-      c /= q;
-      s /= q;
-    } else {
-      c = b < a ? 0.0 : 1.0;
-      s = b < a ? 1.0 : 0.0;
-    }
-  }
+  double c = 1.0, s = 0.0;
+  first_guess(a, b, px, py, c, s);
   constexpr int limit = 60;
   for (int it = 0; it < limit; ++it) {
-    const double f = e * c * s - px * a * s + py * b * c;
+    const double bend = e * c * s;
+    const double f = bend - px * a * s + py * b * c;
     const double df = e * (c * c - s * s) - px * a * c - py * b * s;
     if (f > 0.0) {
       lc = c;
@@ -33,19 +50,27 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
       hc = c;
       hs = s;
     }
-    double step = df < 0.0 ? -f / df : 2.0;  // df < 0 at the closest point; 2 forces bisection
-    double nc = c - step * s, ns = s + step * c;
-    // Inside the bracket: left of hi and right of lo (cross products of unit vectors).
-    const bool inside = std::abs(step) < 1.0 && lc * ns - ls * nc >= 0.0 && nc * hs - ns * hc >= 0.0;
+    // Halley's step; df < 0 at the closest point, 2 forces bisection.
+    const double ddf = -f - 3.0 * bend, denominator = df * df - 0.5 * f * ddf;
+    const double step = df < 0.0 && denominator > 0.0 ? -f * df / denominator : 2.0;
+    bool inside = std::abs(step) < 1.0;
+    double nc = 0.0, ns = 0.0;
+    if (inside) {
+      // Turned by 2 atan(step/2), the step to third order, without a square root.
+      const double t = 0.5 * step, r = 1.0 / (1.0 + t * t), o = 1.0 - t * t;
+      nc = (o * c - step * s) * r;
+      ns = (o * s + step * c) * r;
+      // Left of hi and right of lo (cross products of unit vectors).
+      inside = lc * ns - ls * nc >= 0.0 && nc * hs - ns * hc >= 0.0;
+    }
     if (!inside) {
       nc = lc + hc;
       ns = ls + hs;
-      step = 1.0;
+      const double q = std::sqrt(nc * nc + ns * ns);
+      nc /= q;
+      ns /= q;
     }
-    const double q = std::sqrt(nc * nc + ns * ns);
-    nc /= q;
-    ns /= q;
-    const bool done = std::abs(nc - c) + std::abs(ns - s) < 4e-16 || (inside && std::abs(step) < 1e-9);
+    const bool done = inside ? std::abs(step) < last_step : std::abs(nc - c) + std::abs(ns - s) < 4e-16;
     c = nc;
     s = ns;
     if (done) break;
@@ -55,12 +80,11 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
   d.c = x < 0.0 ? -c : c;
   d.s = y < 0.0 ? -s : s;
   const double gx = d.c * b, gy = d.s * a;  // outward normal direction (c/a, s/b) times ab
-  const double g = std::sqrt(gx * gx + gy * gy);
+  const double w = gx * gx + gy * gy, g = std::sqrt(w);
   d.nr = gx / g;
   d.nz = gy / g;
   d.phi = (x - a * d.c) * d.nr + (y - b * d.s) * d.nz;
-  const double w = a * a * d.s * d.s + b * b * d.c * d.c;
-  const double kappa = a * b / (w * std::sqrt(w));
+  const double kappa = a * b / (w * g);
   d.k = kappa / (1.0 + kappa * d.phi);
   return d;
 }

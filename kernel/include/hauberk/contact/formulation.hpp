@@ -45,8 +45,8 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
                  SideTerms& out);
 
 /// Integral of the barrier over P (its core circle when P is a tube, else its surface), weight `share`.
-/// Panels are halved until their length is at most about half of sqrt(2 r g), where r is the smallest
-/// relative radius of curvature: the distance to the nearest complex singularity of the integrand.
+/// Panels are halved until their half-widths are at most about half of sqrt(2 g/g''), the distance to the
+/// nearest complex singularity of the integrand, with the gap g and its second derivative along u and v.
 template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
              SideTerms& out);

@@ -3,7 +3,7 @@
 ///
 /// The closest point of a surface of revolution lies in the meridian plane of the query point, so the
 /// three-dimensional search collapses to a distance between a point and a plane curve: a circle (closed
-/// form) or an ellipse (one safeguarded Newton iteration in one angle).
+/// form) or an ellipse (one safeguarded iteration in one angle).
 
 #include <hauberk/geometry/body.hpp>
 
@@ -24,7 +24,7 @@ struct MeridianDistance {
 ///
 /// In the first quadrant the closest point is the root of
 ///   f(v) = (a^2 - b^2) cos v sin v - x a sin v + y b cos v,
-/// with f(0) >= 0 >= f(pi/2); Newton's method on the unit vector (cos v, sin v), bracketed. No allocation,
+/// with f(0) >= 0 >= f(pi/2); Halley's method on the unit vector (cos v, sin v), bracketed. No allocation,
 /// thread safe. For points inside, `phi` is negative and exact as long as the point is closer to the curve
 /// than to its medial axis.
 MeridianDistance ellipse_distance(double a, double b, double x, double y);

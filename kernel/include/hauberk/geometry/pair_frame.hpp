@@ -29,6 +29,14 @@ struct ProbePoint {
   double cv = 0.0, sv = 0.0;
 };
 
+/// An angle by its cosine and sine.
+struct Angle {
+  double c = 1.0, s = 0.0;
+
+  Angle() = default;
+  explicit Angle(double radians) : c(std::cos(radians)), s(std::sin(radians)) {}
+};
+
 /// Probe set of dimension 1 (core circle of a tube) or 2 (surface).
 template <int dim>
 struct Probe {
@@ -37,7 +45,8 @@ struct Probe {
   double offset;       ///< gap = field - offset - clearance
 
   explicit Probe(const PairFrame& frame);
-  ProbePoint at(double u, double v) const;
+  ProbePoint at(const Angle& u, const Angle& v) const;
+  ProbePoint at(double u, double v) const { return at(Angle(u), dim == 1 ? Angle() : Angle(v)); }
 };
 
 template <int dim>
@@ -57,20 +66,19 @@ Probe<dim>::Probe(const PairFrame& frame) : f(frame)
 }
 
 template <int dim>
-ProbePoint Probe<dim>::at(double u, double v) const
+ProbePoint Probe<dim>::at(const Angle& u, const Angle& v) const
 {
   const Body& b = *f.P;
   ProbePoint q;
-  const double cu = std::cos(u), su = std::sin(u);
-  q.radial = cu * f.e1 + su * f.e2;
-  const Vec3 tangent = -su * f.e1 + cu * f.e2;
+  q.radial = u.c * f.e1 + u.s * f.e2;
+  const Vec3 tangent = -u.s * f.e1 + u.c * f.e2;
   if constexpr (dim == 1) {
     q.p = f.a + b.R * q.radial;
     q.pu = b.R * tangent;
     q.pv.setZero();
   } else {
-    q.cv = std::cos(v);
-    q.sv = std::sin(v);
+    q.cv = v.c;
+    q.sv = v.s;
     const double w = b.R + b.r0 * q.cv;
     q.p = f.a + w * q.radial + b.r1 * q.sv * f.e3;
     q.pu = w * tangent;

@@ -46,35 +46,24 @@ const GaussRule<n>& gauss_rule()
   return rule;
 }
 
-/// Smallest radius of curvature of the profile.
-double profile_radius(const Body& b)
-{
-  return b.is_tube() ? b.r0 : std::min(b.r0 * b.r0 / b.r1, b.r1 * b.r1 / b.r0);
-}
+/// Half-width of the largest panels in each probe coordinate, radians.
+constexpr double widest_panel = 0.3;
 
-/// Half-width of the largest panels: the gap's second derivative, taken at the middle of a panel, may change
-/// over it. In parts of the smallest radius of curvature of either profile, on a core circle of both
-/// together.
-template <int dim>
-double widest_panel(const PairFrame& f)
+/// A length over which the curvature of F's field changes little at a place with the distance phi: a part of
+/// the radius of curvature of the level surface, and of the arc of F's profile over which that changes, both
+/// seen from where the place is. With w = a^2 sin^2 v + b^2 cos^2 v the curvature a b/w^(3/2) of an ellipse
+/// changes over the arc w/sqrt|a^2 - b^2|: its smallest radius at a sharp end, its length along a flat side.
+double level_length(const Body& F, const FieldValue& f)
 {
-  const double rf = profile_radius(*f.F), rp = profile_radius(*f.P);
-  return dim == 1 ? 0.3 * (rf + rp) : 0.25 * std::min(rf, rp);
-}
-
-/// Second derivatives of the gap along u and v.
-template <int dim>
-std::array<double, 2> second_derivatives(const Probe<dim>& probe, const Panel& s)
-{
-  const ProbePoint q = probe.at(s.u, s.v);
-  const FieldValue f = field_at(*probe.f.F, q.p);
-  const Body& P = *probe.f.P;
-  const double w = dim == 1 ? P.R : P.R + P.r0 * q.cv;
-  std::array<double, 2> out{field_hessian(f, q.pu, q.pu) - w * f.n.dot(q.radial), 0.0};
-  if constexpr (dim == 2) {
-    out[1] = field_hessian(f, q.pv, q.pv) - f.n.dot(P.r0 * q.cv * q.radial + P.r1 * q.sv * probe.f.e3);
+  const double radius = 1.0 / std::max(f.m.k, 1e-300);
+  double length = std::min(0.35 * radius, 0.35 * f.rho);
+  if (!F.is_tube()) {
+    const double a = F.r0 * f.m.s, b = F.r1 * f.m.c, w = a * a + b * b;
+    const double eccentric = std::sqrt(std::abs(F.r0 * F.r0 - F.r1 * F.r1));
+    const double closer = f.m.k * f.m.phi < 0.5 ? 1.0 / (1.0 - f.m.k * f.m.phi) : 2.0;  // 1 + kappa phi
+    length = std::min(length, 0.25 * closer * w / std::max(eccentric, 1e-300));
   }
-  return out;
+  return length;
 }
 
 /// A place on a line of integration: the gap less g_hat there, and its derivative.
@@ -151,7 +140,6 @@ class ArcIntegral {
         settings_(settings),
         request_(request),
         out_(out),
-        widest_(widest_panel<dim>(frame)),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
                                   : surface_element / (2.0 * pi * reference_radius * settings.g_hat)))
   {
@@ -205,15 +193,22 @@ class ArcIntegral {
   /// where surfaces conform (g'' small) panels are large.
   std::array<double, 2> sizes(const Panel& s, double g) const
   {
-    const std::array<double, 2> second = second_derivatives(probe_, s);
-    const auto size = [&](double half, double length, double curvature) {
-      return std::max(half * std::sqrt(std::max(curvature, 0.0) / (2.0 * g)) / settings_.panel_ratio,
-                      half * length / widest_);
+    const ProbePoint q = probe_.at(s.u, s.v);
+    const FieldValue f = field_at(*frame_.F, q.p);
+    const Body& P = *frame_.P;
+    const double level = level_length(*frame_.F, f);
+    const auto size = [&](double half, const Vec3& along, double own) {
+      const double second = std::max(0.0, field_hessian(f, along, along) + own);
+      return half * std::max({std::sqrt(second / (2.0 * g)) / settings_.panel_ratio, along.norm() / level,
+                              1.0 / widest_panel});
     };
-    return {size(s.hu, probe_.Lu, second[0]), dim == 2 ? size(s.hv, probe_.Lv, second[1]) : 0.0};
+    const double nr = f.n.dot(q.radial);
+    if constexpr (dim == 1) return {size(s.hu, q.pu, -P.R * nr), 0.0};
+    return {size(s.hu, q.pu, -(P.R + P.r0 * q.cv) * nr),
+            size(s.hv, q.pv, -P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(frame_.e3))};
   }
 
-  static constexpr int n = dim == 1 ? 7 : 5;
+  static constexpr int n = dim == 1 ? 9 : 7;
 
   LinePoint line_point(double u, double v, bool along_v)
   {
@@ -341,7 +336,6 @@ class ArcIntegral {
   const ContactSettings& settings_;
   const Request& request_;
   SideTerms& out_;
-  double widest_;
   double weight_;
   std::vector<ContactPoint> nodes_;
 };

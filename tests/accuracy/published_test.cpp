@@ -30,6 +30,7 @@ TEST(PublishedLimits, StagedChainsLockAtTheExactPeriod)
     const double exact = 2.0 * (a[0] + b[0] - a[1] - b[1]) / scene.lattice[0].x();
     LimitSettings settings = published_settings();
     settings.schedule.last = last;
+    settings.starts = 8;  // the fade holds up to four of sixteen starts before they balance
     const LimitResult r = limit(scene, 0.0, Sense::positive, settings);
     ASSERT_EQ(r.status, LimitStatus::locked) << r.message;
     EXPECT_EQ(r.contact, "published");

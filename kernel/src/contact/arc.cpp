@@ -47,7 +47,7 @@ const GaussRule<n>& gauss_rule()
 }
 
 /// Half-width of the largest panels in each probe coordinate, radians.
-constexpr double widest_panel = 0.3;
+constexpr double widest_panel = 0.15;
 
 /// A length over which the curvature of F's field changes little at a place with the distance phi: a part of
 /// the radius of curvature of the level surface, and of the arc of F's profile over which that changes, both
@@ -56,12 +56,12 @@ constexpr double widest_panel = 0.3;
 double level_length(const Body& F, const FieldValue& f)
 {
   const double radius = 1.0 / std::max(f.m.k, 1e-300);
-  double length = std::min(0.35 * radius, 0.35 * f.rho);
+  double length = std::min(0.2 * radius, 0.2 * f.rho);
   if (!F.is_tube()) {
     const double a = F.r0 * f.m.s, b = F.r1 * f.m.c, w = a * a + b * b;
     const double eccentric = std::sqrt(std::abs(F.r0 * F.r0 - F.r1 * F.r1));
     const double closer = f.m.k * f.m.phi < 0.5 ? 1.0 / (1.0 - f.m.k * f.m.phi) : 2.0;  // 1 + kappa phi
-    length = std::min(length, 0.25 * closer * w / std::max(eccentric, 1e-300));
+    length = std::min(length, 0.15 * closer * w / std::max(eccentric, 1e-300));
   }
   return length;
 }

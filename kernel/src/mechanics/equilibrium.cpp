@@ -141,6 +141,8 @@ class Newton {
         ++rejected;
         radius = 0.25 * std::min(radius, std::max(alpha, 1e-3) * length);
         if (radius < smallest_radius) {
+          // Nothing above rounding is gained at any length: the balance of forces judges what this is.
+          if (tiny && next.admissible) return finish(now, StageStatus::minimum, "");
           return finish(
               now, StageStatus::stalled,
               fmt::format("no step lowers the energy: predicted {:.1e}, found {:.1e}, smallest gap {:.1e} L",

@@ -56,7 +56,7 @@ constexpr double widest_panel = 0.15;
 double level_length(const Body& F, const FieldValue& f)
 {
   const double radius = 1.0 / std::max(f.m.k, 1e-300);
-  double length = std::min(0.2 * radius, 0.2 * f.rho);
+  double length = 0.2 * radius;
   if (!F.is_tube()) {
     const double a = F.r0 * f.m.s, b = F.r1 * f.m.c, w = a * a + b * b;
     const double eccentric = std::sqrt(std::abs(F.r0 * F.r0 - F.r1 * F.r1));

@@ -49,7 +49,7 @@ const GaussRule<n>& gauss_rule()
 /// Half-width of the largest panels in each probe coordinate, radians.
 constexpr double widest_panel = 0.15;
 
-/// A length over which the curvature of F's field changes little at a place with the distance phi: a part of
+/// A length over which the curvature of F's field changes little at the place of `f`: a part of
 /// the radius of curvature of the level surface, and of the arc of F's profile over which that changes, both
 /// seen from where the place is. With w = a^2 sin^2 v + b^2 cos^2 v the curvature a b/w^(3/2) of an ellipse
 /// changes over the arc w/sqrt|a^2 - b^2|: its smallest radius at a sharp end, its length along a flat side.
@@ -159,26 +159,17 @@ class ArcIntegral {
  private:
   void visit(const Panel& s)
   {
-    const PanelBound b = panel_bound(probe_, s, settings_.g_hat + probe_.offset + settings_.clearance);
+    const ProbePoint q = probe_.at(s.u, s.v);
+    const FieldValue f = field_at(*frame_.F, q.p);
+    const PanelBound b = panel_bound(probe_, s, q, f, settings_.g_hat + probe_.offset + settings_.clearance);
     ++out_.evaluations;
     const double g = b.value - probe_.offset - settings_.clearance;
     out_.min_gap = std::min(out_.min_gap, g);
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
     if (g <= 0.0) return;  // min_gap tells
-    const std::array<double, 2> size = sizes(s, std::min(g, 4.0 * settings_.g_hat));
+    const std::array<double, 2> size = sizes(s, q, f, std::min(g, 4.0 * settings_.g_hat));
     if (std::max(size[0], size[1]) > 1.0 && std::max(s.hu, s.hv) > smallest_panel) {
-      Panel first = s, second = s;
-      if (size[0] >= size[1]) {
-        first.hu = second.hu = 0.5 * s.hu;
-        first.u -= first.hu;
-        second.u += second.hu;
-      } else {
-        first.hv = second.hv = 0.5 * s.hv;
-        first.v -= first.hv;
-        second.v += second.hv;
-      }
-      visit(first);
-      visit(second);
+      for (const Panel& half : halves(s, size[0] >= size[1])) visit(half);
       return;
     }
     // A gap changes by no more than the distance moved.
@@ -191,21 +182,15 @@ class ArcIntegral {
   /// Half-widths of a panel over the largest that it may have. Along a line the gap is g + g' t + g'' t^2/2,
   /// positive for all t, so that its complex roots, the singularities of the barrier, are sqrt(2 g/g'') away:
   /// where surfaces conform (g'' small) panels are large.
-  std::array<double, 2> sizes(const Panel& s, double g) const
+  std::array<double, 2> sizes(const Panel& s, const ProbePoint& q, const FieldValue& f, double g) const
   {
-    const ProbePoint q = probe_.at(s.u, s.v);
-    const FieldValue f = field_at(*frame_.F, q.p);
-    const Body& P = *frame_.P;
+    const SurfaceHessian h = surface_hessian(probe_, q, f);
     const double level = level_length(*frame_.F, f);
-    const auto size = [&](double half, const Vec3& along, double own) {
-      const double second = std::max(0.0, field_hessian(f, along, along) + own);
-      return half * std::max({std::sqrt(second / (2.0 * g)) / settings_.panel_ratio, along.norm() / level,
-                              1.0 / widest_panel});
+    const auto size = [&](double half, const Vec3& along, double second) {
+      return half * std::max({std::sqrt(std::max(second, 0.0) / (2.0 * g)) / settings_.panel_ratio,
+                              along.norm() / level, 1.0 / widest_panel});
     };
-    const double nr = f.n.dot(q.radial);
-    if constexpr (dim == 1) return {size(s.hu, q.pu, -P.R * nr), 0.0};
-    return {size(s.hu, q.pu, -(P.R + P.r0 * q.cv) * nr),
-            size(s.hv, q.pv, -P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(frame_.e3))};
+    return {size(s.hu, q.pu, h.uu), dim == 2 ? size(s.hv, q.pv, h.vv) : 0.0};
   }
 
   static constexpr int n = dim == 1 ? 9 : 7;

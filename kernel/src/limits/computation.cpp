@@ -26,6 +26,7 @@ struct TaskState {
   std::vector<Attempt> starts;
   std::vector<FoundState> further;  ///< by tilts, and from other limits
   std::string error;                ///< of those
+  std::string remark;               ///< a lesson that threw
   double seconds = 0.0;             ///< of those, and of what led nowhere
   int iterations = 0;               ///< of what led nowhere
   long evaluations = 0;             ///< the same
@@ -222,6 +223,8 @@ class Computation {
     if (!error.empty()) {
       result.status = LimitStatus::failed;
       result.message = error;
+    } else if (!t.remark.empty()) {
+      result.message += (result.message.empty() ? "" : "; ") + t.remark;
     }
     return result;
   }
@@ -240,8 +243,8 @@ class Computation {
     return task.sense == Sense::positive ? v : -v;
   }
 
-  /// Locked state of a task from where another one's best state is; null: there is none, or it threw, and
-  /// what was known before stands.
+  /// Locked state of a task from where another one's best state is; null: there is none, or it threw, which
+  /// the task remarks, and what was known before stands.
   std::optional<FoundState> taught(std::size_t task, std::size_t donor)
   {
     const std::vector<FoundState> states = found_of(donor);
@@ -255,8 +258,10 @@ class Computation {
                        fmt::format("{}{} degrees, {}", learnt_origin, results_[donor].direction_deg,
                                    results_[donor].sense),
                        states[*best].seed};
-    } catch (const std::exception&) {
-      out.reset();
+    } catch (const std::exception& failure) {
+      states_[task].remark =
+          fmt::format("from the state at {} degrees, {}: {}", results_[donor].direction_deg,
+                      results_[donor].sense, failure.what());
     }
     states_[task].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     return out;
@@ -309,9 +314,8 @@ class Computation {
         return;
       }
       for (std::size_t i = 0; i < lessons.size(); ++i) {
-        if (!found[i]) continue;
         const std::size_t task = lessons[i].learner;
-        states_[task].further.push_back(std::move(*found[i]));
+        if (found[i]) states_[task].further.push_back(std::move(*found[i]));
         results_[task] = result_of(task);
       }
     }

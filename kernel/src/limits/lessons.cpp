@@ -1,6 +1,7 @@
 #include <hauberk/limits/lessons.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace hauberk {
 

@@ -172,7 +172,6 @@ class Newton {
     result_.message = std::move(message);
     result_.energy = e.energy;
     result_.residual = e.admissible ? dual_norm(e.gradient) / load_norm_ : 0.0;
-    result_.regularity = e.contact.regularity;
     return result_;
   }
 

@@ -83,13 +83,10 @@ class Path {
     const State before = out_.state;
     Formulation f = formulation(g_hat);
     StageResult r = attempt(before, g_hat, last, f);
-    if (r.status == StageStatus::merging) {
-      f = Formulation::arc;
-      r = attempt(before, g_hat, last, f);
-    }
     if (choice_ == ContactChoice::automatic && f == Formulation::nearest &&
-        (r.status == StageStatus::stalled || r.status == StageStatus::iteration_limit)) {
-      arc_to_the_end_ = true;
+        (r.status == StageStatus::merging || r.status == StageStatus::stalled ||
+         r.status == StageStatus::iteration_limit)) {
+      arc_to_the_end_ = r.status != StageStatus::merging;
       f = Formulation::arc;
       r = attempt(before, g_hat, last, f);
     }

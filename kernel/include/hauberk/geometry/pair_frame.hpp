@@ -8,6 +8,8 @@
 
 #include <hauberk/geometry/meridian.hpp>
 
+#include <array>
+
 namespace hauberk {
 
 /// Geometry of body P relative to the frame of body F (F's axis is e_z, its centre the origin).
@@ -92,20 +94,29 @@ struct Panel {
   double u = 0.0, v = 0.0, hu = 0.0, hv = 0.0;
 };
 
+/// The halves of a panel.
+inline std::array<Panel, 2> halves(const Panel& s, bool along_u)
+{
+  std::array<Panel, 2> out{s, s};
+  if (along_u) {
+    out[0].hu = out[1].hu = 0.5 * s.hu;
+    out[0].u = s.u - out[0].hu;
+    out[1].u = s.u + out[0].hu;
+  } else {
+    out[0].hv = out[1].hv = 0.5 * s.hv;
+    out[0].v = s.v - out[0].hv;
+    out[1].v = s.v + out[0].hv;
+  }
+  return out;
+}
+
 /// Splits the longer side of a panel in two.
 template <int dim>
 inline void split(const Probe<dim>& probe, const Panel& s, Panel& first, Panel& second)
 {
-  first = second = s;
-  if (dim == 1 || probe.Lu * s.hu >= probe.Lv * s.hv) {
-    first.hu = second.hu = 0.5 * s.hu;
-    first.u = s.u - first.hu;
-    second.u = s.u + first.hu;
-  } else {
-    first.hv = second.hv = 0.5 * s.hv;
-    first.v = s.v - first.hv;
-    second.v = s.v + first.hv;
-  }
+  const std::array<Panel, 2> half = halves(s, dim == 1 || probe.Lu * s.hu >= probe.Lv * s.hv);
+  first = half[0];
+  second = half[1];
 }
 
 /// True if P is probed along its core circle.

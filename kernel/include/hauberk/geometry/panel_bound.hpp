@@ -107,6 +107,26 @@ inline double field_hessian(const FieldValue& f, const Vec3& x, const Vec3& y)
   return f.m.k * f.meridian.dot(x) * f.meridian.dot(y) + f.k_azimuth * f.azimuth.dot(x) * f.azimuth.dot(y);
 }
 
+/// Second derivatives of the field along the probe set, D^2 phi[p_i, p_j] + n . p_ij; only uu in dimension 1.
+struct SurfaceHessian {
+  double uu = 0.0, uv = 0.0, vv = 0.0;
+};
+
+template <int dim>
+SurfaceHessian surface_hessian(const Probe<dim>& probe, const ProbePoint& q, const FieldValue& f)
+{
+  const Body& P = *probe.f.P;
+  const double nr = f.n.dot(q.radial);
+  if constexpr (dim == 1) {
+    return {field_hessian(f, q.pu, q.pu) - P.R * nr};
+  } else {
+    const double w = P.R + P.r0 * q.cv;
+    return {field_hessian(f, q.pu, q.pu) - w * nr,
+            field_hessian(f, q.pu, q.pv) - P.r0 * q.sv / w * f.n.dot(q.pu),
+            field_hessian(f, q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3)};
+  }
+}
+
 /// Terms of first and second order over a panel: phi >= phi_mid - slope + form/2 - (third order).
 struct PanelTerms {
   double slope;  ///< |phi_u| hu + |phi_v| hv
@@ -116,18 +136,10 @@ struct PanelTerms {
 template <int dim>
 PanelTerms panel_terms(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f)
 {
-  const Body& P = *probe.f.P;
-  const double nr = f.n.dot(q.radial), gu = f.n.dot(q.pu);
-  if constexpr (dim == 1) {
-    const double uu = field_hessian(f, q.pu, q.pu) - P.R * nr;
-    return {std::abs(gu) * s.hu, std::min(0.0, uu) * s.hu * s.hu};
-  } else {
-    const double w = P.R + P.r0 * q.cv;
-    const double uu = field_hessian(f, q.pu, q.pu) - w * nr;
-    const double vv = field_hessian(f, q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3);
-    const double uv = field_hessian(f, q.pu, q.pv) - P.r0 * q.sv / w * gu;
-    return {std::abs(gu) * s.hu + std::abs(f.n.dot(q.pv)) * s.hv, least_of_form(uu, uv, vv, s.hu, s.hv)};
-  }
+  const SurfaceHessian h = surface_hessian(probe, q, f);
+  const double slope = std::abs(f.n.dot(q.pu)) * s.hu;
+  if constexpr (dim == 1) return {slope, std::min(0.0, h.uu) * s.hu * s.hu};
+  return {slope + std::abs(f.n.dot(q.pv)) * s.hv, least_of_form(h.uu, h.uv, h.vv, s.hu, s.hv)};
 }
 
 /// A sixth of the largest third derivative of the field along a path with these bounds of its derivatives.
@@ -154,12 +166,12 @@ struct PanelBound {
   double bound = 0.0;  ///< phi over the panel is not smaller
 };
 
-/// Lower bound of the field over a panel. The dearer of the two is only tried where it can reach `needed`.
+/// Lower bound of the field over a panel, from the field `f` at its centre `q`. The dearer of the two is only
+/// tried where it can reach `needed`.
 template <int dim>
-PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, double needed)
+PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
+                       double needed)
 {
-  const ProbePoint q = probe.at(s.u, s.v);
-  const FieldValue f = field_at(*probe.f.F, q.p);
   const double gu = f.n.dot(q.pu), gv = dim == 2 ? f.n.dot(q.pv) : 0.0;
   PanelBound r{f.m.phi, taylor_bound(probe, s, f.m.phi, f.rho, gu, gv)};
   if (r.bound >= needed || f.m.phi - std::abs(gu) * s.hu - std::abs(gv) * s.hv < needed) return r;
@@ -167,6 +179,13 @@ PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, double needed)
   if (field.third < std::numeric_limits<double>::infinity())
     r.bound = std::max(r.bound, curved_bound(probe, s, q, f, field));
   return r;
+}
+
+template <int dim>
+PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, double needed)
+{
+  const ProbePoint q = probe.at(s.u, s.v);
+  return panel_bound(probe, s, q, field_at(*probe.f.F, q.p), needed);
 }
 
 }  // namespace hauberk

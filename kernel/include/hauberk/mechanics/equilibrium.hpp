@@ -38,7 +38,6 @@ struct StageResult {
   double residual = 0.0;        ///< norm of dE/dy over the norm of the load, in the dual of the step norm
   double lowest_curvature = 0;  ///< smallest eigenvalue of the Hessian in the step norm, when it was needed
   int escapes = 0;              ///< saddles left along a direction of negative curvature
-  double regularity = 0.0;      ///< smallest relative curvature over the contacts (nearest)
 };
 
 /// Called between iterations; returns false to interrupt. Must be thread safe.

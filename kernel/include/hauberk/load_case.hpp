@@ -32,16 +32,26 @@ struct PositionMap {
   bool curved = false;
 };
 
+/// A part of a linear condition on element coordinates.
+struct LinearTerm {
+  int element;
+  int coordinate;
+  double coefficient;
+};
+
 /// coefficient . element coordinates + offset >= 0, a contact with a wall (scaled length).
 struct LinearInequality {
+  using Term = LinearTerm;
   std::string name;
-  struct Term {
-    int element;
-    int coordinate;
-    double coefficient;
-  };
-  std::vector<Term> terms;
+  std::vector<LinearTerm> terms;
   double offset = 0.0;
+};
+
+/// coefficient . element coordinates = 0: holds what would otherwise drift, like the place of a patch. It
+/// holds at rest, and its reaction is no contact force.
+struct LinearEquality {
+  std::string name;
+  std::vector<LinearTerm> terms;
 };
 
 /// Whether contact can stop the load, decided from the link graph alone.
@@ -102,11 +112,16 @@ class LoadCase {
   /// Names of the senses in experiment files, positive first: {"stretch", "compress"}.
   std::pair<std::string, std::string> sense_names() const { return do_sense_names(); }
 
-  /// Weights of a frame-independent norm of the macro unknowns (1, 1, 2 for exx, eyy, exy).
+  /// Weights of a frame-independent norm of the macro unknowns (1, 1, 2 for exx, eyy, exy). The kernel
+  /// multiplies them by the squared displacement that a unit of such an unknown gives to elements: |X|^2 for
+  /// a strain, |X|^4 for a curvature.
   void metric(std::span<double> m) const { do_metric(m); }
 
   /// Walls that act on element coordinates, for elements with rest positions X.
   std::vector<LinearInequality> inequalities(std::span<const Vec3> X) const { return do_inequalities(X); }
+
+  /// Conditions that every motion keeps, for elements with rest positions X; linearly independent.
+  std::vector<LinearEquality> equalities(std::span<const Vec3> X) const { return do_equalities(X); }
 
   /// Whether links alone bound the load; `cycles` are rest translations of independent link cycles.
   Boundedness boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const
@@ -139,6 +154,7 @@ class LoadCase {
   virtual std::pair<std::string, std::string> do_sense_names() const = 0;
   virtual void do_metric(std::span<double> m) const = 0;
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
+  virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
   virtual Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const = 0;
 };
 

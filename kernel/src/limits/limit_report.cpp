@@ -67,7 +67,7 @@ double energy_imbalance(const Model& m, const Vector& load, const ContactEnergy&
 {
   Vector rest = mu * e.gradient;
   rest.head(m.macro_count) -= load;
-  return rest.cwiseAbs().maxCoeff();
+  return free_part(m, rest).cwiseAbs().maxCoeff();
 }
 
 /// Largest component by which the gradient of arc's energy changes with panels half as long, whose quadrature
@@ -80,16 +80,18 @@ double quadrature_error(const Model& m, const Locked& l, const ContactEnergy& e)
   Request request;
   request.order = 1;
   const ContactEnergy better = contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), finer, request);
-  return l.stage.mu * (better.gradient - e.gradient).cwiseAbs().maxCoeff();
+  return l.stage.mu * free_part(m, better.gradient - e.gradient).cwiseAbs().maxCoeff();
 }
 
-/// Poses in file units; their mean position is that of the rest state.
+/// Poses in file units; where a translation is free, their mean position is that of the rest state.
 std::vector<Pose> reported_poses(const Model& m, const State& s, Vec3& shift)
 {
   std::vector<Pose> p = poses(m, s);
   shift = Vec3::Zero();
-  for (std::size_t i = 0; i < p.size(); ++i) shift += m.rest[i].position - p[i].position;
-  shift /= static_cast<double>(p.size());
+  if (m.load->periodic()) {
+    for (std::size_t i = 0; i < p.size(); ++i) shift += m.rest[i].position - p[i].position;
+    shift /= static_cast<double>(p.size());
+  }
   for (Pose& q : p) q.position = (q.position + shift) * m.length;
   return p;
 }
@@ -158,7 +160,7 @@ double force_imbalance(const Model& m, const State& s, const Vector& load,
     push(m.bodies[static_cast<std::size_t>(p.a)].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
     push(m.bodies[static_cast<std::size_t>(p.b)].element, p.image, p.contact.on_f, f * p.contact.normal);
   }
-  return rest.cwiseAbs().maxCoeff();
+  return free_part(m, rest).cwiseAbs().maxCoeff();
 }
 
 LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task,

@@ -88,9 +88,9 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
   return r;
 }
 
-std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,
-                                   const std::string& negative)
+std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load)
 {
+  const auto [positive, negative] = load.sense_names();
   std::vector<ProfilePoint> out;
   const auto at = [&out](double direction) -> ProfilePoint& {
     for (ProfilePoint& p : out) {
@@ -107,8 +107,9 @@ std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const
     if (l.sense == positive) at(l.direction_deg).e_s = l.value;
     if (l.sense == negative) at(l.direction_deg).e_c = l.value;
   }
+  const bool strain = load.value_length_power() == 0;
   for (ProfilePoint& p : out) {
-    if (p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);
+    if (strain && p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);
   }
   return out;
 }

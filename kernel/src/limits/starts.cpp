@@ -50,6 +50,7 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
       dy.segment(m.offset(i), m.coordinate_count) = size * u.head(m.coordinate_count);
       dy.segment<3>(m.offset(i) + m.coordinate_count) = size * w;
     }
+    dy = free_part(m, dy);
     const SafeStep safe = largest_safe_step(m, s, dy, 0.3);
     s = advanced(m, s, dy, safe.alpha);
   }

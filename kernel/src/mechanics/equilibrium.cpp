@@ -310,6 +310,15 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
     t.energy += s.macro.squaredNorm() / (2.0 * stage.target);
     if (order >= 2) t.hessian.diagonal().head(m.macro_count).array() += 1.0 / stage.target;
   }
+  if (m.held.cols() > 0) {
+    // Held directions become directions without force, and stiff ones, so that rounding moves nothing there.
+    if (order >= 1) t.gradient = free_part(m, t.gradient);
+    if (order >= 2) {
+      t.hessian -= m.held * (m.held.transpose() * t.hessian).eval();
+      t.hessian -= (t.hessian * m.held).eval() * m.held.transpose();
+      t.hessian += std::max(1.0, t.hessian.diagonal().maxCoeff()) * m.held * m.held.transpose();
+    }
+  }
   return t;
 }
 

@@ -10,13 +10,18 @@
 namespace hauberk {
 namespace {
 
-/// Mean squared arm of the macroscopic unknowns: how far a unit of strain moves elements against each other.
-double squared_arm(const Model& m)
+/// Mean squared displacement of elements against each other for a unit of a macroscopic unknown: |X|^2 for a
+/// strain, |X|^4 for a curvature.
+double squared_displacement(const Model& m, const MacroInfo& macro)
 {
+  const double half_power = 1.0 - macro.length_power;
+  const auto of = [half_power](const Vec3& X) { return std::pow(X.squaredNorm(), half_power); };
   double sum = 0.0;
-  for (const Vec3& t : m.lattice) sum += t.squaredNorm();
-  if (!m.lattice.empty()) return std::max(1.0, sum / static_cast<double>(4 * m.lattice.size()));
-  for (const Pose& p : m.rest) sum += p.position.squaredNorm();
+  if (!m.lattice.empty()) {
+    for (const Vec3& t : m.lattice) sum += of(0.5 * t);
+    return std::max(1.0, sum / static_cast<double>(m.lattice.size()));
+  }
+  for (const Pose& p : m.rest) sum += of(p.position);
   return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, m.rest.size())));
 }
 
@@ -71,12 +76,32 @@ void set_metric(Model& m)
   m.metric = Vector::Ones(m.dofs());
   std::vector<double> weights(static_cast<std::size_t>(m.macro_count));
   m.load->metric(weights);
-  const double arm = squared_arm(m);
-  for (int k = 0; k < m.macro_count; ++k) m.metric[k] = arm * weights[static_cast<std::size_t>(k)];
+  for (int k = 0; k < m.macro_count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    m.metric[k] = squared_displacement(m, m.load->macros()[i]) * weights[i];
+  }
   for (int i = 0; i < m.element_count(); ++i) {
     const double r = m.reach[static_cast<std::size_t>(i)];
     m.metric.segment<3>(m.offset(i) + m.coordinate_count).setConstant(r * r);
   }
+}
+
+/// Orthonormal columns that span the equalities' coefficients.
+Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equalities)
+{
+  Matrix rows = Matrix::Zero(m.dofs(), static_cast<int>(equalities.size()));
+  for (int k = 0; k < rows.cols(); ++k) {
+    for (const LinearTerm& t : equalities[static_cast<std::size_t>(k)].terms)
+      rows(m.offset(t.element) + t.coordinate, k) += t.coefficient;
+  }
+  if (rows.cols() == 0) return rows;
+  const Eigen::ColPivHouseholderQR<Matrix> qr(rows);
+  if (qr.rank() < rows.cols()) {
+    throw InputError(
+        "the conditions that hold this patch in its place depend on each other: a patch needs at least two "
+        "elements at different places");
+  }
+  return qr.householderQ() * Matrix::Identity(m.dofs(), rows.cols());
 }
 
 }  // namespace
@@ -114,6 +139,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   check_images(m);
   m.walls = load.inequalities(positions);
   set_metric(m);
+  m.held = held_directions(m, load.equalities(positions));
   m.links = find_links(m, rest_state(m));
   return m;
 }
@@ -175,6 +201,11 @@ Vector difference(const Model& m, const State& from, const State& to)
     dy.segment<3>(o + m.coordinate_count) = s > 1e-150 ? Vec3(a * (angle / s)) : Vec3(a);
   }
   return dy;
+}
+
+Vector free_part(const Model& m, const Vector& x)
+{
+  return m.held.cols() == 0 ? x : Vector(x - m.held * (m.held.transpose() * x));
 }
 
 double step_norm(const Model& m, const Vector& dy) { return std::sqrt(dy.cwiseAbs2().dot(m.metric)); }

@@ -44,7 +44,10 @@ double wall_step(const Model& m, const State& from, const Vector& dy, double kee
   return alpha;
 }
 
-std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy)
+namespace {
+
+/// Pairs of a periodic cell that the step may bring together.
+std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const Vector& dy)
 {
   // x_ij(s) = F(s) X + u_ij(s), X at rest. A pair that touches at s has |x_ij(s)| <= touching, so that
   //   |X| <= (touching + |u_ij(s)|)/s_min,   |x_ij(0)| <= touching + own + |dF| |X|,
@@ -66,9 +69,24 @@ std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, co
   }
   const double touching = 2.0 * widest + m.clearance, apart = (highest - lowest).norm() + own;
   const double margin = m.clearance + own + strain * (touching + apart) / std::max(smin, 1e-3);
+  return near_pairs(m, from, margin);
+}
 
+/// All pairs of a patch.
+std::vector<ElementPair> pairs_of_patch(const Model& m)
+{
+  std::vector<ElementPair> pairs;
+  for (int i = 0; i < m.element_count(); ++i)
+    for (int j = i + 1; j < m.element_count(); ++j) pairs.push_back({i, j, {0, 0}});
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy)
+{
   std::vector<CandidatePair> out;
-  for (const ElementPair& pair : near_pairs(m, from, margin)) {
+  for (const ElementPair& pair : m.lattice.empty() ? pairs_of_patch(m) : pairs_of_cell(m, from, dy)) {
     const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
     Pose pi, pj;
     Vec3 vi, vj;

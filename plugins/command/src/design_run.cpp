@@ -226,8 +226,7 @@ class DesignRun {
           run_.limits = so_far;
           output_.write_sometimes(run_);
         });
-    const auto names = experiment_.load_case->sense_names();
-    run_.profiles = profiles(run_.limits, names.first, names.second);
+    run_.profiles = profiles(run_.limits, *experiment_.load_case);
     std::stable_sort(
         run_.profiles.begin(), run_.profiles.end(), [](const ProfilePoint& a, const ProfilePoint& b) {
           return a.direction_deg < b.direction_deg;  // limits of targets come first, but a profile is a curve

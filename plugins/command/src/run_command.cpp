@@ -64,17 +64,16 @@ void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resu
                      Output& output, RunResult& run)
 {
   const Experiment& e = loaded.experiment;
-  const auto names = e.load_case->sense_names();
   const Model model = make_model(loaded.scene, *e.load_case, e.solver.clearance);
   const LimitsJob job{&model,  &loaded.scene, loaded.tasks,  loaded.settings, e.load_case_plugin,
                       threads, "limits",      resumed.limits};
   output.keep(resumed.entries);
   run.limits = run_limits(job, progress, [&](const std::vector<LimitResult>& so_far) {
     run.limits = so_far;
-    run.profiles = profiles(run.limits, names.first, names.second);
+    run.profiles = profiles(run.limits, *e.load_case);
     output.write_sometimes(run);
   });
-  run.profiles = profiles(run.limits, names.first, names.second);
+  run.profiles = profiles(run.limits, *e.load_case);
 }
 
 /// Prints expectations that fail; true if there are any.

@@ -68,14 +68,13 @@ void solve(const StabilityItem& item, std::vector<StabilityCase>& cases)
     return refuse(cases, "refused", error.what());
   }
   const Model model = make_model(run.scene, *e.load_case, e.solver.clearance);
-  const auto names = e.load_case->sense_names();
   // One thread: items are what is done in parallel, and an item alone decides its result.
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   LimitSettings settings = limit_settings(e.solver, run.scene, e.length_unit);
   settings.start = std::move(start);
   run.limits = compute_limits(model, run.scene, profile_tasks(e), settings, 1, observer);
-  run.profiles = profiles(run.limits, names.first, names.second);
+  run.profiles = profiles(run.limits, *e.load_case);
   const std::vector<VerifyLine> lines = independent_check(run, write_json(e.resolved));
   for (std::size_t k = 0; k < cases.size(); ++k) enter_claim(cases[k], run.limits[k], lines[k]);
 }

@@ -52,7 +52,9 @@ Field patch_field()
                           at_least(integer("hexagon", "Rings of cells around the middle one."), 0),
                           integers("rectangle", "Cells along both vectors.", 2, 1)});
   return object(
-      "patch", "A finite patch instead of vectors and repeat. Not supported yet by this version.",
+      "patch",
+      "A finite patch instead of vectors and repeat, laid out so that the mean of its elements is above the "
+      "origin.",
       {required(vectors_field("vectors", "The two vectors that the patch is laid out with.")),
        required(std::move(outline)),
        with_default(integers("tile", "Period, in cells, with which element parameters repeat.", 2, 1),

@@ -131,8 +131,15 @@ class SceneReader {
   void read_cell(const Node& cell)
   {
     if (const Node* patch = cell.find("patch")) {
-      problems_.add(*patch, "finite patches are not supported yet by this version; use vectors and repeat");
-    } else if (cell.find("vectors") == nullptr) {
+      read_patch(cell, *patch);
+    } else {
+      read_periodic(cell);
+    }
+  }
+
+  void read_periodic(const Node& cell)
+  {
+    if (cell.find("vectors") == nullptr) {
       // Also absent when it was wrong; then it has been reported below its own pointer.
       const std::string pointer = cell.pointer + "/vectors";
       const auto& list = problems_.list();
@@ -150,7 +157,7 @@ class SceneReader {
     if (counts != nullptr) {
       for (std::size_t k = 0; k < 2; ++k) repeat[k] = static_cast<int>(counts->items[k].number);
     }
-    std::vector<PlacedElement> placed = read_place(cell);
+    const std::vector<PlacedElement> placed = read_place(cell);
     const double total = static_cast<double>(repeat[0]) * repeat[1] * static_cast<double>(placed.size());
     if (total > largest_scene) {
       problems_.add(*counts, "expected at most " + format_number(largest_scene) + " placed elements, found " +
@@ -169,6 +176,80 @@ class SceneReader {
         }
       }
     }
+  }
+
+  /// Cells (i, j) of the outline by rows; empty when something is wrong with it.
+  std::vector<std::array<int, 2>> outlined(const Node& outline, const std::array<Vec3, 2>& v)
+  {
+    std::vector<std::array<int, 2>> cells;
+    if (outline.members.size() != 1) {
+      problems_.add(outline, "expected exactly one of disk, hexagon and rectangle");
+      return cells;
+    }
+    const auto& [kind, node] = outline.members.front();
+    std::array<int, 2> from{}, to{};
+    if (kind == "rectangle") {
+      to = {static_cast<int>(node.items[0].number) - 1, static_cast<int>(node.items[1].number) - 1};
+    } else if (kind == "hexagon") {
+      to.fill(static_cast<int>(node.number));
+    } else {
+      // |i v1 + j v2| >= |i| area/|v2|, and likewise for j.
+      const double area = v[0].cross(v[1]).norm();
+      const double far = std::max(v[0].norm(), v[1].norm()) / area * node.number;
+      if (far > largest_scene) {
+        problems_.add(node, "expected at most " + format_number(largest_scene) + " cells in the patch");
+        return cells;
+      }
+      to.fill(static_cast<int>(std::ceil(far)));
+    }
+    if (kind != "rectangle") from = {-to[0], -to[1]};
+    const double asked = (to[0] - from[0] + 1.0) * (to[1] - from[1] + 1.0);
+    if (asked > largest_scene) {
+      problems_.add(node, "expected at most " + format_number(largest_scene) + " cells in the patch");
+      return cells;
+    }
+    // Around the middle cell of a lattice whose vectors are 60 (120) degrees apart, the third pair of
+    // neighbours is at +-(1, -1) (at +-(1, 1)).
+    const int third = v[0].dot(v[1]) > 0.0 ? 1 : -1;
+    for (int j = from[1]; j <= to[1]; ++j) {
+      for (int i = from[0]; i <= to[0]; ++i) {
+        if (kind == "hexagon" && std::abs(i + third * j) > to[0]) continue;
+        if (kind == "disk" && (i * v[0] + j * v[1]).norm() > node.number * (1.0 + 1e-9)) continue;
+        cells.push_back({i, j});
+      }
+    }
+    return cells;
+  }
+
+  /// A patch is laid out and moved so that the mean of its elements is above the origin.
+  void read_patch(const Node& cell, const Node& patch)
+  {
+    if (const Node* vectors = cell.find("vectors"))
+      problems_.add(*vectors, "a patch has its own vectors; remove these");
+    const Node* repeat = cell.find("repeat");
+    if (repeat != nullptr && repeat->numbers() != std::vector<double>{1.0, 1.0})
+      problems_.add(*repeat, "a patch has an outline instead; remove this");
+    std::array<Vec3, 2> v{Vec3::Zero(), Vec3::Zero()};
+    const Node* outline = find_typed(patch, "outline", Node::Type::object);
+    if (!read_vectors(patch.find("vectors"), v) || outline == nullptr) return;
+    const std::vector<PlacedElement> placed = read_place(cell);
+    const std::vector<std::array<int, 2>> cells = outlined(*outline, v);
+    const double total = static_cast<double>(cells.size()) * static_cast<double>(placed.size());
+    if (total > largest_scene) {
+      problems_.add(*outline, "expected at most " + format_number(largest_scene) +
+                                  " placed elements, found " + format_number(total));
+      return;
+    }
+    Vec3 mean = Vec3::Zero();
+    for (const auto& [i, j] : cells) {
+      for (PlacedElement element : placed) {
+        element.rest.position += i * v[0] + j * v[1];
+        mean += element.rest.position / total;
+        spec_.elements.push_back(std::move(element));
+      }
+    }
+    mean.z() = 0.0;
+    for (PlacedElement& element : spec_.elements) element.rest.position -= mean;
   }
 
   bool read_vectors(const Node* node, std::array<Vec3, 2>& v)

@@ -72,6 +72,10 @@ class GuardedLoadCase final : public LoadCase {
   {
     return guard_("inequalities", [&] { return inner_->inequalities(X); });
   }
+  std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override
+  {
+    return guard_("equalities", [&] { return inner_->equalities(X); });
+  }
   Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override
   {
     return guard_("boundedness", [&] { return inner_->boundedness(theta, sense, cycles); });

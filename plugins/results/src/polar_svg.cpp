@@ -22,7 +22,9 @@ double reduced(double degrees)
 std::vector<ProfilePoint> profile_of(const std::vector<LimitResult>& limits)
 {
   std::vector<ProfilePoint> out;
+  bool strain = true;
   for (const LimitResult& limit : limits) {
+    strain = strain && limit.sense != "up" && limit.sense != "down";
     const auto same = [&](const ProfilePoint& p) {
       return std::abs(reduced(p.direction_deg) - reduced(limit.direction_deg)) < 1e-9;
     };
@@ -32,7 +34,7 @@ std::vector<ProfilePoint> profile_of(const std::vector<LimitResult>& limits)
     if (!slot && limit.status == LimitStatus::locked) slot = limit.value;
   }
   for (ProfilePoint& p : out)
-    if (p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);
+    if (strain && p.e_s && p.e_c && 1.0 + *p.e_c > 0.0) p.eta = (*p.e_s - *p.e_c) / (1.0 + *p.e_c);
   return out;
 }
 

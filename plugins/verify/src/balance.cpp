@@ -1,10 +1,10 @@
 #include "balance.hpp"
 
+#include "kinematics.hpp"
 #include "neighbours.hpp"
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,46 +19,28 @@ Vec3 products(double direction_deg)
   return {c * c, s * s, c * s};
 }
 
-/// n . dF/d(exx, eyy, exy) Y.
-Vec3 strain_derivative(const Vec3& n, const Vec3& Y)
+void add_wall(Vector& residual, const Scene& scene, const Contact& contact)
 {
-  return {n.x() * Y.x(), n.y() * Y.y(), n.x() * Y.y() + n.y() * Y.x()};
+  const double f = contact.force * contact.normal.z() * scene.length;
+  residual[first_of(contact.elements[0]) + 2] -= f;
+  for (std::size_t k = 0; k < scene.elements.size(); ++k)
+    residual[first_of(static_cast<int>(k)) + 2] += f / static_cast<double>(scene.elements.size());
 }
 
-struct Residual {
-  Vec3 strain = Vec3::Zero();
-  std::vector<Vec3> force, torque;
-
-  double largest(bool with_z) const
-  {
-    double out = strain.cwiseAbs().maxCoeff();
-    for (const Vec3& f : force)
-      out = std::max({out, std::abs(f.x()), std::abs(f.y()), with_z ? std::abs(f.z()) : 0.0});
-    for (const Vec3& t : torque) out = std::max(out, t.cwiseAbs().maxCoeff());
-    return out;
+void add_contact(Vector& residual, const Scene& scene, const Setting& setting, const MovedState& state,
+                 const Contact& contact)
+{
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int k = contact.elements[side];
+    const std::array<int, 2> image = side == 0 ? std::array<int, 2>{0, 0} : contact.image;
+    const Vec3 force = (side == 0 ? -1.0 : 1.0) * contact.force * contact.normal;
+    const PositionDerivatives d = derivatives(scene, setting, state, k, image);
+    const Vec3 origin = state.places[static_cast<std::size_t>(k)].position +
+                        translation(scene, state.macro.deformation(), image);
+    residual.head<3>() += scene.length * d.macro.transpose() * force;
+    residual.segment<3>(first_of(k)) += scene.length * d.own.transpose() * force;
+    residual.segment<3>(first_of(k) + 3) += (contact.points[side] - origin).cross(force);
   }
-};
-
-void add_wall(Residual& residual, const Contact& contact, double L)
-{
-  const double f = contact.force * contact.normal.z() * L;
-  residual.force[static_cast<std::size_t>(contact.elements[0])].z() -= f;
-  for (Vec3& force : residual.force) force.z() += f / static_cast<double>(residual.force.size());
-}
-
-void add_contact(Residual& residual, const Scene& scene, const Limit& limit, const Contact& contact)
-{
-  const auto a = static_cast<std::size_t>(contact.elements[0]),
-             b = static_cast<std::size_t>(contact.elements[1]);
-  const Vec3 force = contact.force * contact.normal;
-  const Vec3 T = translation(scene, Mat3::Identity(), contact.image);
-  const Vec3 FT = translation(scene, limit.macro->deformation(), contact.image);
-  residual.force[a] -= force * scene.length;
-  residual.force[b] += force * scene.length;
-  residual.torque[a] -= (contact.points[0] - limit.poses[a].position).cross(force);
-  residual.torque[b] += (contact.points[1] - limit.poses[b].position - FT).cross(force);
-  residual.strain +=
-      strain_derivative(force, scene.elements[b].rest.position + T - scene.elements[a].rest.position);
 }
 
 }  // namespace
@@ -68,43 +50,44 @@ Vec3 load(const std::string& measure, double direction_deg)
   const Vec3 d = products(direction_deg);
   if (measure == "tensor") return {d.x(), d.y(), 2.0 * d.z()};
   if (measure == "paper") return d / d.squaredNorm();
+  if (measure == "normal_curvature") return 2.0 * d;
   throw Malformed("the measure \"" + measure + "\" is not known to this check");
 }
 
-double value(const std::string& measure, double direction_deg, const Strain& macro)
+double value(const std::string& measure, double direction_deg, const Macro& macro)
 {
-  return load(measure, direction_deg).dot(Vec3(macro.exx, macro.eyy, macro.exy));
+  return load(measure, direction_deg).dot(macro.values);
 }
 
-double line_stretch(double direction_deg, const Strain& macro)
+double line_stretch(double direction_deg, const Macro& macro)
 {
   const double theta = direction_deg * std::numbers::pi / 180.0;
   return (macro.deformation() * Vec3(std::cos(theta), std::sin(theta), 0.0)).norm() - 1.0;
 }
 
-Vec3 driving_load(const Limit& limit)
+bool is_positive(const Limit& limit) { return limit.sense == "stretch" || limit.sense == "up"; }
+
+Vec3 driving_load(const Limit& limit, double length)
 {
   const Vec3 t = load(limit.measure, limit.direction_deg);
-  Vec3 out = limit.sense == "compress" ? Vec3(-t) : t;
-  if (limit.finite_target)
-    out -= Vec3(limit.macro->exx, limit.macro->eyy, limit.macro->exy) / *limit.finite_target;
+  Vec3 out = is_positive(limit) ? t : Vec3(-t);
+  if (limit.finite_target) out -= scaled(*limit.macro, length) / *limit.finite_target;
   return out;
 }
 
 double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
 {
-  const Vec3 t = load(limit.measure, limit.direction_deg);
-  Residual residual;
-  residual.strain = driving_load(limit);
-  residual.force.assign(limit.poses.size(), Vec3::Zero());
-  residual.torque.assign(limit.poses.size(), Vec3::Zero());
+  const MovedState state{*limit.macro, limit.poses};
+  Vector residual = Vector::Zero(unknowns(scene));
+  residual.head<3>() = driving_load(limit, scene.length);
   for (const Contact& contact : limit.contacts) {
     if (contact.wall.empty())
-      add_contact(residual, scene, limit, contact);
+      add_contact(residual, scene, setting, state, contact);
     else
-      add_wall(residual, contact, scene.length);
+      add_wall(residual, scene, contact);
   }
-  return residual.largest(setting.half_height > 0.0) / t.norm();
+  return free_part(held(scene, setting), residual).cwiseAbs().maxCoeff() /
+         load(limit.measure, limit.direction_deg).norm();
 }
 
 }  // namespace hauberk::verification

@@ -3,23 +3,27 @@
 
 namespace hauberk::verification {
 
-/// Load t = d value / d(exx, eyy, exy) of a measure; throws Malformed when the measure is not known.
+/// Load t = d value / d macroscopic unknowns of a measure; throws Malformed when the measure is not known.
 Vec3 load(const std::string& measure, double direction_deg);
 /// Value of a measure.
-double value(const std::string& measure, double direction_deg, const Strain& macro);
+double value(const std::string& measure, double direction_deg, const Macro& macro);
 /// |F n| - 1.
-double line_stretch(double direction_deg, const Strain& macro);
+double line_stretch(double direction_deg, const Macro& macro);
 
-/// What drives the strain in a limit's state: s t, less strain/T where there is a finite target T.
-Vec3 driving_load(const Limit& limit);
+/// True for the senses in which the value grows.
+bool is_positive(const Limit& limit);
 
-/// Largest component of the imbalance driving_load + sum_k f_k dg_k/dy over the norm of t.
+/// What drives the macroscopic unknowns in a limit's state: s t, less macro/T where there is a finite target
+/// T.
+Vec3 driving_load(const Limit& limit, double length);
+
+/// Largest component of the imbalance driving_load + sum_k f_k dg_k/dy over the norm of t, without the part
+/// that what the load case holds takes.
 ///
-/// Unknowns y: exx, eyy, exy; of each element u with x = F (X + T) + u for it and all its images T, scaled by
-/// L, and a rotation exp(w) about its origin. With the gap's normal n from the first element (point P, origin
-/// x) to the second (P', x'):
-///   dg/du = -n of the first, +n of the second;  dg/dw = -(P - x) x n of the first, (P' - x') x n of the
-///   second; dg/d strain = n . dF/d strain (X' + T - X).
+/// Unknowns y as in kinematics.hpp. With the gap's normal n from the first element (point P, origin x) to the
+/// second (P', x'):
+///   dg/du = -n . dx/du of the first, +n . dx'/du of the second;  dg/dw = -(P - x) x n of the first,
+///   (P' - x') x n of the second;  dg/d macro = n . (dx' - dx)/d macro.
 /// A wall with normal n = (0, 0, +-1) stands at a fixed distance from the mean height of all elements, hence
 /// takes part as the second body with 1/N of every element. z carries no equation where it is fixed.
 double imbalance(const Scene& scene, const Setting& setting, const Limit& limit);

@@ -24,13 +24,20 @@ std::optional<double> value_of(const std::vector<Limit>& limits, double directio
   return limit && limit->status == "locked" ? limit->value : std::nullopt;
 }
 
+/// Names of the senses, positive first.
+std::pair<std::string, std::string> senses(Load load)
+{
+  if (load == Load::strain) return {"stretch", "compress"};
+  return {"up", "down"};
+}
+
 /// The designed quantity in a direction.
 std::optional<double> quantity(const std::string& name, const std::vector<Limit>& limits,
                                double direction_deg)
 {
   if (name == "eta")
     return eta(value_of(limits, direction_deg, "stretch"), value_of(limits, direction_deg, "compress"));
-  if (name != "stretch" && name != "compress")
+  if (name != "stretch" && name != "compress" && name != "up" && name != "down")
     throw Malformed("/design/quantity: \"" + name + "\" is not known here");
   return value_of(limits, direction_deg, name);
 }
@@ -152,17 +159,19 @@ std::optional<double> eta(const std::optional<double>& e_s, const std::optional<
   return (*e_s - *e_c) / (1.0 + *e_c);
 }
 
-VerifyLine check_profiles(const json::value& results, const std::vector<Limit>& limits,
+VerifyLine check_profiles(const json::value& results, Load load, const std::vector<Limit>& limits,
                           const VerifyTolerances& tolerances)
 {
+  const auto [positive, negative] = senses(load);
   Sentences problems;
   std::size_t i = 0;
   for (const json::value& p : array(member(results, "profiles", ""), "/profiles")) {
     const std::string at = fmt::format("/profiles/{}", i++);
     const double direction = number(member(p, "direction_deg", at), at);
-    const auto e_s = value_of(limits, direction, "stretch"), e_c = value_of(limits, direction, "compress");
+    const auto e_s = value_of(limits, direction, positive), e_c = value_of(limits, direction, negative);
+    const auto joined = load == Load::strain ? eta(e_s, e_c) : std::nullopt;
     for (const auto& [key, expected] :
-         {std::pair("e_s", e_s), std::pair("e_c", e_c), std::pair("eta", eta(e_s, e_c))}) {
+         {std::pair("e_s", e_s), std::pair("e_c", e_c), std::pair("eta", joined)}) {
       const auto reported = optional_number(p, key, at);
       if (!equal(reported, expected, tolerances.value))
         problems.push_back(

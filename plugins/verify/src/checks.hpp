@@ -28,7 +28,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
                        const VerifyTolerances& tolerances);
 
 /// Profiles follow from limits. Throws Malformed.
-VerifyLine check_profiles(const boost::json::value& results, const std::vector<Limit>& limits,
+VerifyLine check_profiles(const boost::json::value& results, Load load, const std::vector<Limit>& limits,
                           const VerifyTolerances& tolerances);
 
 /// Targets, objectives and variables of a design follow from limits and scenes. Throws Malformed.

@@ -43,7 +43,7 @@ struct Element {
 
 struct Scene {
   std::vector<Element> elements;
-  std::vector<Vec3> cell;  ///< two vectors, or none
+  std::vector<Vec3> cell;  ///< two vectors, or none for a patch
   double length = 0.0;     ///< L
 };
 
@@ -55,23 +55,32 @@ struct Contact {
   std::string wall;
 };
 
-struct Strain {
-  double exx = 0.0, eyy = 0.0, exy = 0.0;
+/// What moves elements together.
+enum class Load {
+  strain,     ///< in_plane_periodic: exx, eyy, exy
+  paraboloid  ///< paraboloid_bending: A, B, C
+};
 
-  /// F = I + [[exx, exy], [exy, eyy]] in the plane.
+/// The macroscopic unknowns, in file units.
+struct Macro {
+  Vec3 values = Vec3::Zero();
+  Load load = Load::strain;
+
+  /// F = I + [[exx, exy], [exy, eyy]] in the plane, which moves images; a patch has none.
   Mat3 deformation() const
   {
     Mat3 f = Mat3::Identity();
-    f(0, 0) += exx;
-    f(1, 1) += eyy;
-    f(0, 1) = f(1, 0) = exy;
+    if (load == Load::paraboloid) return f;
+    f(0, 0) += values[0];
+    f(1, 1) += values[1];
+    f(0, 1) = f(1, 0) = values[2];
     return f;
   }
 };
 
 struct Start {
   double value = 0.0;
-  Strain macro;
+  Macro macro;
 };
 
 struct Limit {
@@ -79,9 +88,9 @@ struct Limit {
   double direction_deg = 0.0;
   std::string sense, measure, status, contact;
   std::optional<double> value, line_stretch, min_gap, force_balance;
-  /// T of the objective 1/2 |strain - T load|^2; none: the load is constant.
+  /// T of the objective 1/2 |macro - T load|^2; none: the load is constant.
   std::optional<double> finite_target;
-  std::optional<Strain> macro;
+  std::optional<Macro> macro;
   bool links_kept = false;
   std::vector<Start> starts;
   std::vector<Place> poses;
@@ -90,6 +99,7 @@ struct Limit {
 
 /// Settings of the experiment that the checks depend on.
 struct Setting {
+  Load load = Load::strain;
   double clearance = 0.0;
   /// Half-height that elements keep to; infinite when free.
   double half_height = std::numeric_limits<double>::infinity();

@@ -12,10 +12,6 @@
 namespace hauberk::verification {
 namespace {
 
-constexpr Eigen::Index strains = 3, per_element = 6;
-
-Eigen::Index first_of(int element) { return strains + per_element * element; }
-
 /// The two tori of a pair, in space.
 struct PlacedPair {
   Torus first, second;
@@ -37,16 +33,15 @@ GapRow pair_row(const Scene& scene, const Setting& setting, const MovedState& st
   const double L = scene.length;
   const auto a = static_cast<std::size_t>(k), b = static_cast<std::size_t>(l);
   const Vec3& n = touching.normal;
-  const Vec3 T = translation(scene, Mat3::Identity(), image);
   const Vec3 FT = translation(scene, state.macro.deformation(), image);
+  const PositionDerivatives da = derivatives(scene, setting, state, k, {0, 0});
+  const PositionDerivatives db = derivatives(scene, setting, state, l, image);
   GapRow row{(touching.distance - setting.clearance) / L, Vector::Zero(unknowns(scene))};
-  const Vec3 Y = (scene.elements[b].rest.position + T - scene.elements[a].rest.position) / L;
-  row.gradient.head<3>() = Vec3(n.x() * Y.x(), n.y() * Y.y(), n.x() * Y.y() + n.y() * Y.x());
-  row.gradient.segment<3>(first_of(k)) -= n;
-  row.gradient.segment<3>(first_of(l)) += n;
+  row.gradient.head<3>() = (db.macro - da.macro).transpose() * n;
+  row.gradient.segment<3>(first_of(k)) -= da.own.transpose() * n;
+  row.gradient.segment<3>(first_of(l)) += db.own.transpose() * n;
   row.gradient.segment<3>(first_of(k) + 3) -= (touching.on_a - state.places[a].position).cross(n) / L;
   row.gradient.segment<3>(first_of(l) + 3) += (touching.on_b - state.places[b].position - FT).cross(n) / L;
-  if (setting.half_height == 0.0) row.gradient[first_of(k) + 2] = row.gradient[first_of(l) + 2] = 0.0;
   return row;
 }
 
@@ -72,29 +67,6 @@ GapRow wall_row(const Scene& scene, const Setting& setting, const MovedState& st
 }
 
 }  // namespace
-
-Eigen::Index unknowns(const Scene& scene)
-{
-  return strains + per_element * static_cast<Eigen::Index>(scene.elements.size());
-}
-
-MovedState moved(const Scene& scene, const Setting& setting, const MovedState& state, const Vector& y)
-{
-  MovedState out = state;
-  out.macro.exx += y[0];
-  out.macro.eyy += y[1];
-  out.macro.exy += y[2];
-  const Mat3 change = out.macro.deformation() - state.macro.deformation();
-  for (std::size_t k = 0; k < out.places.size(); ++k) {
-    Vec3 u = scene.length * y.segment<3>(first_of(static_cast<int>(k)));
-    if (setting.half_height == 0.0) u.z() = 0.0;
-    out.places[k].position += change * scene.elements[k].rest.position + u;
-    const Vec3 w = y.segment<3>(first_of(static_cast<int>(k)) + 3);
-    if (w.norm() > 0.0)
-      out.places[k].rotation = Eigen::AngleAxisd(w.norm(), w.normalized()) * out.places[k].rotation;
-  }
-  return out;
-}
 
 GapRow row_of(const Scene& scene, const Setting& setting, const MovedState& state, const Contact& contact)
 {

@@ -36,17 +36,26 @@ void add_images(std::vector<Neighbour>& out, const Eigen::Matrix2d& inverse, con
 
 Vec3 translation(const Scene& scene, const Mat3& F, const std::array<int, 2>& image)
 {
+  if (scene.cell.empty()) return Vec3::Zero();
   return F * (image[0] * scene.cell[0] + image[1] * scene.cell[1]);
 }
 
 std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
                                   double margin)
 {
+  std::vector<Neighbour> out;
+  if (scene.cell.empty()) {
+    for (std::size_t k = 0; k < places.size(); ++k)
+      for (std::size_t l = k + 1; l < places.size(); ++l)
+        if ((places[k].position - places[l].position).norm() <=
+            scene.elements[k].reach + scene.elements[l].reach + margin)
+          out.push_back({static_cast<int>(k), static_cast<int>(l), {0, 0}});
+    return out;
+  }
   Eigen::Matrix2d A;
   A.col(0) = (F * scene.cell[0]).head<2>();
   A.col(1) = (F * scene.cell[1]).head<2>();
   const Eigen::Matrix2d inverse = A.inverse();
-  std::vector<Neighbour> out;
   for (std::size_t k = 0; k < places.size(); ++k)
     for (std::size_t l = k; l < places.size(); ++l)
       add_images(out, inverse, places[k].position - places[l].position,

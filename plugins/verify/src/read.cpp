@@ -64,10 +64,16 @@ Torus read_torus(const json::value& v, const std::string& where)
   return out;
 }
 
-Strain read_strain(const json::value& v, const std::string& where)
+Macro read_macro(const json::value& v, Load load, const std::string& where)
 {
-  return {number(member(v, "exx", where), where + "/exx"), number(member(v, "eyy", where), where + "/eyy"),
-          number(member(v, "exy", where), where + "/exy")};
+  constexpr std::array<const char*, 3> strains{"exx", "eyy", "exy"}, curvatures{"A", "B", "C"};
+  Macro out;
+  out.load = load;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const char* name = load == Load::strain ? strains[k] : curvatures[k];
+    out.values[static_cast<int>(k)] = number(member(v, name, where), where + "/" + name);
+  }
+  return out;
 }
 
 Contact read_contact(const json::value& v, const std::string& where)
@@ -129,8 +135,8 @@ Scene read_scene(const json::value& scene, const std::string& where)
     if (a.size() < 2) throw Malformed(where + "/cell_vectors: two numbers expected");
     out.cell.emplace_back(number(a[0], where + "/cell_vectors"), number(a[1], where + "/cell_vectors"), 0.0);
   }
-  if (out.cell.size() != 2 || std::abs(out.cell[0].cross(out.cell[1]).z()) == 0.0)
-    throw Malformed(where + "/cell_vectors: two independent vectors expected");
+  if (!out.cell.empty() && (out.cell.size() != 2 || std::abs(out.cell[0].cross(out.cell[1]).z()) == 0.0))
+    throw Malformed(where + "/cell_vectors: two independent vectors expected, or none for a patch");
   std::size_t k = 0;
   for (const json::value& e : array(member(scene, "elements", where), where + "/elements")) {
     const std::string at = where + "/elements/" + std::to_string(k++);
@@ -148,7 +154,7 @@ Scene read_scene(const json::value& scene, const std::string& where)
   return out;
 }
 
-Limit read_limit(const json::value& limit, const std::string& where)
+Limit read_limit(const json::value& limit, Load load, const std::string& where)
 {
   Limit out;
   out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");
@@ -166,11 +172,11 @@ Limit read_limit(const json::value& limit, const std::string& where)
   if (!kept.is_bool()) throw Malformed(where + "/links_kept: true or false expected");
   out.links_kept = kept.get_bool();
   if (const json::value& macro = member(limit, "macro", where); !macro.is_null())
-    out.macro = read_strain(macro, where + "/macro");
+    out.macro = read_macro(macro, load, where + "/macro");
   for (const json::value& s : array(member(limit, "starts", where), where + "/starts")) {
     const std::string at = where + "/starts/" + std::to_string(out.starts.size());
-    out.starts.push_back(
-        {number(member(s, "value", at), at + "/value"), read_strain(member(s, "macro", at), at + "/macro")});
+    out.starts.push_back({number(member(s, "value", at), at + "/value"),
+                          read_macro(member(s, "macro", at), load, at + "/macro")});
   }
   for (const json::value& p : array(member(limit, "poses", where), where + "/poses"))
     out.poses.push_back(read_place(p, where + "/poses/" + std::to_string(out.poses.size())));
@@ -197,6 +203,15 @@ Setting read_setting(const json::value& experiment)
   const json::value& solver = member(experiment, "solver", "/experiment");
   out.clearance = number(member(solver, "clearance", "/experiment/solver"), "/experiment/solver/clearance");
   const json::value& load = member(experiment, "load_case", "/experiment");
+  const std::string plugin =
+      text(member(load, "plugin", "/experiment/load_case"), "/experiment/load_case/plugin");
+  if (plugin == "paraboloid_bending") {
+    out.load = Load::paraboloid;
+    return out;
+  }
+  if (plugin != "in_plane_periodic")
+    throw Malformed("/experiment/load_case/plugin: the load case \"" + plugin +
+                    "\" is not known to this check");
   const json::value& height = member(load, "out_of_plane", "/experiment/load_case");
   if (height.is_number())
     out.half_height = height.to_number<double>();

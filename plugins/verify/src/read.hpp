@@ -8,7 +8,7 @@ namespace hauberk::verification {
 /// Readers of parts of a results document. `where` is the JSON pointer of the part, for messages; all throw
 /// Malformed.
 Scene read_scene(const boost::json::value& scene, const std::string& where);
-Limit read_limit(const boost::json::value& limit, const std::string& where);
+Limit read_limit(const boost::json::value& limit, Load load, const std::string& where);
 Setting read_setting(const boost::json::value& experiment);
 
 /// Throws Malformed unless L is a median of the scene's ring radii (for an even number anything between the

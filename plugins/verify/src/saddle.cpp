@@ -52,14 +52,14 @@ Matrix curvature(const Scene& scene, const Setting& setting, const Limit& limit,
   return 0.5 * (w + w.transpose());
 }
 
-/// Orthonormal basis of the directions that keep all gaps that carry force.
+/// Orthonormal basis of the directions that keep what is held, and all gaps that carry force.
 Matrix free_directions(const Scene& scene, const Setting& setting, const Limit& limit,
                        const MovedState& state)
 {
   double largest = 0.0;
   for (const Contact& contact : limit.contacts) largest = std::max(largest, contact.force);
   const Eigen::Index n = unknowns(scene);
-  Matrix rows(n, 0);
+  Matrix rows = held(scene, setting);
   for (const Contact& contact : limit.contacts) {
     if (contact.force < carries * largest) continue;
     rows.conservativeResize(Eigen::NoChange, rows.cols() + 1);
@@ -95,18 +95,18 @@ Vector projected(const Vector& wanted, const std::vector<GapRow>& rows, double r
   return e;
 }
 
-Vec3 strains(const MovedState& state) { return {state.macro.exx, state.macro.eyy, state.macro.exy}; }
-
-/// What the solver maximises: load . strain, less |strain|^2/(2 T) where there is a finite target.
+/// What the solver maximises: load . macro, less |macro|^2/(2 T) where there is a finite target.
 struct Objective {
   Vec3 load;
+  double length = 1.0;
   double softness = 0.0;  ///< 1/T
 
   double value(const MovedState& state) const
   {
-    return load.dot(strains(state)) - 0.5 * softness * strains(state).squaredNorm();
+    const Vec3 macro = scaled(state.macro, length);
+    return load.dot(macro) - 0.5 * softness * macro.squaredNorm();
   }
-  Vec3 gradient(const MovedState& state) const { return load - softness * strains(state); }
+  Vec3 gradient(const MovedState& state) const { return load - softness * scaled(state.macro, length); }
 };
 
 /// From a kicked state to a nearby one with gaps >= 0 that is as far as a few steps go; nothing when it does
@@ -120,8 +120,10 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
   const double range = 4.0 * kick;  // gaps that may close on the way
   // Room made by a kick is of its square; ten times that reaches what there is within the steps.
   const double pull = kick * kick;
+  const Matrix fixed = held(scene, setting);
   for (int k = 0; k < 2 * steps; ++k) {
-    const std::vector<GapRow> rows = all_rows(scene, setting, state, range);
+    std::vector<GapRow> rows = all_rows(scene, setting, state, range);
+    for (GapRow& row : rows) row.gradient = free_part(fixed, row.gradient);
     Vector wanted = Vector::Zero(unknowns(scene));
     // First on along the load, then only what makes room.
     if (k < steps) wanted.head<3>() = pull * objective.gradient(state) / objective.load.norm();
@@ -143,7 +145,7 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
 std::optional<Further> further_nearby(const Scene& scene, const Setting& setting, const Limit& limit)
 {
   const Vec3 t = load(limit.measure, limit.direction_deg);
-  const Objective objective{limit.sense == "compress" ? Vec3(-t) : t,
+  const Objective objective{is_positive(limit) ? t : Vec3(-t), scene.length,
                             limit.finite_target ? 1.0 / *limit.finite_target : 0.0};
   const MovedState here{*limit.macro, limit.poses};
   double closing = 0.0;

@@ -27,7 +27,7 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
   for (const json::value& item : array(limits_json, prefix + "/limits")) {
     const std::string where = fmt::format("{}/limits/{}", prefix, i++);
     try {
-      Limit limit = read_limit(item, where);
+      Limit limit = read_limit(item, setting.load, where);
       limit.label = fmt::format("{} ({:g} deg, {})", where, limit.direction_deg, limit.sense);
       lines.push_back(check_limit(scene, setting, limit, tolerances));
       out.push_back(std::move(limit));
@@ -47,10 +47,12 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
   const Setting setting = read_setting(member(results, "experiment", ""));
   const Scene scene = read_scene(member(results, "scene", ""), "/scene");
+  if ((setting.load == Load::strain) != (scene.cell.size() == 2))
+    throw Malformed("/scene/cell_vectors: two for in_plane_periodic, none for a patch");
   const json::value& design = member(results, "design", "");
   if (design.is_null()) check_length(scene, scene.length, "/scene");
   const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, tolerances, lines);
-  lines.push_back(check_profiles(results, limits, tolerances));
+  lines.push_back(check_profiles(results, setting.load, limits, tolerances));
   if (design.is_null()) return;
 
   const json::value& initial = member(design, "initial", "/design");

@@ -83,6 +83,11 @@ class Odd final : public LoadCase {
     maybe_fail();
     return {{"wall", {{1, 0, 2.0}}, static_cast<double>(X.size())}};
   }
+  std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override
+  {
+    maybe_fail();
+    return {{"held", {{0, 1, static_cast<double>(X.size())}}}};
+  }
   Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override
   {
     maybe_fail();
@@ -141,6 +146,9 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   ASSERT_EQ(walls.size(), 1u);
   EXPECT_EQ(walls[0].terms[0].coefficient, 2.0);
   EXPECT_EQ(walls[0].offset, 2.0);
+  const std::vector<LinearEquality> held = load_case->equalities(both);
+  ASSERT_EQ(held.size(), 1u);
+  EXPECT_EQ(held[0].terms[0].coefficient, 2.0);
   EXPECT_EQ(load_case->boundedness(1.0, Sense::negative, both), Boundedness::not_attained);
   EXPECT_EQ(load_case->boundedness(1.0, Sense::positive, both), Boundedness::attained);
 }
@@ -165,6 +173,7 @@ TEST(GuardedLoadCase, EveryCallIsGuarded)
   expect("sense_names", [&] { load_case->sense_names(); });
   expect("metric", [&] { load_case->metric(out); });
   expect("inequalities", [&] { load_case->inequalities(both); });
+  expect("equalities", [&] { load_case->equalities(both); });
   expect("boundedness", [&] { load_case->boundedness(0.0, Sense::positive, both); });
 }
 

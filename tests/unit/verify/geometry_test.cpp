@@ -177,7 +177,7 @@ TEST(Neighbours, ReachBeyondTheFirstImagesOnce)
     element.reach = 3.1;
   }
   const std::vector<Place> places{{Vec3::Zero(), Mat3::Identity()}, {Vec3(0.3, 0.1, 0.0), Mat3::Identity()}};
-  const Mat3 F = Strain{0.2, -0.1, 0.05}.deformation();
+  const Mat3 F = Macro{{0.2, -0.1, 0.05}}.deformation();
   std::size_t expected = 0;
   for (int i = -60; i <= 60; ++i)
     for (int j = -60; j <= 60; ++j) {

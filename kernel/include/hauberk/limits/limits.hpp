@@ -107,9 +107,8 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
                                         unsigned threads, const LimitsObserver& observer = {},
                                         const std::vector<std::optional<LimitResult>>& known = {});
 
-/// Stretch and compression of equal directions joined: e_s, e_c, eta = (e_s - e_c)/(1 + e_c).
-std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const std::string& positive,
-                                   const std::string& negative);
+/// Both senses of equal directions joined: e_s, e_c, and for strains eta = (e_s - e_c)/(1 + e_c).
+std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load);
 
 /// Largest component of load + sum of forces times gap derivatives, from listed contacts alone.
 double force_imbalance(const Model& model, const State& state, const Vector& load,

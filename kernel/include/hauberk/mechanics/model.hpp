@@ -34,6 +34,7 @@ struct Model {
   std::vector<int> source;  ///< per element: the one that it is a copy of, or itself
   std::vector<Vec3> lattice;
   std::vector<LinearInequality> walls;
+  Matrix held;              ///< dofs x equalities: orthonormal directions that no motion has
   std::vector<Link> links;  ///< at rest
   /// Per body: d(position, R, r0, r1)/d(element parameters), row-major, file units (dimensionless ratios).
   std::vector<PrimitiveJacobian> jacobians;
@@ -85,6 +86,10 @@ State advanced(const Model& model, const State& state, const Vector& dy, double 
 
 /// dy with advanced(from, dy, 1) = to.
 Vector difference(const Model& model, const State& from, const State& to);
+
+/// The part of a step, or of a gradient, that the load case's equalities leave: x - held held^T x. (Element
+/// coordinates have the metric 1, so that one projection serves both.)
+Vector free_part(const Model& model, const Vector& x);
 
 /// Norm of a step: root of the metric-weighted sum of squares.
 double step_norm(const Model& model, const Vector& dy);

@@ -1,0 +1,121 @@
+#include "paraboloid_bending.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+enum { A, B, C };     // order of the macroscopic unknowns
+enum { ux = 3, uy };  // columns of an element's coordinates
+
+}  // namespace
+
+ParaboloidBending::ParaboloidBending() : macros_{{"A", -1}, {"B", -1}, {"C", -1}} {}
+
+void ParaboloidBending::do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
+                                    const Vec3& T, PositionMap& out) const
+{
+  const double x = X.x() + T.x() + e[0];
+  const double y = X.y() + T.y() + e[1];
+  out.x = Vec3(x, y, X.z() + T.z() + macro[A] * x * x + macro[B] * y * y + macro[C] * x * y);
+  out.J(0, ux) = 1.0;
+  out.J(1, uy) = 1.0;
+  out.J(2, A) = x * x;
+  out.J(2, B) = y * y;
+  out.J(2, C) = x * y;
+  out.J(2, ux) = 2.0 * macro[A] * x + macro[C] * y;
+  out.J(2, uy) = 2.0 * macro[B] * y + macro[C] * x;
+
+  out.curved = true;
+  for (auto& component : out.H) {
+    for (auto& row : component) row.fill(0.0);
+  }
+  auto& H = out.H[2];
+  const auto set = [&H](std::size_t i, std::size_t j, double value) { H[i][j] = H[j][i] = value; };
+  set(A, ux, 2.0 * x);
+  set(B, uy, 2.0 * y);
+  set(C, ux, y);
+  set(C, uy, x);
+  set(ux, ux, 2.0 * macro[A]);
+  set(uy, uy, 2.0 * macro[B]);
+  set(ux, uy, macro[C]);
+}
+
+double ParaboloidBending::do_acceleration_bound(std::span<const double> macro, std::span<const double> dmacro,
+                                                std::span<const double> e, std::span<const double> de,
+                                                const Vec3& X, const Vec3& T) const
+{
+  // z is cubic in s, so z'' is linear: its size is largest at one of the ends. With q the quadratic form,
+  // z'' = 4 q_dmacro(x + s dx, dx) + 2 q_(macro + s dmacro)(dx, dx).
+  const auto form = [](double a, double b, double c, double x1, double y1, double x2, double y2) {
+    return a * x1 * x2 + b * y1 * y2 + 0.5 * c * (x1 * y2 + y1 * x2);
+  };
+  double largest = 0.0;
+  for (const double s : {0.0, 1.0}) {
+    const double x = X.x() + T.x() + e[0] + s * de[0];
+    const double y = X.y() + T.y() + e[1] + s * de[1];
+    const double second = 4.0 * form(dmacro[A], dmacro[B], dmacro[C], x, y, de[0], de[1]) +
+                          2.0 * form(macro[A] + s * dmacro[A], macro[B] + s * dmacro[B],
+                                     macro[C] + s * dmacro[C], de[0], de[1], de[0], de[1]);
+    largest = std::max(largest, std::abs(second));
+  }
+  return largest;
+}
+
+bool ParaboloidBending::do_admissible(std::span<const double> macro) const
+{
+  return std::isfinite(macro[A]) && std::isfinite(macro[B]) && std::isfinite(macro[C]);
+}
+
+std::pair<double, double> ParaboloidBending::do_stretch_range(std::span<const double> macro) const
+{
+  // Nothing repeats. A radius of curvature far below an element's says that nothing holds the patch.
+  return {1.0, 1.0 + std::abs(macro[A]) + std::abs(macro[B]) + std::abs(macro[C])};
+}
+
+void ParaboloidBending::do_load(double theta, std::span<double> t) const
+{
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  t[A] = 2.0 * c * c;
+  t[B] = 2.0 * s * s;
+  t[C] = 2.0 * c * s;
+}
+
+double ParaboloidBending::do_value(double theta, std::span<const double> macro) const
+{
+  double t[3];
+  do_load(theta, t);
+  return t[A] * macro[A] + t[B] * macro[B] + t[C] * macro[C];
+}
+
+void ParaboloidBending::do_metric(std::span<double> m) const
+{
+  // The squared Frobenius norm of [[A, C/2], [C/2, B]].
+  m[A] = m[B] = 1.0;
+  m[C] = 0.5;
+}
+
+std::vector<LinearEquality> ParaboloidBending::do_equalities(std::span<const Vec3> X) const
+{
+  LinearEquality mean_x{"mean x", {}};
+  LinearEquality mean_y{"mean y", {}};
+  LinearEquality turn{"turn about z", {}};
+  for (int i = 0; i < static_cast<int>(X.size()); ++i) {
+    const Vec3& rest = X[static_cast<std::size_t>(i)];
+    mean_x.terms.push_back({i, 0, 1.0});
+    mean_y.terms.push_back({i, 1, 1.0});
+    turn.terms.push_back({i, 0, -rest.y()});
+    turn.terms.push_back({i, 1, rest.x()});
+  }
+  return {mean_x, mean_y, turn};
+}
+
+Boundedness ParaboloidBending::do_boundedness(double /*theta*/, Sense /*sense*/,
+                                              std::span<const Vec3> /*cycles*/) const
+{
+  return Boundedness::attained;
+}
+
+}  // namespace hauberk

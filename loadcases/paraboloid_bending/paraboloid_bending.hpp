@@ -1,0 +1,52 @@
+#pragma once
+/// A finite patch whose elements stay on a paraboloid, bent along a direction.
+
+#include <hauberk/load_case.hpp>
+#include <hauberk/settings.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace hauberk {
+
+/// Elements at (x, y, Z + A x^2 + B y^2 + C x y), (x, y) = (X + u_x, Y + u_y), apex at the origin.
+///
+/// Macroscopic unknowns are (A, B, C), 1/length; coordinates of an element u = (u_x, u_y). The value is the
+/// normal curvature along n = (c, s) at the apex, 2 (A c^2 + B s^2 + C c s). Alone this would be unbounded:
+/// the patch would slide to where the paraboloid is flat, or turn to its softest direction. So it keeps its
+/// mean (x, y), and sum of X x (x - X) about z is zero.
+class ParaboloidBending final : public LoadCase {
+ public:
+  ParaboloidBending();
+
+ protected:
+  const std::vector<MacroInfo>& do_macros() const override { return macros_; }
+  int do_coordinate_count() const override { return 2; }
+  bool do_periodic() const override { return false; }
+  void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
+                   PositionMap& out) const override;
+  double do_acceleration_bound(std::span<const double> macro, std::span<const double> dmacro,
+                               std::span<const double> e, std::span<const double> de, const Vec3& X,
+                               const Vec3& T) const override;
+  bool do_admissible(std::span<const double> macro) const override;
+  std::pair<double, double> do_stretch_range(std::span<const double> macro) const override;
+  void do_load(double theta, std::span<double> t) const override;
+  double do_value(double theta, std::span<const double> macro) const override;
+  std::string do_measure() const override { return "normal_curvature"; }
+  int do_value_length_power() const override { return -1; }
+  std::pair<std::string, std::string> do_sense_names() const override { return {"up", "down"}; }
+  void do_metric(std::span<double> m) const override;
+  std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override;
+  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override;
+
+ private:
+  std::vector<MacroInfo> macros_;
+};
+
+/// The fields of the load case's own settings: none.
+void paraboloid_bending_fields(std::vector<Field>& out);
+
+/// Builds the load case; `length` is L in file units.
+std::unique_ptr<LoadCase> make_paraboloid_bending(const Node& section, double length, Problems& problems);
+
+}  // namespace hauberk

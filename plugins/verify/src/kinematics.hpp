@@ -1,0 +1,53 @@
+#pragma once
+/// How elements move with the unknowns of the two load cases. Unknowns, without unit: the macroscopic ones
+/// (strains, or curvatures times L), then for each element a displacement u over L and a turn exp(w) about
+/// its origin.
+///
+/// strain:     x = F (X + T) + u, u.z = 0 where z is fixed
+/// paraboloid: x = (X + u_x, Y + u_y, Z + A x^2 + B y^2 + C x y); the mean of u and sum of X x u are zero
+#include "model.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hauberk::verification {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr Eigen::Index macros = 3, per_element = 6;
+
+inline Eigen::Index first_of(int element) { return macros + per_element * element; }
+Eigen::Index unknowns(const Scene& scene);
+
+/// A state of all elements.
+struct MovedState {
+  Macro macro;
+  std::vector<Place> places;
+};
+
+/// Macroscopic unknowns without unit.
+Vec3 scaled(const Macro& macro, double length);
+
+/// Derivatives of an element's position (over L) by the macroscopic unknowns and by its own displacement.
+struct PositionDerivatives {
+  Mat3 macro, own;
+};
+PositionDerivatives derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
+                                int element, const std::array<int, 2>& image);
+
+/// The state moved by the unknowns y.
+MovedState moved(const Scene& scene, const Setting& setting, const MovedState& state, const Vector& y);
+
+/// Orthonormal columns of what the load case holds: no motion has a part along them, and forces along them
+/// are reactions.
+Matrix held(const Scene& scene, const Setting& setting);
+
+/// x without its part along the columns of `held`.
+Vector free_part(const Matrix& held, const Vector& x);
+
+/// Everything by which a state is not one of the load case's: positions off the paraboloid, a mean or a turn
+/// that is held. Lengths within `tolerance` (L).
+std::vector<std::string> misplaced(const Scene& scene, const MovedState& state, double tolerance);
+
+}  // namespace hauberk::verification

@@ -61,13 +61,36 @@ void check_directions(const std::vector<std::pair<const Node*, double>>& directi
   }
 }
 
+namespace {
+
+/// A load on a cell that repeats needs one, a load on a patch a patch.
+void check_extent(const Node& root, const Node& section, const LoadCase& load_case, Problems& problems)
+{
+  const Node* cell = find_typed(root, "cell", Node::Type::object);
+  const Node* plugin = section.find("plugin");
+  if (cell == nullptr || plugin == nullptr) return;
+  const bool patch = cell->find("patch") != nullptr;
+  if (load_case.periodic() != patch) return;
+  problems.add(*plugin, patch ? "'" + plugin->string +
+                                    "' loads a cell that repeats, and cell.patch is finite: use "
+                                    "cell.vectors and cell.repeat, or a load case for patches"
+                              : "'" + plugin->string +
+                                    "' loads a finite patch: use cell.patch instead of "
+                                    "cell.vectors and cell.repeat");
+}
+
+}  // namespace
+
 void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Experiment& experiment)
 {
   Node* section = find_mutable(root, "load_case");
   if (section == nullptr) return;
   experiment.load_case_plugin = string_or(*section, "plugin", "");
   experiment.load_case = plugins.load_case(*section, experiment.scene.length, problems);
-  if (experiment.load_case) read_senses(*section, *experiment.load_case, problems, experiment.senses);
+  if (experiment.load_case) {
+    check_extent(root, *section, *experiment.load_case, problems);
+    read_senses(*section, *experiment.load_case, problems, experiment.senses);
+  }
 
   if (const Node* list = find_typed(*section, "directions_deg", Node::Type::array)) {
     std::vector<std::pair<const Node*, double>> directions;

@@ -34,6 +34,47 @@ TEST(Expansion, RepeatsTheCellInTheOrderOfTheContract)
   EXPECT_EQ(e.scene.length, 5.0);
 }
 
+/// Elements of a patch around the origin, with the lattice vectors and the outline given.
+std::vector<PlacedElement> patch(const std::string& vectors, const std::string& outline)
+{
+  std::string text = with(valid_text(), "\"vectors\": [[12, 0], [0, 100]],",
+                          "\"patch\": { \"vectors\": " + vectors + ", \"outline\": " + outline + " },");
+  text = with(text, "\"plugin\": \"plane\", \"directions_deg\": [0, 30]",
+              "\"plugin\": \"bend\", \"directions_deg\": [0, 30]");
+  return read_ok(with(text, "\"quantity\": \"eta\"", "\"quantity\": \"curvature\"")).scene.elements;
+}
+
+TEST(Expansion, HexagonsOfCells)
+{
+  const std::string sixty = "[[10, 0], [5, 8.660254037844386]]", other = "[[10, 0], [-5, 8.660254037844386]]";
+  for (const std::string& vectors : {sixty, other}) {
+    const std::size_t counts[] = {1, 7, 19, 37, 61};
+    for (std::size_t rings = 0; rings < 5; ++rings) {
+      const auto elements = patch(vectors, "{ \"hexagon\": " + std::to_string(rings) + " }");
+      ASSERT_EQ(elements.size(), 2 * counts[rings]);
+      Vec3 mean = Vec3::Zero();
+      double farthest = 0.0;
+      for (const PlacedElement& e : elements) mean += e.rest.position;
+      for (std::size_t k = 0; k < elements.size(); k += 2)
+        farthest = std::max(farthest, (elements[k].rest.position + Vec3(3.0, 0.0, 0.0)).norm());
+      // The two elements of a cell are 6 apart, so that the first is 3 beside the middle.
+      EXPECT_LT(mean.norm(), 1e-11);
+      EXPECT_NEAR(farthest, 10.0 * static_cast<double>(rings), 1e-11) << vectors;
+    }
+  }
+}
+
+TEST(Expansion, DisksAndRectanglesOfCells)
+{
+  const auto disk = patch("[[10, 0], [5, 8.660254037844386]]", "{ \"disk\": 17.33 }");
+  EXPECT_EQ(disk.size(), 2 * 13U);  // 1, 6 at 10 and 6 at 17.32
+  const auto square = patch("[[10, 0], [0, 20]]", "{ \"rectangle\": [3, 2] }");
+  ASSERT_EQ(square.size(), 12U);
+  EXPECT_EQ(square[0].rest.position, Vec3(-13, -10, 0));
+  EXPECT_EQ(square[2].rest.position, Vec3(-3, -10, 0));
+  EXPECT_EQ(square[11].rest.position, Vec3(13, 10, 0));
+}
+
 TEST(Expansion, RotationsAreActiveAndExactAtRightAngles)
 {
   const Experiment e = read_ok(valid_text());

@@ -80,12 +80,28 @@ TEST(Meaning, Cell)
             "linearly dependent");
   EXPECT_EQ(after("\"vectors\": [[12, 0], [0, 100]],", ""),
             "t.json:7: /cell: missing key 'vectors': expected an array of 2 arrays of 2 numbers");
-  EXPECT_EQ(
-      after("\"vectors\": [[12, 0], [0, 100]],",
-            "\"patch\": { \"vectors\": [[12, 0], [0, 100]], \"outline\": { \"disk\": 50 } },"),
-      "t.json:8: /cell/patch: finite patches are not supported yet by this version; use vectors and repeat");
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [1000, 1000], \"place\": ["),
             "t.json:9: /cell/repeat: expected at most 100000 placed elements, found 2000000");
+}
+
+TEST(Meaning, Patch)
+{
+  const auto patch = [](const std::string& outline) {
+    return after("\"vectors\": [[12, 0], [0, 100]],",
+                 "\"patch\": { \"vectors\": [[12, 0], [0, 100]], \"outline\": " + outline + " },");
+  };
+  EXPECT_EQ(patch("{ \"disk\": 50 }"),
+            "t.json:13: /load_case/plugin: 'plane' loads a cell that repeats, and cell.patch is finite: use "
+            "cell.vectors and cell.repeat, or a load case for patches");
+  EXPECT_EQ(patch("{}"),
+            "t.json:8: /cell/patch/outline: expected exactly one of disk, hexagon and rectangle\n"
+            "t.json:13: /load_case/plugin: 'plane' loads a cell that repeats, and cell.patch is finite: use "
+            "cell.vectors and cell.repeat, or a load case for patches");
+  EXPECT_EQ(
+      after("\"plugin\": \"plane\"", "\"plugin\": \"bend\"").substr(0, 90),
+      std::string("t.json:13: /load_case/plugin: 'bend' loads a finite patch: use cell.patch instead of "
+                  "cell.vectors and cell.repeat")
+          .substr(0, 90));
 }
 
 TEST(Meaning, TaskAndLoadCase)

@@ -78,6 +78,7 @@ struct ProfilePoint {
 struct DesignVariableResult {
   std::string name;
   double initial = 0.0, final = 0.0, lower = 0.0, upper = 0.0;
+  std::vector<int> elements;  ///< those whose parameter it is, ascending
 };
 
 struct DesignTargetResult {

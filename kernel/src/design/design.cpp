@@ -94,6 +94,15 @@ SceneSpec scene_of(const DesignPoint& p)
 
 }  // namespace
 
+std::vector<int> DesignVariable::elements() const
+{
+  std::vector<int> out;
+  for (const auto& [element, parameter] : entries) out.push_back(element);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 std::vector<LimitTask> target_tasks(const DesignSpec& design)
 {
   std::vector<LimitTask> tasks;
@@ -160,7 +169,7 @@ void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, 
   const std::vector<double> initial = problem.scene_variables();
   for (std::size_t v = 0; v < design.variables.size(); ++v) {
     const DesignVariable& d = design.variables[v];
-    out.variables.push_back({d.name, initial[v], s.found.x[v], d.lower, d.upper});
+    out.variables.push_back({d.name, initial[v], s.found.x[v], d.lower, d.upper, d.elements()});
   }
   for (std::size_t i = 0; i < design.targets.size(); ++i) {
     DesignTargetResult t;

@@ -88,7 +88,7 @@ class DesignRun {
     d.initial_scene = loaded_.design_scene;
     for (const DesignVariable& v : spec_.variables) {
       const double x = initial_value(loaded_, v);
-      d.variables.push_back({v.name, x, x, v.lower, v.upper});
+      d.variables.push_back({v.name, x, x, v.lower, v.upper, v.elements()});
     }
     for (const DesignTarget& t : spec_.targets) {
       DesignTargetResult r;

@@ -89,7 +89,7 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed)
 }
 
 ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& problems,
-                             const Experiment& experiment, bool scene_complete)
+                             const Experiment& experiment, const std::vector<int>& tile_of, bool scene_complete)
 {
   ExperimentDesign design;
   if (const Node* optimizer = section.find("optimizer")) {
@@ -99,7 +99,7 @@ ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& p
   design.quantity = string_or(section, "quantity", "");
   if (experiment.load_case) check_quantity(section, *experiment.load_case, problems);
   if (const Node* variables = find_typed(section, "variables", Node::Type::array)) {
-    design.variables = read_variables(*variables, experiment.scene, scene_complete, problems);
+    design.variables = read_variables(*variables, experiment.scene, tile_of, scene_complete, problems);
   }
   design.targets = read_targets(section, problems);
   design.hole_clearance = read_clearance(section, "hole_clearance", experiment.solver.clearance, problems);

@@ -111,14 +111,16 @@ std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diag
   experiment.seed = seed_or(*root, "seed", 1);
   read_task(*root, problems, experiment);
 
-  experiment.scene = read_scene(*root, plugins, problems);
+  ReadScene scene = read_scene(*root, plugins, problems);
+  experiment.scene = std::move(scene.spec);
   const bool scene_complete = problems.empty();
   experiment.scene.length = scene_length(*root, experiment.scene, scene_complete, problems);
   if (const Node* cell = root->find("cell")) experiment.relax = boolean_or(*cell, "relax", false);
   if (Node* solver = find_mutable(*root, "solver")) experiment.solver = read_solver(*solver, experiment.seed);
   read_load_case(*root, plugins, problems, experiment);
   if (Node* design = find_mutable(*root, "design")) {
-    experiment.design = read_design(*design, plugins, problems, experiment, scene_complete);
+    experiment.design =
+        read_design(*design, plugins, problems, experiment, scene.tile_of, scene_complete);
   }
   if (const Node* stability = root->find("stability"))
     experiment.stability = read_stability(*stability, base, problems);

@@ -26,7 +26,7 @@ class SceneReader {
   {
   }
 
-  SceneSpec read()
+  ReadScene read()
   {
     if (const Node* unit = find_typed(root_, "length_unit", Node::Type::string))
       spec_.length_unit = unit->string;
@@ -34,7 +34,7 @@ class SceneReader {
       for (auto& [name, element] : elements->members) read_type(name, element);
     }
     if (const Node* cell = find_typed(root_, "cell", Node::Type::object)) read_cell(*cell);
-    return std::move(spec_);
+    return {std::move(spec_), std::move(tile_of_)};
   }
 
  private:
@@ -42,6 +42,7 @@ class SceneReader {
   PluginResolver& plugins_;
   Problems& problems_;
   SceneSpec spec_;
+  std::vector<int> tile_of_;
   std::vector<std::vector<double>> type_parameters_;
   std::vector<const Node*> type_nodes_;
   std::set<std::pair<const Node*, std::size_t>> reported_;  ///< parameters without a value
@@ -172,6 +173,7 @@ class SceneReader {
           PlacedElement element = placed[k];
           element.rest.position += i * v[0] + j * v[1];
           if (i > 0 || j > 0) element.copy_of = static_cast<int>(k);
+          tile_of_.push_back(static_cast<int>(spec_.elements.size()));
           spec_.elements.push_back(std::move(element));
         }
       }
@@ -240,9 +242,18 @@ class SceneReader {
                                   " placed elements, found " + format_number(total));
       return;
     }
+    std::array<int, 2> tile{1, 1};
+    if (const Node* period = patch.find("tile")) {
+      for (std::size_t k = 0; k < 2; ++k) tile[k] = static_cast<int>(period->items[k].number);
+    }
+    const auto within = [](int index, int period) { return (index % period + period) % period; };
     Vec3 mean = Vec3::Zero();
     for (const auto& [i, j] : cells) {
-      for (PlacedElement element : placed) {
+      const int first =
+          (within(j, tile[1]) * tile[0] + within(i, tile[0])) * static_cast<int>(placed.size());
+      for (std::size_t k = 0; k < placed.size(); ++k) {
+        PlacedElement element = placed[k];
+        tile_of_.push_back(first + static_cast<int>(k));
         element.rest.position += i * v[0] + j * v[1];
         mean += element.rest.position / total;
         spec_.elements.push_back(std::move(element));
@@ -336,7 +347,7 @@ class SceneReader {
 
 }  // namespace
 
-SceneSpec read_scene(Node& root, PluginResolver& plugins, Problems& problems)
+ReadScene read_scene(Node& root, PluginResolver& plugins, Problems& problems)
 {
   return SceneReader(root, plugins, problems).read();
 }

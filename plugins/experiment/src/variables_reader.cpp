@@ -15,8 +15,9 @@ namespace {
 
 class VariablesReader {
  public:
-  VariablesReader(const SceneSpec& scene, bool scene_complete, Problems& problems)
-      : scene_(scene), scene_complete_(scene_complete), problems_(problems)
+  VariablesReader(const SceneSpec& scene, const std::vector<int>& tile_of, bool scene_complete,
+                  Problems& problems)
+      : scene_(scene), tile_of_(tile_of), scene_complete_(scene_complete), problems_(problems)
   {
   }
 
@@ -54,6 +55,7 @@ class VariablesReader {
   };
 
   const SceneSpec& scene_;
+  const std::vector<int>& tile_of_;
   bool scene_complete_;
   Problems& problems_;
   std::map<std::pair<int, int>, const Node*> owner_;  ///< (element, parameter) -> entry that varies it
@@ -96,7 +98,7 @@ class VariablesReader {
       if (parameter < 0) continue;
       const std::string group = entry.per == "all"    ? "*"
                                 : entry.per == "type" ? type.name
-                                                      : std::to_string(k);
+                                                      : std::to_string(tile_of_[k]);
       if (!groups.contains(group)) order.push_back(group);
       ExperimentVariable& variable = groups[group];
       variable.name = group + "/" + name.string;
@@ -216,10 +218,11 @@ class VariablesReader {
 
 }  // namespace
 
-std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec& scene, bool scene_complete,
+std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec& scene,
+                                               const std::vector<int>& tile_of, bool scene_complete,
                                                Problems& problems)
 {
-  VariablesReader reader(scene, scene_complete, problems);
+  VariablesReader reader(scene, tile_of, scene_complete, problems);
   for (const Node& entry : list.items) reader.read(entry);
   return std::move(reader.variables);
 }

@@ -40,9 +40,6 @@ json::value own_entry(const json::object& elements, const ElementType& type, con
 json::object designed_experiment(const std::string& experiment_json, const SceneSpec& scene)
 {
   json::object out = parse_json(experiment_json, "resolved experiment").as_object();
-  if (scene.lattice.size() != 2)
-    throw ComputationError("the designed scene cannot be written as an experiment: it has no periodic cell");
-
   const json::object old_elements = out.at("elements").as_object();
   std::set<std::string> names;
   json::object elements;
@@ -62,10 +59,16 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
   out["elements"] = std::move(elements);
 
   json::object& cell = out.at("cell").as_object();
-  json::array vectors;
-  for (const Vec3& v : scene.lattice) vectors.push_back({number(v.x()), number(v.y())});
-  cell["vectors"] = std::move(vectors);
-  cell["repeat"] = {1, 1};
+  if (scene.lattice.empty()) {  // a patch: one cell that holds every element
+    json::object& patch = cell.at("patch").as_object();
+    patch["outline"] = json::object{{"rectangle", {1, 1}}};
+    patch["tile"] = {1, 1};
+  } else {
+    json::array vectors;
+    for (const Vec3& v : scene.lattice) vectors.push_back({number(v.x()), number(v.y())});
+    cell["vectors"] = std::move(vectors);
+    cell["repeat"] = {1, 1};
+  }
   cell["place"] = std::move(place);
 
   const json::value* name = out.if_contains("name");

@@ -43,7 +43,8 @@ json::array variables_json(const std::vector<DesignVariableResult>& variables)
                    {"initial", number(v.initial)},
                    {"final", number(v.final)},
                    {"lower", number(v.lower)},
-                   {"upper", number(v.upper)}});
+                   {"upper", number(v.upper)},
+                   {"elements", json::array(v.elements.begin(), v.elements.end())}});
   return out;
 }
 

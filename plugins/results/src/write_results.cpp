@@ -4,19 +4,10 @@
 #include <hauberk/results/write_results.hpp>
 
 namespace hauberk {
-namespace {
-
-bool has_designed_scene(const RunResult& run)
-{
-  return run.design.has_value() && run.scene.lattice.size() == 2;
-}
-
-}  // namespace
-
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run)
 {
   std::vector<std::pair<std::string, std::string>> out{{"limits", limits_file}, {"profile", profile_file}};
-  if (has_designed_scene(run)) out.emplace_back("designed", designed_file);
+  if (run.design) out.emplace_back("designed", designed_file);
   return out;
 }
 
@@ -26,7 +17,7 @@ std::vector<NamedContent> results_content(const boost::json::object& document, c
 {
   std::vector<NamedContent> files{{limits_file, limits_csv(run.limits, names.macro)},
                                   {profile_file, polar_svg(run, labels)}};
-  if (has_designed_scene(run))
+  if (run.design)
     files.push_back({designed_file, write_json(designed_experiment(experiment_json, run.scene))});
   files.push_back({results_file, write_json(document)});
   return files;

@@ -7,6 +7,7 @@
 #include <boost/json/object.hpp>
 
 #include <cmath>
+#include <set>
 
 namespace hauberk::verification {
 namespace {
@@ -37,7 +38,8 @@ std::optional<double> quantity(const std::string& name, const std::vector<Limit>
 {
   if (name == "eta")
     return eta(value_of(limits, direction_deg, "stretch"), value_of(limits, direction_deg, "compress"));
-  if (name != "stretch" && name != "compress" && name != "up" && name != "down")
+  if (name == "curvature") return value_of(limits, direction_deg, "up");
+  if (name != "stretch" && name != "compress")
     throw Malformed("/design/quantity: \"" + name + "\" is not known here");
   return value_of(limits, direction_deg, name);
 }
@@ -94,15 +96,25 @@ void check_targets(const json::value& design, const std::vector<Limit>& initial,
   }
 }
 
-/// True when the variable "scope/parameter" names a parameter of element k of type `type`.
-bool names_element(const std::string& scope, std::size_t k, const std::string& type)
-{
-  return scope == "*" || scope == type || scope == std::to_string(k);
-}
+/// The variable "scope/parameter", and its elements where the scope is a place (of every tile).
+struct Variable {
+  std::string name;
+  std::set<std::size_t> places;
+  /// True when it names a parameter of element k of type `type`.
+  bool names_element(const std::string& scope, std::size_t k, const std::string& type) const
+  {
+    return scope == "*" || scope == type || (is_number(scope) && places.contains(k));
+  }
+  static bool is_number(const std::string& scope)
+  {
+    return !scope.empty() && scope.find_first_not_of("0123456789") == std::string::npos;
+  }
+};
 
-void check_parameters(const json::value& scene, const std::string& where, const std::string& variable,
+void check_parameters(const json::value& scene, const std::string& where, const Variable& of,
                       double expected, double tolerance, Sentences& problems)
 {
+  const std::string& variable = of.name;
   const auto slash = variable.find('/');
   if (slash == std::string::npos) return;
   const std::string scope = variable.substr(0, slash), parameter = variable.substr(slash + 1);
@@ -111,7 +123,7 @@ void check_parameters(const json::value& scene, const std::string& where, const 
     const std::string at = fmt::format("{}/elements/{}", where, k);
     const auto found =
         optional_number(member(element, "parameters", at), parameter.c_str(), at + "/parameters");
-    const bool named = names_element(scope, k, text(member(element, "type", at), at + "/type"));
+    const bool named = of.names_element(scope, k, text(member(element, "type", at), at + "/type"));
     if (named && found && !equal(*found, expected, tolerance))
       problems.push_back(fmt::format("{}: {} is {:.10g}, the variable {} is {:.10g}", at, parameter, *found,
                                      variable, expected));
@@ -126,7 +138,9 @@ void check_variables(const json::value& results, const json::value& design, doub
   std::size_t i = 0;
   for (const json::value& v : array(member(design, "variables", "/design"), "/design/variables")) {
     const std::string at = fmt::format("/design/variables/{}", i++);
-    const std::string name = text(member(v, "name", at), at);
+    Variable name{text(member(v, "name", at), at), {}};
+    for (const json::value& k : array(member(v, "elements", at), at + "/elements"))
+      name.places.insert(static_cast<std::size_t>(number(k, at + "/elements")));
     const double lower = number(member(v, "lower", at), at), upper = number(member(v, "upper", at), at);
     const double first = number(member(v, "initial", at), at), last = number(member(v, "final", at), at);
     for (const double x : {first, last})

@@ -11,6 +11,8 @@ struct DesignVariable {
   std::string name;
   std::vector<std::pair<int, int>> entries;
   double lower = 0.0, upper = 0.0;  ///< file units
+  /// Elements of the entries, ascending.
+  std::vector<int> elements() const;
 };
 
 enum class DesignQuantity { eta, positive, negative };  ///< eta, stretch (up), compress (down)

@@ -13,12 +13,12 @@ void SideTerms::add(const FieldValue& f, const Vec3& rho, double w1, double w2, 
     b << f.azimuth, rho.cross(f.azimuth);
     const Vec6 wg = w2 * g, wa = (w1 * f.m.k) * a, wb = (w1 * f.k_azimuth) * b;
     for (int j = 0; j < 6; ++j) {
-      for (int i = 0; i < 6; ++i) hessian(i, j) += wg[i] * g[j] + wa[i] * a[j] + wb[i] * b[j];
+      for (int i = j; i < 6; ++i) hessian(i, j) += wg[i] * g[j] + wa[i] * a[j] + wb[i] * b[j];
     }
     // n . 1/2 w x (w x rho) = 1/2 ((w.rho)(w.n) - |w|^2 rho.n)
     const double rn = rho.dot(f.n);
     for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i) {
+      for (int i = j; i < 3; ++i) {
         hessian(3 + i, 3 + j) += w1 * (0.5 * (rho[i] * f.n[j] + f.n[i] * rho[j]) - (i == j ? rn : 0.0));
       }
     }
@@ -65,11 +65,12 @@ PairTerms to_world(const SideTerms& side, const Mat3& M, const Vec3& xi, int ord
   t.gradient << ge, gp, -(xi.cross(ge) + gp);  // ge . (xi x w_F ...) : d eta'/d w_F = skew(xi)
   if (order < 2) return t;
 
+  const Mat6 local = side.hessian.selfadjointView<Eigen::Lower>();
   Mat6 H;
-  H.topLeftCorner<3, 3>() = M * side.hessian.topLeftCorner<3, 3>() * M.transpose();
-  H.topRightCorner<3, 3>() = M * side.hessian.topRightCorner<3, 3>() * M.transpose();
+  H.topLeftCorner<3, 3>() = M * local.topLeftCorner<3, 3>() * M.transpose();
+  H.topRightCorner<3, 3>() = M * local.topRightCorner<3, 3>() * M.transpose();
   H.bottomLeftCorner<3, 3>() = H.topRightCorner<3, 3>().transpose();
-  H.bottomRightCorner<3, 3>() = M * side.hessian.bottomRightCorner<3, 3>() * M.transpose();
+  H.bottomRightCorner<3, 3>() = M * local.bottomRightCorner<3, 3>() * M.transpose();
 
   // First-order map (eta, w_P, w_F) -> (eta', w_P').
   Eigen::Matrix<double, 6, 9> T = Eigen::Matrix<double, 6, 9>::Zero();

@@ -21,7 +21,7 @@ constexpr int most_idle_escapes = 20;
 constexpr double noise = 1e-15;  ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
-constexpr double quadrature_noise = 1e-9;
+constexpr double quadrature_noise = 1e-9, rough_quadrature_noise = 1e-7;
 /// There, steps that shrink the gradient by less than this only stir the rounding.
 constexpr double worthwhile = 0.7;
 
@@ -118,7 +118,8 @@ class Newton {
       const double length = step_norm(m_, step.dy);
       double rounding = noise * (std::abs(now.energy) + 1.0);
       if (stage_.contact.formulation == Formulation::arc) {
-        rounding += quadrature_noise * stage_.mu * now.contact.energy;
+        const bool rough = stage_.contact.quadrature == Quadrature::rough;
+        rounding += (rough ? rough_quadrature_noise : quadrature_noise) * stage_.mu * now.contact.energy;
       }
       // Below the rounding of the energy the gradient decides.
       const bool tiny = std::abs(predicted) < 50.0 * rounding;

@@ -140,11 +140,12 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
 Schedule design_schedule()
 {
   Schedule schedule;
-  schedule.first = 0.1;
+  schedule.first = getenv("DF") ? atof(getenv("DF")) : 0.03;
   schedule.ratio = 0.1;
   schedule.last = 1e-4;
   // Leaves forces, and so gradients, accurate to about a thousandth.
   schedule.last_tolerance = 1e-6;
+  schedule.last_quadrature = Quadrature::rough;
   return schedule;
 }
 

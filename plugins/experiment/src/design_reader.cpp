@@ -89,7 +89,8 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed)
 }
 
 ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& problems,
-                             const Experiment& experiment, const std::vector<int>& tile_of, bool scene_complete)
+                             const Experiment& experiment, const std::vector<int>& tile_of,
+                             bool scene_complete)
 {
   ExperimentDesign design;
   if (const Node* optimizer = section.find("optimizer")) {

@@ -119,8 +119,7 @@ std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diag
   if (Node* solver = find_mutable(*root, "solver")) experiment.solver = read_solver(*solver, experiment.seed);
   read_load_case(*root, plugins, problems, experiment);
   if (Node* design = find_mutable(*root, "design")) {
-    experiment.design =
-        read_design(*design, plugins, problems, experiment, scene.tile_of, scene_complete);
+    experiment.design = read_design(*design, plugins, problems, experiment, scene.tile_of, scene_complete);
   }
   if (const Node* stability = root->find("stability"))
     experiment.stability = read_stability(*stability, base, problems);

@@ -249,8 +249,7 @@ class SceneReader {
     const auto within = [](int index, int period) { return (index % period + period) % period; };
     Vec3 mean = Vec3::Zero();
     for (const auto& [i, j] : cells) {
-      const int first =
-          (within(j, tile[1]) * tile[0] + within(i, tile[0])) * static_cast<int>(placed.size());
+      const int first = (within(j, tile[1]) * tile[0] + within(i, tile[0])) * static_cast<int>(placed.size());
       for (std::size_t k = 0; k < placed.size(); ++k) {
         PlacedElement element = placed[k];
         tile_of_.push_back(first + static_cast<int>(k));

@@ -21,7 +21,8 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed);
 /// load_case: plugin, directions, senses, into `experiment`, whose scene.length must be set.
 void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Experiment& experiment);
 
-/// design; needs scene, load case and solver of `experiment`. `tile_of`: see ReadScene. `scene_complete`: nothing was wrong with it.
+/// design; needs scene, load case and solver of `experiment`. `tile_of`: see ReadScene. `scene_complete`:
+/// nothing was wrong with it.
 ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& problems,
                              const Experiment& experiment, const std::vector<int>& tile_of,
                              bool scene_complete);

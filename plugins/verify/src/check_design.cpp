@@ -111,8 +111,8 @@ struct Variable {
   }
 };
 
-void check_parameters(const json::value& scene, const std::string& where, const Variable& of,
-                      double expected, double tolerance, Sentences& problems)
+void check_parameters(const json::value& scene, const std::string& where, const Variable& of, double expected,
+                      double tolerance, Sentences& problems)
 {
   const std::string& variable = of.name;
   const auto slash = variable.find('/');

@@ -97,7 +97,7 @@ RunResult sample_design()
   DesignResult design;
   design.quantity = "eta";
   design.status = "converged";
-  design.variables = {{"0/ring.R", 5.0, 5.25, 4.0, 6.5}};
+  design.variables = {{"0/ring.R", 5.0, 5.25, 4.0, 6.5, {0}}};
   for (int k = 0; k < 6; ++k) {
     DesignTargetResult target;
     target.direction_deg = 30.0 * k;

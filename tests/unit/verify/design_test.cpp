@@ -21,26 +21,24 @@ json::value design_document()
   const double first = before.at_pointer("/limits/0/value").as_double();
   const double last = document.at_pointer("/limits/0/value").as_double();
   const auto objective = [](double value) { return 0.5 * 2.0 * (value - 0.46) * (value - 0.46); };
-  document.at("design") = {
-      {"quantity", "stretch"},
-      {"objective_initial", objective(first)},
-      {"objective", objective(last)},
-      {"variables",
-       json::array{json::value{{"name", "1/ring.R"},
-                               {"initial", 5.0},
-                               {"final", 5.0},
-                               {"lower", 4.0},
-                               {"upper", 6.0},
-                               {"elements", json::array{1}}}}},
-      {"targets", json::array{json::value{{"direction_deg", 180.0},
-                                          {"target", 0.46},
-                                          {"weight", 2.0},
-                                          {"initial", first},
-                                          {"provisional", last},
-                                          {"recomputed", last},
-                                          {"better_state", false},
-                                          {"met", true}}}},
-      {"initial", {{"scene", before.at("scene")}, {"limits", before.at("limits")}}}};
+  document.at("design") = {{"quantity", "stretch"},
+                           {"objective_initial", objective(first)},
+                           {"objective", objective(last)},
+                           {"variables", json::array{json::value{{"name", "1/ring.R"},
+                                                                 {"initial", 5.0},
+                                                                 {"final", 5.0},
+                                                                 {"lower", 4.0},
+                                                                 {"upper", 6.0},
+                                                                 {"elements", json::array{1}}}}},
+                           {"targets", json::array{json::value{{"direction_deg", 180.0},
+                                                               {"target", 0.46},
+                                                               {"weight", 2.0},
+                                                               {"initial", first},
+                                                               {"provisional", last},
+                                                               {"recomputed", last},
+                                                               {"better_state", false},
+                                                               {"met", true}}}},
+                           {"initial", {{"scene", before.at("scene")}, {"limits", before.at("limits")}}}};
   return document;
 }
 

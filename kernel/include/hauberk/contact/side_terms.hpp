@@ -32,7 +32,7 @@ struct ContactPoint {
 struct SideTerms {
   double energy = 0.0;
   Vec6 gradient = Vec6::Zero();
-  Mat6 hessian = Mat6::Zero();  ///< full symmetric matrix
+  Mat6 hessian = Mat6::Zero();  ///< symmetric; only its lower triangle is kept
   double d_clearance = 0.0;
   /// d energy / d(position in the element frame, R, r0, r1) of P and F; positions in F's frame here.
   std::array<double, primitive_dofs> dP{}, dF{};

@@ -47,7 +47,8 @@ struct ParameterRef {
 
 /// One design variable; all its parameters have the same value.
 struct ExperimentVariable {
-  std::string name;  ///< "3/ring.R" (element 3; of a patch: place 3 of every tile), "link/ring.R" (type), "*/ring.R" (all)
+  std::string name;  ///< "3/ring.R" (element 3; of a patch: place 3 of every tile), "link/ring.R" (type),
+                     ///< "*/ring.R" (all)
   double initial = 0.0, lower = 0.0, upper = 0.0;
   std::vector<ParameterRef> parameters;
 };

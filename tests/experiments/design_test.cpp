@@ -64,33 +64,6 @@ TEST(Design, SameResultsForAnyNumberOfThreads)
   }
 }
 
-TEST(Design, ResumesFromTheBestSoFar)
-{
-  const TemporaryFolder folder;
-  const std::string file = folder.write("mail.json", design_text());
-  const std::string out = folder / "out";
-  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
-  json::value partial = read_results(out);
-  const double objective = number_at(partial, "/design/objective");
-  const std::size_t iterates = partial.at_pointer("/design/history").as_array().size();
-  partial.at_pointer("/design/status") = "interrupted";
-  partial.at("limits").as_array().clear();
-  std::ofstream(out + "/results.json") << write_json(partial);
-
-  const Outcome o = run_program({"run", file, "-o", out, "--resume"});
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
-  EXPECT_NE(o.err.find("resuming from the best design so far; other starts are not repeated\n"),
-            std::string::npos);
-  const json::value r = read_results(out);
-  EXPECT_LE(number_at(r, "/design/objective"), objective + 1e-6);
-  EXPECT_EQ(number_at(r, "/design/variables/0/initial"),
-            4.9);  // of the experiment, not of the resumed design
-  EXPECT_GT(r.at_pointer("/design/history").as_array().size(), iterates);
-  EXPECT_EQ(number_at(r, "/design/history/" + std::to_string(iterates) + "/iteration"),
-            static_cast<double>(iterates));
-  EXPECT_EQ(run_program({"verify", out + "/results.json"}).code, 0);
-}
-
 TEST(Design, AnInterruptLeavesTheBestSoFar)
 {
   const TemporaryFolder folder;

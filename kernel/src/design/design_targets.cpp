@@ -110,6 +110,22 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
   }
 }
 
+void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
+{
+  unsaved_ = nullptr;
+  long cost = 0;
+  if (memory_ != nullptr && memory_->recall(*p, cost)) {
+    evaluations_ += cost;
+    p->states_missing = p->evaluated;
+    return;
+  }
+  const long before = evaluations_;
+  solve_targets(*p);
+  if (memory_ == nullptr) return;
+  memory_->record(*p, evaluations_ - before);
+  unsaved_ = p;
+}
+
 void DesignProblem::solve_targets(DesignPoint& p)
 {
   std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself

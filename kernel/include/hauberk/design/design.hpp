@@ -51,12 +51,15 @@ struct Designed {
   SceneSpec scene;      ///< best design with its relaxed rest state
 };
 
+class EvaluationMemory;
+
 /// Runs all starts of the design with coarse stages, then continues the best of them with the final ones.
-/// Throws InputError when the initial design is infeasible at rest, ComputationError when no evaluation
-/// succeeds.
+/// Evaluations that `memory` knows are not made again (evaluation_memory.hpp); null: none are known, nor
+/// recorded. Throws InputError when the initial design is infeasible at rest, ComputationError when no
+/// evaluation succeeds.
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
-                    unsigned threads, const DesignObserver& observer);
+                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory = nullptr);
 
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);

@@ -162,13 +162,13 @@ OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::s
   }
   if (adapter.stopped() != NloptAdapter::Stop::none) return stopped(adapter, settings_);
   if (adapter.critical())
-    return adapter.finish("converged", "the conditions of first order hold (NLopt: " + end + ")");
+    return adapter.finish("converged", "the conditions of first order hold; NLopt: " + end);
   if (adapter.infeasible())
     return adapter.finish("infeasible",
-                          "no small step reduces the violation of the constraints (NLopt: " + end + ")");
+                          "no small step reduces the violation of the constraints; NLopt: " + end);
   return adapter.finish("small_step", (adapter.blocked() ? "the next step would pass through an intersection"
                                                          : "steps became too small to make progress") +
-                                          (" (NLopt: " + end + ")"));
+                                          ("; NLopt: " + end));
 }
 
 }  // namespace hauberk

@@ -50,6 +50,19 @@ TEST(Design, MovesTheLimitToItsTarget)
               1e-3);
 }
 
+TEST(Design, PlainValuesMoveTheLimitToItsTarget)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", design_text());
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "less"}).code, 0);
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "plain", "--set", "/design/value=plain"}).code, 0);
+  const json::value less = read_results(folder / "less"), plain = read_results(folder / "plain");
+  EXPECT_TRUE(plain.at_pointer("/design/targets/0/met").as_bool());
+  // The search saw other values, and both limits are the target's to within a stage's bias.
+  EXPECT_NE(number_at(plain, "/design/variables/0/final"), number_at(less, "/design/variables/0/final"));
+  EXPECT_NEAR(number_at(plain, "/limits/0/value"), number_at(less, "/limits/0/value"), 3e-3);
+}
+
 TEST(Design, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

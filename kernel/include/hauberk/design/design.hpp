@@ -15,6 +15,14 @@ struct DesignVariable {
 
 enum class DesignQuantity { eta, positive, negative };  ///< eta, stretch (up), compress (down)
 
+/// What stands for a limit in the objective, at the last stage of the search. Both tend to the limit as
+/// stages go down; the choice of one is the choice of its gradient.
+enum class DesignValue {
+  less_contact,  ///< value minus contact energy: its gradient is explicit (envelope theorem), and costs
+                 ///< nothing
+  plain          ///< the value itself: its gradient is an adjoint one
+};
+
 struct DesignTarget {
   double direction_deg = 0.0;
   double value = 0.0;  ///< file units
@@ -27,6 +35,7 @@ struct DesignSpec {
   std::string quantity_name = "eta";
   std::vector<DesignVariable> variables;
   std::vector<DesignTarget> targets;
+  DesignValue value = DesignValue::less_contact;
   double hole_clearance = 0.0;  ///< paper's C_ij > eps_c for every linked pair
   double rest_clearance = 0.0;  ///< surface distance of every pair at rest
   int starts = 1;

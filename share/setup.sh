@@ -12,6 +12,7 @@ packages=(
   libboost1.81-dev                  # plugin loading, intervals (1.74, the default, is too old)
   libboost-json1.81-dev libboost-program-options1.81-dev
   libsuitesparse-dev                # CHOLMOD
+  libnlopt-dev                      # optimizers/nlopt
   libfmt-dev
   libgtest-dev python3-jsonschema   # tests only
 )

@@ -1,20 +1,12 @@
 #pragma once
 /// Model of half a sum of squares whose residuals have kinks.
 
-#include "subproblem.hpp"
+#include <common/subproblem.hpp>
 
 #include <Eigen/Core>
 #include <vector>
 
 namespace hauberk {
-
-/// Residuals and their Jacobian at one point, in scaled variables.
-struct Residuals {
-  Eigen::VectorXd r;  ///< empty: the problem has none
-  Eigen::MatrixXd J;
-
-  bool empty() const { return r.size() == 0; }
-};
 
 /// Linearisations ("cuts") of residuals at the iterate and at points evaluated near it.
 ///

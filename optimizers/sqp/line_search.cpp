@@ -4,6 +4,8 @@
 
 #include "minimizer.hpp"
 
+#include <common/backtracking.hpp>
+
 #include <algorithm>
 
 namespace hauberk {
@@ -11,9 +13,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Part of the predicted decrease that a step must bring (Armijo).
-constexpr double sufficient = 1e-4;
-/// The same for a bundle, whose full step must bring what the model knows.
+/// Part of what the model promises that a step of the bundle must bring: its model knows kinks.
 constexpr double sufficient_of_model = 0.1;
 /// The shift falls after a first trial that was accepted at full length; it rises after one that showed a
 /// kink, one that showed only curvature, and one that failed.
@@ -32,12 +32,6 @@ constexpr double creeping_gain = 3e-3;
 constexpr double crossing_shift = 1e-2;
 constexpr double crossing_rise = 0.25;
 constexpr int most_crossings = 8;
-/// Trial points of one search; each costs an evaluation.
-constexpr int max_trials = 12;
-/// A shorter step is this much shorter, at least and at most; and after an evaluation that failed.
-constexpr double least_cut = 0.5;
-constexpr double largest_cut = 0.1;
-constexpr double failure_cut = 0.25;
 /// The penalty exceeds the multipliers, for which the merit function is exact, by this factor.
 constexpr double penalty_margin = 1.5;
 /// Part of the penalised decrease of the violation that the objective's increase may use up.
@@ -45,14 +39,6 @@ constexpr double usable = 0.5;
 /// A correction has to remove this part of the violation, and may not be longer than this part of the step.
 constexpr double correction_gain = 0.5;
 constexpr double correction_length = 0.5;
-
-/// Minimum of the parabola through merit(0) with slope, and merit(alpha), kept within the cuts.
-double shorter(double alpha, double slope, double rise)
-{
-  const double curvature = rise - slope * alpha;
-  const double minimum = curvature > 0.0 ? -0.5 * slope * alpha * alpha / curvature : least_cut * alpha;
-  return std::clamp(minimum, largest_cut * alpha, least_cut * alpha);
-}
 
 }  // namespace
 
@@ -75,7 +61,7 @@ bool Minimizer::line_search(const Step& step)
   if (!(slope < 0.0)) return false;
 
   const double before = merit(value_, at_.c);
-  for (int trial = 0; trial < max_trials && alpha * length >= settings_.min_step; ++trial) {
+  for (int trial = 0; trial < max_trials && alpha * length >= settings_.min_step && !spent(); ++trial) {
     VectorXd d = alpha * step.d;
     VectorXd x = problem_.moved(x_, d, 1.0);
     VectorXd c = problem_.constraints(x);
@@ -86,8 +72,8 @@ bool Minimizer::line_search(const Step& step)
       continue;
     }
     const double rise = merit(found.value, c) - before;
-    if (rise <= sufficient * alpha * slope) {
-      slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
+    if (rise <= sufficient_decrease * alpha * slope) {
+      slow_steps_ = -rise <= settings_.tolerance * scale() ? slow_steps_ + 1 : 0;
       move_to(x, found, d, step);
       return true;
     }
@@ -116,7 +102,7 @@ bool Minimizer::bundle_search(Step step)
     else
       damping_ = shift;
   }
-  for (int trial = 0; trial < max_trials && step.ok; ++trial) {
+  for (int trial = 0; trial < max_trials && step.ok && !spent(); ++trial) {
     if (trial > 0) {  // within a search the penalty only rises
       const double penalty = penalty_;
       raise_penalty(step);
@@ -139,7 +125,7 @@ bool Minimizer::bundle_search(Step step)
         const double rise = merit(found.value, c) - before;
         if (rise <= sufficient_of_model * alpha * slope || (across && rise <= crossing_rise * value_)) {
           creeping_ = -rise <= creeping_gain * value_ && !across ? creeping_ + 1 : 0;
-          slow_steps_ = -rise <= settings_.tolerance * objective_scale() ? slow_steps_ + 1 : 0;
+          slow_steps_ = -rise <= settings_.tolerance * scale() ? slow_steps_ + 1 : 0;
           if (trial == 0 && alpha == 1.0) damping_ = std::max(shift_fall * damping_, least_shift);
           move_to(x, found, d, step);
           return true;

@@ -19,9 +19,6 @@ constexpr double worthwhile_violation = 0.5;
 constexpr double held = 1.0;
 /// Shift when the cuts of a bundle are dropped.
 constexpr double restart_shift = 1e-2;
-/// Violation that the relaxed model must be able to remove, or the iterate is a minimum of the violation.
-constexpr double removable = 1e-6;
-
 }  // namespace
 
 Minimizer::Minimizer(OptimizationProblem& problem, const SqpSettings& settings, OptimizerObserver& observer,
@@ -29,7 +26,8 @@ Minimizer::Minimizer(OptimizationProblem& problem, const SqpSettings& settings, 
     : problem_(problem, start),
       settings_(settings),
       observer_(observer),
-      x_(Eigen::Map<const VectorXd>(start.data(), static_cast<Eigen::Index>(start.size())))
+      x_(Eigen::Map<const VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()))),
+      best_(settings.constraint_tolerance)
 {
 }
 
@@ -45,18 +43,22 @@ OptimizerResult Minimizer::run()
     }
     if (!report(step)) return finish("stopped", "stopped on request");
     if (converged(step)) return finish("converged", "no step promises a noticeable decrease");
-    if (locally_infeasible(step)) {
+    if (locally_infeasible(step, at_.c, settings_.constraint_tolerance)) {
       return finish("infeasible", "no small step reduces the violation of the constraints");
     }
     if (iteration_ >= settings_.max_iterations) {
       return finish("iteration_limit", "stopped after " + std::to_string(iteration_) + " iterations");
+    }
+    if (spent()) {
+      return finish("iteration_limit",
+                    "stopped after " + std::to_string(problem_.evaluations()) + " evaluations");
     }
     raise_penalty(step);
     if (slow_steps_ < slow_limit && (least_squares() ? bundle_search(step) : line_search(step))) {
       ++iteration_;
       continue;
     }
-    if (restart()) continue;
+    if (spent() || restart()) continue;
     return finish("small_step", blocked_ ? "the next step would pass through an intersection"
                                          : "steps became too small to make progress");
   }
@@ -105,23 +107,7 @@ Step Minimizer::propose(const Linearisation& at) const
 
 double Minimizer::optimality(const Step& step) const
 {
-  // What the Lagrangian's gradient promises in each variable over its range, or over the room that the bounds
-  // leave. In the objective's unit, and zero at a solution.
-  const VectorXd gradient = step.gradient - at_.J.transpose() * step.multipliers;
-  const VectorXd down = -problem_.step_lower(x_);
-  const VectorXd up = problem_.step_upper(x_);
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    const double room = std::min(1.0, gradient[i] > 0.0 ? down[i] : up[i]);
-    largest = std::max(largest, std::abs(gradient[i]) * room);
-  }
-  return largest;
-}
-
-double Minimizer::objective_scale() const
-{
-  const double scale = std::max(std::abs(first_value_), std::abs(value_));
-  return scale > 0.0 ? scale : 1.0;
+  return hauberk::optimality(step, at_.J, problem_.step_lower(x_), problem_.step_upper(x_));
 }
 
 bool Minimizer::converged(const Step& step) const
@@ -129,17 +115,11 @@ bool Minimizer::converged(const Step& step) const
   if (largest_violation(at_.c) > settings_.constraint_tolerance) return false;
   // A gradient g promises g^2/(2 H); with H of the objective's size in scaled variables, the square root
   // makes both conditions ask for the same.
-  const double scale = objective_scale();
+  const double scale = this->scale();
   if (least_squares() && damping_ > held) return false;  // the shift alone makes the promise small
   const bool no_step = step.d.size() == 0 || step.d.cwiseAbs().maxCoeff() < settings_.min_step;
   return (step.decrease <= settings_.tolerance * scale || no_step) &&
          optimality(step) <= std::sqrt(settings_.tolerance) * scale;
-}
-
-bool Minimizer::locally_infeasible(const Step& step) const
-{
-  return step.elastic && largest_violation(at_.c) > settings_.constraint_tolerance &&
-         step.model_violation >= (1.0 - removable) * total_violation(at_.c);
 }
 
 bool Minimizer::report(const Step& step)
@@ -205,39 +185,17 @@ void Minimizer::move_to(const VectorXd& x, const Trial& trial, const VectorXd& s
   remember();
 }
 
-void Minimizer::remember()
-{
-  const double violation = largest_violation(at_.c);
-  const auto feasible = [this](double v) { return v <= settings_.constraint_tolerance; };
-  bool better = !best_.any;
-  if (!better && feasible(violation) != feasible(best_.violation))
-    better = feasible(violation);
-  else if (!better)
-    better = feasible(violation) ? value_ < best_.value : violation < best_.violation;
-  if (better) best_ = {true, x_, value_, violation};
-}
-
 OptimizerResult Minimizer::finish(std::string status, std::string message) const
 {
-  OptimizerResult result;
-  const VectorXd& x = best_.any ? best_.x : x_;
-  result.x.assign(x.begin(), x.end());
-  result.value = best_.any ? best_.value : value_;
-  result.iterations = iteration_;
-  result.evaluations = problem_.evaluations();
-  if (best_.violation > settings_.constraint_tolerance) {
-    if (status == "small_step") status = "infeasible";
-    message +=
-        "; the constraints are violated by up to " + std::to_string(best_.violation) + " in their own scale";
-  }
-  if (status == "converged" && best_.value < value_ - settings_.tolerance * objective_scale()) {
+  if (status == "converged" && best_.value() < value_ - settings_.tolerance * scale()) {
     status = "small_step";
     message =
         "the result is an earlier iterate: the search stepped across a jump and ended further from the "
         "minimum";
   }
-  result.status = std::move(status);
-  result.message = std::move(message);
+  OptimizerResult result = best_.result(std::move(status), std::move(message), x_, value_);
+  result.iterations = iteration_;
+  result.evaluations = problem_.evaluations();
   return result;
 }
 

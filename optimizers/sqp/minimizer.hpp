@@ -1,10 +1,12 @@
 #pragma once
 /// One run of sequential quadratic programming.
 
-#include "damped_bfgs.hpp"
-#include "scaled_problem.hpp"
-#include "subproblem.hpp"
+#include "bundle.hpp"
 
+#include <common/best_point.hpp>
+#include <common/criticality.hpp>
+#include <common/damped_bfgs.hpp>
+#include <common/scaled_problem.hpp>
 #include <hauberk/optimizer.hpp>
 
 #include <span>
@@ -16,6 +18,7 @@ namespace hauberk {
 /// Steps and optimality are measured in variables scaled by their ranges.
 struct SqpSettings {
   int max_iterations = 100;
+  int max_evaluations = 100000;
   double tolerance = 1e-6;             ///< of decrease and optimality, relative to the objective
   double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
   double initial_step = 0.05;          ///< longest first step, part of a variable's range
@@ -33,14 +36,6 @@ class Minimizer {
   OptimizerResult run();
 
  private:
-  /// Best point so far: feasible before infeasible, then by value or by violation.
-  struct Best {
-    bool any = false;
-    Eigen::VectorXd x;
-    double value = 0.0;
-    double violation = 0.0;
-  };
-
   bool begin(std::string& why);
   bool least_squares() const { return !bundle_.empty(); }
   /// Makes x_ the bundle's iterate.
@@ -49,7 +44,6 @@ class Minimizer {
   Step propose(const Linearisation& at) const;
   double optimality(const Step& step) const;
   bool converged(const Step& step) const;
-  bool locally_infeasible(const Step& step) const;
   bool report(const Step& step);
   bool restart();
   void raise_penalty(const Step& step);
@@ -64,9 +58,11 @@ class Minimizer {
   /// Second-order correction of a full step that ended at constraint values c; false when it does not help.
   bool correct(const Step& step, Eigen::VectorXd& d, Eigen::VectorXd& c);
   void move_to(const Eigen::VectorXd& x, const Trial& trial, const Eigen::VectorXd& s, const Step& step);
-  void remember();
+  void remember() { best_.offer(x_, value_, largest_violation(at_.c)); }
+  /// No evaluation is left.
+  bool spent() const { return problem_.evaluations() >= settings_.max_evaluations; }
   double merit(double value, const Eigen::VectorXd& c) const { return value + penalty_ * total_violation(c); }
-  double objective_scale() const;
+  double scale() const { return objective_scale(first_value_, value_); }
   void reset_hessian(double radius);
   OptimizerResult finish(std::string status, std::string message) const;
 
@@ -86,7 +82,7 @@ class Minimizer {
   int crossings_ = 0;      ///< steps taken across jumps
   bool dropped_ = false;   ///< the cuts were dropped and no step was accepted since
   double penalty_ = 0.0;   ///< of the l1 merit function
-  Best best_;
+  BestPoint best_;
 
   int iteration_ = 0;
   double step_length_ = 0.0;  ///< of the last accepted step

@@ -83,7 +83,7 @@ TEST(CommandLine, Plugins)
 {
   const Outcome list = run_program({"plugins", "list"});
   EXPECT_EQ(list.code, 0);
-  for (const char* id : {"torus_union ", "in_plane_periodic ", "sqp "})
+  for (const char* id : {"torus_union ", "in_plane_periodic ", "sqp ", "bfgs ", "nlopt "})
     EXPECT_NE(list.out.find(id), std::string::npos) << list.out;
   EXPECT_EQ(run_program({"plugins"}).out, list.out);
   const Outcome one = run_program({"plugins", "describe", "sqp"});

@@ -25,6 +25,8 @@ Contents contents(const fs::path& folder)
   Contents out;
   if (!fs::exists(folder)) return out;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    // Evaluations of an interrupted design are lines, not a result; repeated_search_test.cpp is about them.
+    if (entry.path().filename() == ".hauberk-evaluations") continue;
     if (entry.is_regular_file()) out[entry.path().filename().string()] = read_text(entry.path());
   }
   return out;
@@ -71,7 +73,7 @@ std::string endless_text()
 const std::vector<TaskCase>& task_cases()
 {
   static const std::vector<TaskCase> tasks{
-      {"limits", chainmail_text, true}, {"design", design_text, false}, {"stability", map_text, true}};
+      {"limits", chainmail_text}, {"design", design_text}, {"stability", map_text}};
   return tasks;
 }
 

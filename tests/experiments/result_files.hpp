@@ -29,7 +29,6 @@ std::string endless_text();
 struct TaskCase {
   const char* name;
   std::string (*text)();
-  bool same_when_resumed;  ///< bit for bit, share/doc/command.md
 };
 
 const std::vector<TaskCase>& task_cases();

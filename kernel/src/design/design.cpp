@@ -185,7 +185,7 @@ void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, 
 
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
-                    unsigned threads, const DesignObserver& observer)
+                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory)
 {
   const auto t0 = std::chrono::steady_clock::now();
   SceneSpec frozen = scene;
@@ -202,6 +202,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   for (int start = 0; start < design.starts && !interrupted; ++start) {
     auto problem = std::make_unique<DesignProblem>(frozen, load, clearance, limits, design, threads, always);
     if (start == 0) out.result.initial_scene = scene_of(problem->current());
+    problem->set_memory(memory);
     problem->set_schedule(coarse);
     const std::vector<double> x0 = problem->feasible_towards(random_move(design, start));
     Search s = search(*problem, design, optimizer, x0, start, observer);

@@ -137,7 +137,7 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
 OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> x, bool want_gradient)
 {
   const std::shared_ptr<DesignPoint> p = make_point(x);
-  if (p->why.empty() && !p->evaluated) solve_targets(*p);
+  if (p->why.empty() && !p->evaluated) find_targets(p);
   Evaluation e;
   e.ok = p->evaluated && std::isfinite(p->objective);
   e.why = p->why;
@@ -287,6 +287,18 @@ void DesignProblem::accept(std::span<const double> x)
   const std::shared_ptr<DesignPoint> p = make_point(x);
   if (!p->evaluated)
     throw PluginError("the optimizer accepted a design that it could not evaluate: " + p->why);
+  if (p->states_missing && !memory_->recall_states(*p)) {
+    // The run ended between evaluation and acceptance: its states are found again as they were found first.
+    p->evaluated = false;
+    const long before = evaluations_;
+    solve_targets(*p);
+    evaluations_ = before;
+    memory_->record_states(*p);
+  } else if (memory_ != nullptr && !p->states_missing && p == unsaved_) {
+    memory_->record_states(*p);
+  }
+  p->states_missing = false;
+  unsaved_ = nullptr;
   current_ = p;
   accepted_.push_back(p);
 }

@@ -2,6 +2,7 @@
 
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/limits/lessons.hpp>
+#include <hauberk/mechanics/adjoint.hpp>
 #include <hauberk/parallel.hpp>
 
 #include <fmt/format.h>
@@ -18,6 +19,24 @@ constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with diffe
 void enter(const Locked& l, std::vector<WarmStart>& out)
 {
   for (std::size_t i = 0; i < l.trail.size(); ++i) out.push_back({l.stages[i].g_hat, l.trail[i]});
+}
+
+/// A value along the load at the end of a stage, and its derivatives in the element parameters.
+std::pair<double, Matrix> value_of(const Model& model, const Locked& l, const Vector& load, DesignValue which)
+{
+  const double plain = load.dot(l.state.macro);
+  if (which == DesignValue::plain) {
+    Vector quantity = Vector::Zero(model.dofs());
+    quantity.head(model.macro_count) = load;
+    return {plain, adjoint_gradient(model, l.state, load, l.stage, quantity).parameters};
+  }
+  // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
+  Request request;
+  request.order = 1;
+  request.parameters = true;
+  const ContactEnergy e =
+      contact_energy(model, l.state, stage_pairs(model, l.state, l.stage), l.stage.contact, request);
+  return {plain - l.stage.mu * e.energy, Matrix(-l.stage.mu * e.parameters)};
 }
 
 }  // namespace
@@ -110,6 +129,22 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
   }
 }
 
+void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
+{
+  unsaved_ = nullptr;
+  long cost = 0;
+  if (memory_ != nullptr && memory_->recall(*p, cost)) {
+    evaluations_ += cost;
+    p->states_missing = p->evaluated;
+    return;
+  }
+  const long before = evaluations_;
+  solve_targets(*p);
+  if (memory_ == nullptr) return;
+  memory_->record(*p, evaluations_ - before);
+  unsaved_ = p;
+}
+
 void DesignProblem::solve_targets(DesignPoint& p)
 {
   std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself
@@ -129,20 +164,14 @@ void DesignProblem::solve_targets(DesignPoint& p)
     if (l.status != LockStatus::locked) return;
     p.warm[k] = targets[k].trail;
     const Vector& load = loads[k];
-    // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
-    Request request;
-    request.order = 1;
-    request.parameters = true;
-    const ContactEnergy e =
-        contact_energy(p.model, l.state, stage_pairs(p.model, l.state, l.stage), l.stage.contact, request);
-    const double scale = std::pow(p.model.length, load_.value_length_power());
     const double sign = tasks_[k].sense == Sense::positive ? 1.0 : -1.0;
-    estimate[k] = sign * (load.dot(l.state.macro) - l.stage.mu * e.energy) * scale;
+    const double scale = sign * std::pow(p.model.length, load_.value_length_power());
+    const auto [value, parameters] = value_of(p.model, l, load, design_.value);
+    estimate[k] = scale * value;
     gradient[k] = Vector::Zero(nv);
     for (int v = 0; v < nv; ++v) {
-      for (const auto& [element, parameter] : design_.variables[static_cast<std::size_t>(v)].entries) {
-        gradient[k][v] -= sign * l.stage.mu * e.parameters(parameter, element) * scale;
-      }
+      for (const auto& [element, parameter] : design_.variables[static_cast<std::size_t>(v)].entries)
+        gradient[k][v] += scale * parameters(parameter, element);
     }
   });
   p.changed.clear();

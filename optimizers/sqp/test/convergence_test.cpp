@@ -1,9 +1,9 @@
 /// Known optima, and what they cost.
 
 #include "../sqp.hpp"
-#include "problems.hpp"
 
 #include <gtest/gtest.h>
+#include <common/test/known_problems.hpp>
 
 #include <cmath>
 
@@ -217,23 +217,6 @@ void eight_residuals(const VectorXd& x, VectorXd& r, RowMajor& J)
   }
 }
 
-/// Half the sum of squares of residuals, which the optimizer sees only if `shown`.
-template <class Residuals>
-FunctionProblem sum_of_squares(FunctionProblem problem, int count, const Residuals& residuals, bool shown)
-{
-  problem.objective = [count, residuals](const VectorXd& x, VectorXd& g) {
-    VectorXd r(count);
-    RowMajor J(count, x.size());
-    residuals(x, r, J);
-    g = J.transpose() * r;
-    return 0.5 * r.squaredNorm();
-  };
-  if (!shown) return problem;
-  problem.residual_number = count;
-  problem.residual_functions = residuals;
-  return problem;
-}
-
 TEST(SqpConvergence, ManyLeastSquaresVariables)
 {
   // Far fewer evaluations than variables squared.
@@ -275,31 +258,9 @@ TEST(SqpConvergence, UselessJacobianEnds)
   }
 }
 
-/// Residuals r_i = min(a_i . x, b_i . x) - 1 with kinks, as limits have them: they rise fastest where two
-/// contacts are equal. Half the sum of squares, with r_(n+i) = x_i/2 added, is convex below zero and the same
-/// for all cyclic permutations of x: it is least at equal components t, where all six kinks meet. There
-/// r_i = 1.4 t - 1, so t = 1.4/(1.4^2 + 1/4).
-void kinked(const VectorXd& x, VectorXd& r, RowMajor& J)
-{
-  constexpr int n = 6;
-  J.setZero();
-  for (int i = 0; i < n; ++i) {
-    VectorXd a = VectorXd::Zero(n), b = VectorXd::Zero(n);
-    a[i] = 1.0;
-    a[(i + 1) % n] = 0.4;
-    b[(i + 2) % n] = 0.9;
-    b[(i + 3) % n] = 0.5;
-    const VectorXd& g = a.dot(x) <= b.dot(x) ? a : b;
-    r[i] = g.dot(x) - 1.0;
-    J.row(i) = g.transpose();
-    r[n + i] = 0.5 * x[i];
-    J(n + i, i) = 0.5;
-  }
-}
-
 TEST(SqpConvergence, KinkedResidualsAreFollowedAlongTheirKinks)
 {
-  FunctionProblem problem = sum_of_squares(box(6, -2.0, 3.0), 12, kinked, true);
+  FunctionProblem problem = sum_of_squares(box(6, -2.0, 3.0), 12, kinked_residuals, true);
   const std::vector<double> start = {-1.0, 2.0, 0.3, -0.7, 1.4, 0.1};
   const double t = 1.4 / (1.96 + 0.25);
   const double least = 3.0 * ((1.4 * t - 1.0) * (1.4 * t - 1.0) + 0.25 * t * t);
@@ -308,7 +269,7 @@ TEST(SqpConvergence, KinkedResidualsAreFollowedAlongTheirKinks)
   EXPECT_NEAR(r.value, least, 1e-6 * least);
   for (const double v : r.x) EXPECT_NEAR(v, t, 1e-3);
   // Without residuals the search sees one gradient at a time.
-  FunctionProblem blind = sum_of_squares(box(6, -2.0, 3.0), 12, kinked, false);
+  FunctionProblem blind = sum_of_squares(box(6, -2.0, 3.0), 12, kinked_residuals, false);
   Recorder other;
   const OptimizerResult slow = minimise(blind, start, other, SqpSettings{});
   EXPECT_GE(slow.value, r.value - 1e-9);

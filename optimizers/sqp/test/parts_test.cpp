@@ -1,10 +1,10 @@
 /// The parts of the method on their own: Hessian update, step with relaxation, settings.
 
-#include "../damped_bfgs.hpp"
 #include "../sqp.hpp"
-#include "../subproblem.hpp"
 
 #include <gtest/gtest.h>
+#include <common/damped_bfgs.hpp>
+#include <common/subproblem.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <random>
@@ -124,6 +124,7 @@ TEST(SqpSettings, DefaultsOfTheFieldsAreThoseOfTheStruct)
   std::vector<Field> fields;
   sqp_fields(fields);
   const std::vector<double> expected = {static_cast<double>(settings.max_iterations),
+                                        static_cast<double>(settings.max_evaluations),
                                         settings.tolerance,
                                         settings.constraint_tolerance,
                                         settings.initial_step,

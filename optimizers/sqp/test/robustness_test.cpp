@@ -1,9 +1,9 @@
 /// What goes wrong in practice: infeasible problems, evaluations that fail, kinks, intersections in the way.
 
 #include "../sqp.hpp"
-#include "problems.hpp"
 
 #include <gtest/gtest.h>
+#include <common/test/known_problems.hpp>
 #include <hauberk/error.hpp>
 
 #include <cmath>

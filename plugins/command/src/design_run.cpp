@@ -1,8 +1,11 @@
 #include "design_run.hpp"
+#include "evaluation_log.hpp"
 #include "interrupt.hpp"
 #include "limits_run.hpp"
 #include "presets.hpp"
 #include "tapped_optimizer.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +17,6 @@ namespace {
 /// Iterates that violate constraints by more than this (L) are not offered as the best so far.
 constexpr double acceptable_violation = 1e-6;
 
-DesignSpec resumed_spec(DesignSpec design)
-{
-  design.starts = 1;
-  design.perturbation = 0.0;
-  return design;
-}
-
 double initial_value(const Loaded& loaded, const DesignVariable& v)
 {
   const auto& [element, parameter] = v.entries.front();
@@ -30,16 +26,16 @@ double initial_value(const Loaded& loaded, const DesignVariable& v)
 
 class DesignRun {
  public:
-  DesignRun(const Loaded& loaded, unsigned threads, const std::optional<ResumedDesign>& resumed,
-            Progress& progress, Output& output, RunResult& run)
+  DesignRun(const Loaded& loaded, unsigned threads, bool go_on, Progress& progress, Output& output,
+            RunResult& run)
       : loaded_(loaded),
         experiment_(loaded.experiment),
         threads_(threads),
-        resumed_(resumed),
+        go_on_(go_on),
         progress_(progress),
         output_(output),
         run_(run),
-        spec_(resumed ? resumed_spec(*loaded.design) : *loaded.design)
+        spec_(*loaded.design)
   {
   }
 
@@ -97,11 +93,6 @@ class DesignRun {
       r.weight = t.weight;
       d.targets.push_back(r);
     }
-    if (resumed_) {
-      run_.scene = resumed_->scene;
-      d.history = resumed_->history;
-      for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].final = resumed_->variables[v];
-    }
   }
 
   void enter_initial()
@@ -127,7 +118,7 @@ class DesignRun {
       best_ = std::numeric_limits<double>::infinity();
       history_ = run_.design->history;
     } else if (begins) {
-      history_ = resumed_ ? resumed_->history : std::vector<DesignIterate>{};
+      history_.clear();
     }
     if (begins) first_ = history_.empty() ? 0 : history_.back().iteration + 1;
     start_ = p.start;
@@ -169,11 +160,14 @@ class DesignRun {
   {
     const TappedOptimizer optimizer(*experiment_.design->optimizer, experiment_.design->max_iterations,
                                     [this](const DesignPoint& p) { point_ = &p; });
+    EvaluationLog log(output_.directory() / evaluation_log_file, output_.identity(), go_on_,
+                      [this](const std::string& warning) { progress_.warn(warning); });
+    if (go_on_) progress_.note(fmt::format("resuming: {} evaluations of the search are known", log.known()));
     Designed designed;
     try {
-      designed = run_design(resumed_ ? resumed_->scene : loaded_.scene, *experiment_.load_case,
-                            experiment_.solver.clearance, loaded_.settings, spec_, optimizer, threads_,
-                            [this](const DesignProgress& p) { return observe(p); });
+      designed = run_design(
+          loaded_.scene, *experiment_.load_case, experiment_.solver.clearance, loaded_.settings, spec_,
+          optimizer, threads_, [this](const DesignProgress& p) { return observe(p); }, &log);
     } catch (const SearchInterrupted&) {
       progress_.clear();
       return;  // the best so far is in `run_`
@@ -182,22 +176,13 @@ class DesignRun {
     const DesignResult partial = *run_.design;
     DesignResult& d = run_.design.emplace(std::move(designed.result));
     run_.scene = std::move(designed.scene);
-    run_.scene.length = loaded_.scene.length;  // frozen, also when the search began from a resumed design
+    run_.scene.length = loaded_.scene.length;
     d.initial_scene = loaded_.design_scene;
     d.initial_limits = partial.initial_limits;
     d.objective_initial = partial.objective_initial;
     for (std::size_t i = 0; i < d.targets.size(); ++i) d.targets[i].initial = partial.targets[i].initial;
     for (std::size_t v = 0; v < d.variables.size(); ++v)
       d.variables[v].initial = partial.variables[v].initial;
-    if (resumed_) {
-      std::vector<DesignIterate> history = resumed_->history;
-      const int first = history.back().iteration + 1;
-      for (DesignIterate& it : d.history) {
-        it.iteration += first;
-        history.push_back(std::move(it));
-      }
-      d.history = std::move(history);
-    }
     if (interrupted()) {
       d.status = "interrupted";
       d.message = partial.message;
@@ -205,7 +190,6 @@ class DesignRun {
       d.status = "targets_met";
       d.message = "every target is met to within design.tolerance";
     }
-    if (resumed_) d.message += "; resumed from the best design of an interrupted run";
     d.objective = std::numeric_limits<double>::quiet_NaN();  // until limits are recomputed
     output_.write_partial(run_);
   }
@@ -240,7 +224,7 @@ class DesignRun {
   const Loaded& loaded_;
   const Experiment& experiment_;
   unsigned threads_;
-  const std::optional<ResumedDesign>& resumed_;
+  bool go_on_;
   Progress& progress_;
   Output& output_;
   RunResult& run_;
@@ -248,7 +232,7 @@ class DesignRun {
   std::optional<State> strained_start_;  ///< where the final limits start, if not at rest
 
   const DesignPoint* point_ = nullptr;  ///< of the iterate that is being observed
-  std::vector<DesignIterate> history_;  ///< of the search that runs, with that of the design it continues
+  std::vector<DesignIterate> history_;  ///< of the search that runs, with that of the one it continues
   int first_ = 0;                       ///< number of its first iterate
   int start_ = -1;
   bool fine_ = false;  ///< the best design is being continued with final stages
@@ -258,10 +242,10 @@ class DesignRun {
 
 }  // namespace
 
-void run_design_task(const Loaded& loaded, unsigned threads, const std::optional<ResumedDesign>& start,
-                     Progress& progress, Output& output, RunResult& run)
+void run_design_task(const Loaded& loaded, unsigned threads, bool go_on, Progress& progress, Output& output,
+                     RunResult& run)
 {
-  DesignRun(loaded, threads, start, progress, output, run).go();
+  DesignRun(loaded, threads, go_on, progress, output, run).go();
 }
 
 }  // namespace hauberk::command

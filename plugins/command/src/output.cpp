@@ -1,4 +1,5 @@
 #include "output.hpp"
+#include "evaluation_log.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
@@ -7,6 +8,7 @@
 
 #include <cholmod.h>
 #include <fmt/format.h>
+#include <boost/json/serialize.hpp>
 #include <boost/version.hpp>
 
 #include <cstdlib>
@@ -155,7 +157,25 @@ void Output::write(const RunResult& run, const TransitionResult& transition)
 
 void Output::write_partial(const RunResult& run) { try_writing(content(run)); }
 
-void Output::done() { drop_previous(directory_); }
+void Output::done()
+{
+  drop_previous(directory_);
+  drop_evaluations(directory_);
+}
+
+std::string Output::identity() const
+{
+  boost::json::object provenance = document_.at("provenance").as_object();
+  provenance.erase("threads");  // results do not depend on them
+  return boost::json::serialize(
+      boost::json::object{{"experiment", document_.at("experiment")}, {"provenance", provenance}});
+}
+
+void drop_evaluations(const std::filesystem::path& directory)
+{
+  std::error_code ignored;
+  std::filesystem::remove(directory / evaluation_log_file, ignored);
+}
 
 bool Output::is_time() const { return std::chrono::steady_clock::now() - last_ >= write_interval; }
 

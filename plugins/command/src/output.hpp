@@ -44,6 +44,9 @@ class Output {
   /// The document that was written last.
   const boost::json::object& document() const { return document_; }
   const std::filesystem::path& directory() const { return directory_; }
+  /// What is computed and by which program, on one line: results of one identity are the same. To be asked
+  /// once something was written.
+  std::string identity() const;
 
  private:
   using Files = std::vector<NamedContent>;
@@ -68,6 +71,9 @@ class Output {
   boost::json::object document_;
   std::chrono::steady_clock::time_point last_{};
 };
+
+/// Removes the evaluations of a design from a folder, as its search is done or is to begin anew.
+void drop_evaluations(const std::filesystem::path& directory);
 
 /// What computes results in this build, for their provenance.
 Provenance provenance(const Loaded& loaded, unsigned threads);

@@ -2,13 +2,10 @@
 #include "output.hpp"
 #include "stability_run.hpp"
 
-#include <hauberk/design/design_point.hpp>
 #include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/results/json_text.hpp>
 
 #include <fmt/format.h>
-
-#include <Eigen/Geometry>
 
 #include <array>
 
@@ -95,49 +92,12 @@ void read_limits(const json::value& document, const Loaded& loaded, Resumed& out
   }
 }
 
-std::vector<DesignIterate> read_history(const json::array& list)
-{
-  std::vector<DesignIterate> history;
-  for (const json::value& item : list) {
-    DesignIterate it;
-    it.iteration = static_cast<int>(number(item.at("iteration")));
-    it.objective = number(item.at("objective"));
-    it.step = number(item.at("step"));
-    it.optimality = number(item.at("optimality"));
-    it.constraint_violation = number(item.at("constraint_violation"));
-    it.min_gap = number(item.at("min_gap"));
-    it.links_kept = item.at("links_kept").as_bool();
-    it.seconds = number(item.at("seconds"));
-    for (const json::value& v : item.at("changed").as_array()) it.changed.push_back(text(v));
-    for (const json::value& v : item.at("values").as_array()) it.values.push_back(number(v));
-    history.push_back(std::move(it));
-  }
-  return history;
-}
-
-void read_design(const json::value& document, const Loaded& loaded, Resumed& out)
+/// A search is repeated, from the evaluations that were made (evaluation_log.hpp); here is only whether it is
+/// done.
+void read_design(const json::value& document, Resumed& out)
 {
   const json::value& design = document.at("design");
   out.complete = out.complete && !design.is_null() && text(design.at("status")) != "interrupted";
-  if (design.is_null()) return;
-  ResumedDesign resumed;
-  for (const json::value& v : design.at("variables").as_array())
-    resumed.variables.push_back(number(v.at("final")));
-  if (resumed.variables.size() != loaded.design->variables.size())
-    throw InputError("its variables are not complete");
-  resumed.scene = with_variables(loaded.scene, loaded.design->variables, resumed.variables);
-  const json::array& elements = document.at("scene").at("elements").as_array();
-  for (std::size_t k = 0; k < resumed.scene.elements.size(); ++k) {
-    const json::value& rest = elements.at(k).at("rest");
-    const json::array& x = rest.at("position").as_array();
-    const json::array& q = rest.at("quaternion").as_array();
-    const Eigen::Quaterniond rotation(number(q.at(0)), number(q.at(1)), number(q.at(2)), number(q.at(3)));
-    resumed.scene.elements[k].rest = {{number(x.at(0)), number(x.at(1)), number(x.at(2))},
-                                      rotation.normalized().toRotationMatrix()};
-  }
-  resumed.history = read_history(design.at("history").as_array());
-  // Nothing to go on from when the search had not begun.
-  if (!resumed.history.empty()) out.design = std::move(resumed);
 }
 
 bool same_case(const json::object& entry, const StabilityMap& map, const StabilityCase& c)
@@ -227,7 +187,7 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
       read_transition(document, loaded, out);
     else
       read_limits(document, loaded, out);
-    if (loaded.design) read_design(document, loaded, out);
+    if (loaded.design) read_design(document, out);
     if (out.complete) out.document = std::move(document);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: cannot be resumed: {}", file.string(), error.what()));

@@ -13,18 +13,10 @@
 
 namespace hauberk::command {
 
-/// The best design of an interrupted design.
-struct ResumedDesign {
-  std::vector<double> variables;
-  SceneSpec scene;  ///< with these variables, at its relaxed rest state
-  std::vector<DesignIterate> history;
-};
-
 struct Resumed {
   /// Finished limits by task, and their entries of results.json (null where not finished).
   std::vector<std::optional<LimitResult>> limits;
   std::vector<boost::json::value> entries;
-  std::optional<ResumedDesign> design;
   std::optional<StabilityMap> stability;  ///< with the finished cases; task stability only
   bool complete = false;                  ///< nothing is left to be done
   boost::json::value document;            ///< of a complete run

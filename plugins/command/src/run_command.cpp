@@ -3,6 +3,7 @@
 #include "interrupt.hpp"
 #include "limits_run.hpp"
 #include "plan_text.hpp"
+#include "resume.hpp"
 #include "stability_run.hpp"
 #include "stability_summary.hpp"
 #include "summary.hpp"
@@ -155,11 +156,11 @@ int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progre
 }
 
 /// Everything after the first file was written: from here on nothing is bad input.
-void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress,
-             Output& output, RunResult& run)
+void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, bool resuming,
+             Progress& progress, Output& output, RunResult& run)
 try {
   if (loaded.design)
-    run_design_task(loaded, threads, resumed.design, progress, output, run);
+    run_design_task(loaded, threads, resuming, progress, output, run);
   else
     run_limits_task(loaded, threads, resumed, progress, output, run);
 } catch (const ComputationError& error) {
@@ -189,6 +190,7 @@ int already_complete(const Loaded& loaded, const Resumed& resumed, const std::fi
   // The run may have been killed after its last result, before it had tidied up.
   remove_abandoned(folder);
   drop_previous(folder);
+  drop_evaluations(folder);
   fmt::print("{}: complete already\n", (folder / results_file).string());
   bool failed = report_expectations(loaded.experiment, resumed.document);
   for (const auto& limit : resumed.limits)
@@ -219,12 +221,11 @@ int run_command(const std::vector<std::string>& words)
   // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
   prepare_output_directory(folder, options.has("force") || options.has("resume"));
 
+  if (!resuming) drop_evaluations(folder);
   Progress progress(Progress::detect(options.has("quiet")));
   if (options.has("resume")) {
-    progress.note(!resuming ? "nothing to resume: starting anew"
-                  : loaded.design && resumed.design
-                      ? "resuming from the best design so far; other starts are not repeated"
-                  : loaded.design     ? "the search had not begun: starting anew"
+    progress.note(!resuming           ? "nothing to resume: starting anew"
+                  : loaded.design     ? "resuming: the search is repeated from its evaluations"
                   : loaded.transition ? "not finished: starting anew"
                   : resumed.stability ? "resuming: finished cases are kept"
                                       : "resuming: finished limits are kept");
@@ -236,7 +237,7 @@ int run_command(const std::vector<std::string>& words)
   if (loaded.experiment.task == Task::stability)
     return run_stability_task(loaded, threads, resumed, progress, output, run);
   if (loaded.transition) return run_transition_task(loaded, threads, progress, output, run);
-  compute(loaded, threads, resumed, progress, output, run);
+  compute(loaded, threads, resumed, resuming, progress, output, run);
   progress.clear();
   output.write(run);
   return finish(loaded, output, run,

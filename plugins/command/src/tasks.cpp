@@ -47,6 +47,7 @@ DesignSpec design_spec(const Experiment& experiment)
     design.targets.push_back({t.direction_deg, t.value, t.weight});
   design.hole_clearance = from.hole_clearance;
   design.rest_clearance = from.rest_clearance;
+  design.value = from.plain_value ? DesignValue::plain : DesignValue::less_contact;
   design.starts = from.starts;
   design.perturbation = from.perturbation;
   design.seed = experiment.seed;

@@ -105,6 +105,7 @@ ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& p
   design.targets = read_targets(section, problems);
   design.hole_clearance = read_clearance(section, "hole_clearance", experiment.solver.clearance, problems);
   design.rest_clearance = read_clearance(section, "rest_clearance", experiment.solver.clearance, problems);
+  design.plain_value = string_or(section, "value", "") == "plain";
   design.starts = int_or(section, "starts", 1);
   design.perturbation = number_or(section, "perturbation", 0.0);
   design.max_iterations = optional_int(section, "max_iterations");

@@ -210,6 +210,12 @@ Field design_field()
                            "1"),
                     0.0),
            "0.02"),
+       with_default(
+           choice("value",
+                  "What stands for a limit while the design is searched, as both tend to it: value minus "
+                  "contact energy, whose gradient is explicit, or the plain value, with an adjoint one.",
+                  {"less_contact", "plain"}),
+           "\"less_contact\""),
        at_least(integer("max_iterations", "Most iterations; absent: as the optimizer says."), 0),
        at_least(number("tolerance",
                        "Stop once every target is met to within this fraction of it; absent: go on until "

@@ -37,11 +37,14 @@ DesignSpec spec()
   return d;
 }
 
-TEST(DesignGradient, ResolvedDifferencesConvergeToIt)
+class DesignGradient : public ::testing::TestWithParam<DesignValue> {};
+
+TEST_P(DesignGradient, ResolvedDifferencesConvergeToIt)
 {
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);
-  const DesignSpec design = spec();
+  DesignSpec design = spec();
+  design.value = GetParam();
   LimitSettings limits;
   DesignProblem problem(scene, load, 0.0, limits, design, 1, [] { return true; });
   const std::vector<double> x = problem.scene_variables();
@@ -71,7 +74,13 @@ TEST(DesignGradient, ResolvedDifferencesConvergeToIt)
   }
 }
 
-TEST(DesignGradient, ResidualsGiveTheObjectiveAndItsGradient)
+INSTANTIATE_TEST_SUITE_P(Values, DesignGradient,
+                         ::testing::Values(DesignValue::less_contact, DesignValue::plain),
+                         [](const auto& info) {
+                           return info.param == DesignValue::plain ? "plain" : "less_contact";
+                         });
+
+TEST(DesignResiduals, GiveTheObjectiveAndItsGradient)
 {
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);

@@ -17,6 +17,14 @@ struct DesignVariable {
 
 enum class DesignQuantity { eta, positive, negative };  ///< eta, stretch (up), compress (down)
 
+/// What stands for a limit in the objective, at the last stage of the search. Both tend to the limit as
+/// stages go down; the choice of one is the choice of its gradient.
+enum class DesignValue {
+  less_contact,  ///< value minus contact energy: its gradient is explicit (envelope theorem), and costs
+                 ///< nothing
+  plain          ///< the value itself: its gradient is an adjoint one
+};
+
 struct DesignTarget {
   double direction_deg = 0.0;
   double value = 0.0;  ///< file units
@@ -29,6 +37,7 @@ struct DesignSpec {
   std::string quantity_name = "eta";
   std::vector<DesignVariable> variables;
   std::vector<DesignTarget> targets;
+  DesignValue value = DesignValue::less_contact;
   double hole_clearance = 0.0;  ///< paper's C_ij > eps_c for every linked pair
   double rest_clearance = 0.0;  ///< surface distance of every pair at rest
   int starts = 1;
@@ -53,12 +62,15 @@ struct Designed {
   SceneSpec scene;      ///< best design with its relaxed rest state
 };
 
+class EvaluationMemory;
+
 /// Runs all starts of the design with coarse stages, then continues the best of them with the final ones.
-/// Throws InputError when the initial design is infeasible at rest, ComputationError when no evaluation
-/// succeeds.
+/// Evaluations that `memory` knows are not made again (evaluation_memory.hpp); null: none are known, nor
+/// recorded. Throws InputError when the initial design is infeasible at rest, ComputationError when no
+/// evaluation succeeds.
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
-                    unsigned threads, const DesignObserver& observer);
+                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory = nullptr);
 
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);

@@ -27,7 +27,8 @@ struct DesignPoint {
   double objective = 0.0;
   Vector gradient;
   bool evaluated = false;
-  std::string why;  ///< why it could not be evaluated
+  bool states_missing = false;  ///< values are recalled from a former run, `warm` is not
+  std::string why;              ///< why it could not be evaluated
 };
 
 /// Turns variables into element parameters.

@@ -1,7 +1,7 @@
 #pragma once
 /// The design as an optimizer sees it: objective with gradient, bounds, clearance constraints, safe steps.
 
-#include <hauberk/design/design_point.hpp>
+#include <hauberk/design/evaluation_memory.hpp>
 
 #include <map>
 #include <string>
@@ -25,6 +25,10 @@ class DesignProblem final : public OptimizationProblem {
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override;
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
   void accept(std::span<const double> x) override;
+
+  /// Evaluations are recalled from `memory` as far as it knows them, and recorded there; null: neither. It
+  /// must outlive this.
+  void set_memory(EvaluationMemory* memory) { memory_ = memory; }
 
   /// Changes the stages; the current design keeps its rest state and warm starts and is evaluated anew.
   void set_schedule(const Schedule& schedule);
@@ -56,6 +60,8 @@ class DesignProblem final : public OptimizationProblem {
   };
 
   std::shared_ptr<DesignPoint> make_point(std::span<const double> x);
+  /// Recalls or solves, and records.
+  void find_targets(const std::shared_ptr<DesignPoint>& p);
   void solve_targets(DesignPoint& p);
   /// What one target asks for, locked.
   struct LockedTarget {
@@ -84,12 +90,14 @@ class DesignProblem final : public OptimizationProblem {
   DesignSpec design_;
   unsigned threads_;
   KeepGoing keep_going_;
+  EvaluationMemory* memory_ = nullptr;
   Schedule schedule_;
   std::vector<double> lower_, upper_;
   std::vector<LimitTask> tasks_;
   std::vector<Hole> holes_;
   std::vector<Pair> pairs_;
   std::shared_ptr<DesignPoint> current_, last_;
+  std::shared_ptr<DesignPoint> unsaved_;  ///< the point recorded last, if its states are not yet
   /// Iterates: an optimizer may go back to its best one, which is not always on the way from the last.
   std::vector<std::shared_ptr<DesignPoint>> accepted_;
   long evaluations_ = 0;

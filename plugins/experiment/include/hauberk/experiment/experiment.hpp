@@ -64,6 +64,7 @@ struct ExperimentDesign {
   std::string quantity;  ///< "eta", "stretch", "compress", "curvature"
   std::vector<ExperimentVariable> variables;
   std::vector<ExperimentTarget> targets;
+  bool plain_value = false;                           ///< design.value is "plain"
   double hole_clearance = 0.0, rest_clearance = 0.0;  ///< file units
   int starts = 1;
   double perturbation = 0.0;  ///< fraction of upper - lower

@@ -1,6 +1,5 @@
-#include "../quadratic_program.hpp"
-
 #include <gtest/gtest.h>
+#include <common/quadratic_program.hpp>
 
 #include <Eigen/LU>
 #include <cmath>

@@ -34,20 +34,24 @@ VectorXd ScaledProblem::moved(const VectorXd& x, const VectorXd& d, double alpha
   return (x + alpha * scale_.cwiseProduct(d)).cwiseMax(lower_).cwiseMin(upper_);
 }
 
-Trial ScaledProblem::evaluate(const VectorXd& x)
+Trial ScaledProblem::evaluate(const VectorXd& x, bool want_gradient)
 {
   ++evaluations_;
-  OptimizationProblem::Evaluation evaluation = problem_.evaluate(view(x), true);
+  OptimizationProblem::Evaluation evaluation = problem_.evaluate(view(x), want_gradient);
   Trial trial;
   trial.value = evaluation.value;
   trial.why = std::move(evaluation.why);
   if (!evaluation.ok) return trial;
+  trial.ok = std::isfinite(trial.value);
+  if (!trial.ok) trial.why = "the value or its gradient is not finite";
+  if (!want_gradient || !trial.ok) return trial;
+  trial.ok = false;
   if (evaluation.gradient.size() != static_cast<std::size_t>(x.size())) {
     trial.why = "the gradient has " + std::to_string(evaluation.gradient.size()) + " components";
     return trial;
   }
   trial.gradient = copy(evaluation.gradient).cwiseProduct(scale_);
-  trial.ok = std::isfinite(trial.value) && trial.gradient.allFinite();
+  trial.ok = trial.gradient.allFinite();
   if (!trial.ok) trial.why = "the value or its gradient is not finite";
   return trial;
 }

@@ -52,10 +52,6 @@ QuadraticProgram assemble(const MatrixXd& B, const Linearisation& at, const Vect
 
 }  // namespace
 
-double total_violation(const VectorXd& c) { return (-c).cwiseMax(0.0).sum(); }
-
-double largest_violation(const VectorXd& c) { return c.size() == 0 ? 0.0 : std::max(0.0, -c.minCoeff()); }
-
 Step propose_step(const MatrixXd& B, const Linearisation& at, const VectorXd& lower, const VectorXd& upper,
                   double penalty)
 {

@@ -1,21 +1,11 @@
 #pragma once
 /// The quadratic model of a constrained problem at an iterate, and the step it proposes.
 
+#include "point.hpp"
+
 #include <Eigen/Core>
 
 namespace hauberk {
-
-/// First-order information at an iterate.
-struct Linearisation {
-  Eigen::VectorXd gradient;  ///< n
-  Eigen::VectorXd c;         ///< m constraint values, feasible where >= 0
-  Eigen::MatrixXd J;         ///< m x n
-};
-
-/// sum_i max(0, -c_i).
-double total_violation(const Eigen::VectorXd& c);
-/// max(0, -min c).
-double largest_violation(const Eigen::VectorXd& c);
 
 struct Step {
   bool ok = false;

@@ -1,24 +1,14 @@
 #pragma once
 /// A kernel problem in variables scaled by their ranges, with checked values and counted calls.
 
-#include "bundle.hpp"
-#include "subproblem.hpp"
+#include "point.hpp"
 
 #include <hauberk/optimizer.hpp>
 
 #include <Eigen/Core>
 #include <span>
-#include <string>
 
 namespace hauberk {
-
-/// Objective and gradient at one point; `ok` is false when either could not be had.
-struct Trial {
-  bool ok = false;
-  double value = 0.0;
-  Eigen::VectorXd gradient;  ///< with respect to scaled variables
-  std::string why;
-};
 
 /// x = scale * z, component-wise, with scale = upper - lower (where that is 0 or infinite, max(1, |start|)),
 /// so that a step of 1 crosses a variable's range. Points are kept in x, which alone goes to the problem;
@@ -36,7 +26,7 @@ class ScaledProblem {
   Eigen::VectorXd moved(const Eigen::VectorXd& x, const Eigen::VectorXd& d, double alpha) const;
 
   /// Value and gradient together: the gradient costs hardly more, and nearly every accepted point needs it.
-  Trial evaluate(const Eigen::VectorXd& x);
+  Trial evaluate(const Eigen::VectorXd& x, bool want_gradient = true);
   Eigen::VectorXd constraints(const Eigen::VectorXd& x);
   /// Fills c and J.
   void linearise(const Eigen::VectorXd& x, Linearisation& at);
@@ -44,6 +34,19 @@ class ScaledProblem {
   Residuals residuals(const Eigen::VectorXd& x);
   /// x in scaled variables: differences of these are scaled steps.
   Eigen::VectorXd scaled(const Eigen::VectorXd& x) const { return x.cwiseQuotient(scale_); }
+  /// The point of scaled variables z, within the bounds.
+  Eigen::VectorXd unscaled(const Eigen::VectorXd& z) const
+  {
+    return z.cwiseProduct(scale_).cwiseMax(lower_).cwiseMin(upper_);
+  }
+  /// The scaled step from one point to another.
+  Eigen::VectorXd step_between(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const
+  {
+    return (to - from).cwiseQuotient(scale_);
+  }
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
+  int constraint_count() const { return problem_.constraint_count(); }
   /// In [0, 1].
   double largest_safe_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d);
   void accept(const Eigen::VectorXd& x);

@@ -1,5 +1,5 @@
 #pragma once
-/// Problems given by functions, which record how the optimizer uses them.
+/// A problem given by functions, which records how an optimizer uses it.
 
 #include <hauberk/optimizer.hpp>
 
@@ -27,6 +27,7 @@ class FunctionProblem : public OptimizationProblem {
   std::function<bool(const VectorXd&)> fails = [](const auto&) { return false; };
 
   std::vector<VectorXd> evaluated, accepted;
+  int gradients = 0;  ///< evaluations that asked for one
   int broken_protocol = 0;
 
   std::span<const double> lower() const override { return lower_bounds; }
@@ -42,6 +43,7 @@ class FunctionProblem : public OptimizationProblem {
     if (!accepted.empty() && !allowed(v)) ++broken_protocol;
     evaluated.push_back(v);
     Evaluation e;
+    if (want_gradient) ++gradients;
     if (fails(v)) {
       e.why = "told to fail";
       return e;
@@ -101,9 +103,10 @@ class FunctionProblem : public OptimizationProblem {
     return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   }
 
-  /// v is on the safe part of one of the directions asked for.
+  /// v is on the safe part of one of the directions asked for, or was accepted before.
   bool allowed(const VectorXd& v) const
   {
+    if (std::find(accepted.begin(), accepted.end(), v) != accepted.end()) return true;
     return std::any_of(directions.begin(), directions.end(), [&](const Direction& at) {
       const VectorXd moved = v - accepted.back();
       const double alpha = moved.dot(at.d) / at.d.squaredNorm();
@@ -128,44 +131,5 @@ class Recorder : public OptimizerObserver {
     return static_cast<int>(iterates.size()) < limit;
   }
 };
-
-inline FunctionProblem box(std::size_t n, double lower, double upper)
-{
-  FunctionProblem p;
-  p.lower_bounds.assign(n, lower);
-  p.upper_bounds.assign(n, upper);
-  return p;
-}
-
-inline FunctionProblem rosenbrock(double lower, double upper)
-{
-  FunctionProblem p = box(2, lower, upper);
-  p.objective = [](const VectorXd& x, VectorXd& g) {
-    const double a = x[1] - x[0] * x[0];
-    const double b = 1.0 - x[0];
-    g << -400.0 * a * x[0] - 2.0 * b, 200.0 * a;
-    return 100.0 * a * a + b * b;
-  };
-  return p;
-}
-
-/// Hock and Schittkowski 71, its equation as two inequalities. Optimum 17.0140173.
-inline FunctionProblem hs71()
-{
-  FunctionProblem p = box(4, 1.0, 5.0);
-  p.objective = [](const VectorXd& x, VectorXd& g) {
-    const double sum = x[0] + x[1] + x[2];
-    g << x[3] * (sum + x[0]), x[0] * x[3], x[0] * x[3] + 1.0, x[0] * sum;
-    return x[0] * x[3] * sum + x[2];
-  };
-  p.constraint_number = 3;
-  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
-    c << x.prod() - 25.0, x.squaredNorm() - 40.0, 40.0 - x.squaredNorm();
-    J.row(0) = x.prod() * x.cwiseInverse();
-    J.row(1) = 2.0 * x;
-    J.row(2) = -2.0 * x;
-  };
-  return p;
-}
 
 }  // namespace hauberk::testing_problems

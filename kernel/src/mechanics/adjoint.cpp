@@ -1,0 +1,69 @@
+#include <hauberk/error.hpp>
+#include <hauberk/mechanics/adjoint.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Step of the differences, as part of the smallest gap over the motion: forces go like 1/gap, so the error
+/// of fourth order is about 4 step^4, below the noise of quadrature (1e-10) over the step.
+constexpr double step_of_gap = 3e-3;
+/// Curvatures below this part of the largest are rounding, and below this part of the load (L = 1)
+/// quadrature: contact forces have the load's size, and bend with curvatures of order 1.
+constexpr double rounding = 1e-13;
+constexpr double quadrature = 1e-7;
+
+/// Least-squares solution of H a = b in the step norm, and |H a - b| / |b| in its dual.
+Vector solve(const Matrix& H, const Vector& b, const Vector& metric, double load, double& residual)
+{
+  const Vector root = metric.cwiseSqrt().cwiseInverse();
+  const Matrix scaled = root.asDiagonal() * H * root.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(0.5 * (scaled + scaled.transpose()));
+  const Vector& values = spectrum.eigenvalues();
+  const double least = std::max(rounding * values.cwiseAbs().maxCoeff(), quadrature * load);
+  const Vector right = root.cwiseProduct(b);
+  Vector part = spectrum.eigenvectors().transpose() * right;
+  for (Eigen::Index i = 0; i < part.size(); ++i)
+    part[i] = std::abs(values[i]) > least ? part[i] / values[i] : 0.0;
+  const Vector z = spectrum.eigenvectors() * part;
+  residual = (scaled * z - right).norm() / right.norm();
+  return root.cwiseProduct(z);
+}
+
+}  // namespace
+
+AdjointGradient adjoint_gradient(const Model& model, const State& state, const Vector& load,
+                                 const Stage& stage, const Vector& quantity)
+{
+  AdjointGradient out;
+  const std::vector<ElementPair> pairs = stage_pairs(model, state, stage);
+  const TotalEnergy e = total_energy(model, state, load, stage, pairs, 2);
+  out.evaluations = e.contact.evaluations;
+  if (!e.admissible) throw ComputationError("adjoint: the state touches; it is no minimum of a stage");
+  Request request;
+  request.order = 1;
+  request.parameters = true;
+  const auto explicit_at = [&](const State& s) {
+    const ContactEnergy c = contact_energy(model, s, pairs, stage.contact, request);
+    out.evaluations += c.evaluations;
+    return Matrix(stage.mu * c.parameters);
+  };
+  if (quantity.squaredNorm() == 0.0) {
+    out.parameters = Matrix::Zero(explicit_at(state).rows(), model.element_count());
+    return out;
+  }
+  const Vector a = solve(e.hessian, quantity, model.metric, load.norm(), out.residual);
+  const double motion = largest_motion(model, a);
+  const double s = motion > 0.0 ? step_of_gap * e.contact.min_gap / motion : 1.0;
+  const auto difference = [&](double by) {
+    return Matrix(explicit_at(advanced(model, state, a, by)) - explicit_at(advanced(model, state, a, -by)));
+  };
+  out.parameters = -(8.0 * difference(s) - difference(2.0 * s)) / (12.0 * s);
+  return out;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,273 @@
+#include "known_problems.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace hauberk::testing_problems {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+KnownProblem known(std::string name, FunctionProblem problem, std::vector<double> start,
+                   std::optional<double> value, std::vector<double> solution = {})
+{
+  KnownProblem k;
+  k.name = std::move(name);
+  k.problem = std::move(problem);
+  k.start = std::move(start);
+  k.value = value;
+  k.solution = std::move(solution);
+  return k;
+}
+
+/// 1/2 x.A x - b.x with A = tridiag(-1, 2, -1), so that at the solution the gradient points out of active
+/// bounds and vanishes elsewhere.
+KnownProblem quadratic()
+{
+  constexpr int n = 6;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  A.diagonal().setConstant(2.0);
+  A.diagonal(1).setConstant(-1.0);
+  A.diagonal(-1).setConstant(-1.0);
+  VectorXd solution(n), slope(n);
+  solution << 1.0, 0.25, -1.0, 0.5, 1.0, -0.75;
+  slope << -1.0, 0.0, 2.0, 0.0, -0.5, 0.0;
+  const VectorXd b = A * solution - slope;
+  FunctionProblem p = box(n, -1.0, 1.0);
+  p.objective = [A, b](const VectorXd& x, VectorXd& g) {
+    g = A * x - b;
+    return 0.5 * x.dot(A * x) - b.dot(x);
+  };
+  const double value = 0.5 * solution.dot(A * solution) - b.dot(solution);
+  return known("quadratic", std::move(p), std::vector<double>(n, 0.0), value,
+               {solution.begin(), solution.end()});
+}
+
+KnownProblem rosenbrock_on_its_bound()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.upper_bounds[0] = 0.5;
+  return known("rosenbrock_bound", std::move(p), {-1.2, 1.0}, 0.25, {0.5, 0.25});
+}
+
+KnownProblem hs76()
+{
+  FunctionProblem p = box(4, 0.0, 10.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g << 2 * x[0] - x[2] - 1, x[1] - 3, 2 * x[2] - x[0] + x[3] + 1, x[3] + x[2] - 1;
+    return x[0] * x[0] + 0.5 * x[1] * x[1] + x[2] * x[2] + 0.5 * x[3] * x[3] - x[0] * x[2] + x[2] * x[3] -
+           x[0] - 3 * x[1] + x[2] - x[3];
+  };
+  p.constraint_number = 3;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    J << -1, -2, -1, -1, -3, -1, -2, 1, 0, 1, 4, 0;
+    c = J * x + Eigen::Vector3d(5.0, 4.0, -1.5);
+  };
+  return known("hs76", std::move(p), {0.5, 0.5, 0.5, 0.5}, -103.0 / 22.0,
+               {3.0 / 11.0, 23.0 / 11.0, 0.0, 6.0 / 11.0});
+}
+
+/// Farthest along (3, 4) in the unit disk.
+KnownProblem circle()
+{
+  FunctionProblem p = box(2, -2.0, 2.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g << -3.0, -4.0;
+    return g.dot(x);
+  };
+  p.constraint_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << 1.0 - x.squaredNorm();
+    J.row(0) = -2.0 * x;
+  };
+  return known("circle", std::move(p), {0.1, -0.3}, -5.0, {0.6, 0.8});
+}
+
+KnownProblem degenerate()
+{
+  FunctionProblem p = box(2, 0.0, 4.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g = 2.0 * x;
+    return x.squaredNorm();
+  };
+  p.constraint_number = 5;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    J << 1, 0, 0, 1, 1, 1, 1, 1, 3, 1;
+    c = J * x;
+    c -= (VectorXd(5) << 1.0, 1.0, 2.0, 2.0, 4.0).finished();
+  };
+  return known("degenerate", std::move(p), {3.0, 2.5}, 2.0, {1.0, 1.0});
+}
+
+KnownProblem contradiction()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.constraint_number = 2;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << x[0] - 1.0, -0.5 - x[0];
+    J << 1, 0, -1, 0;
+  };
+  KnownProblem k = known("contradiction", std::move(p), {-1.2, 1.0}, std::nullopt);
+  k.feasible = false;
+  return k;
+}
+
+/// -1 - x.x >= 0, although every linearisation away from 0 has a solution.
+KnownProblem no_ball()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.constraint_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << -1.0 - x.squaredNorm();
+    J.row(0) = -2.0 * x;
+  };
+  KnownProblem k = known("no_ball", std::move(p), {-1.2, 1.0}, std::nullopt);
+  k.feasible = false;
+  return k;
+}
+
+KnownProblem kinked()
+{
+  const double t = 1.4 / (1.96 + 0.25);
+  const double least = 3.0 * ((1.4 * t - 1.0) * (1.4 * t - 1.0) + 0.25 * t * t);
+  return known("kinked", sum_of_squares(box(6, -2.0, 3.0), 12, kinked_residuals, true),
+               {-1.0, 2.0, 0.3, -0.7, 1.4, 0.1}, least, std::vector<double>(6, t));
+}
+
+KnownProblem failing()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.fails = [](const VectorXd& x) { return x[1] < x[0] * x[0] - 0.5; };
+  return known("failing", std::move(p), {-1.2, 1.0}, 0.0, {1.0, 1.0});
+}
+
+KnownProblem not_a_number()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  const auto smooth = p.objective;
+  p.objective = [smooth](const VectorXd& x, VectorXd& g) {
+    const double value = smooth(x, g);
+    if (x[1] < x[0] * x[0] - 0.5) return std::numeric_limits<double>::quiet_NaN();
+    if (x[1] > x[0] * x[0] + 0.5) g[1] = infinity;
+    return value;
+  };
+  return known("not_a_number", std::move(p), {-1.2, 1.0}, 0.0, {1.0, 1.0});
+}
+
+KnownProblem short_way()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.safe = [](const VectorXd&, const VectorXd& d) { return d.norm() > 0.2 ? 0.2 / d.norm() : 1.0; };
+  return known("short_way", std::move(p), {-1.2, 1.0}, 0.0, {1.0, 1.0});
+}
+
+KnownProblem wall()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.safe = [](const VectorXd& x, const VectorXd& d) {
+    return d[0] <= 0.0 ? 1.0 : std::clamp((0.4 - x[0]) / d[0], 0.0, 1.0);
+  };
+  KnownProblem k = known("wall", std::move(p), {-1.2, 1.0}, std::nullopt);
+  k.wall = 0.4;
+  return k;
+}
+
+}  // namespace
+
+FunctionProblem box(std::size_t n, double lower, double upper)
+{
+  FunctionProblem p;
+  p.lower_bounds.assign(n, lower);
+  p.upper_bounds.assign(n, upper);
+  return p;
+}
+
+FunctionProblem rosenbrock(double lower, double upper)
+{
+  FunctionProblem p = box(2, lower, upper);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    const double a = x[1] - x[0] * x[0];
+    const double b = 1.0 - x[0];
+    g << -400.0 * a * x[0] - 2.0 * b, 200.0 * a;
+    return 100.0 * a * a + b * b;
+  };
+  return p;
+}
+
+FunctionProblem hs71()
+{
+  FunctionProblem p = box(4, 1.0, 5.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    const double sum = x[0] + x[1] + x[2];
+    g << x[3] * (sum + x[0]), x[0] * x[3], x[0] * x[3] + 1.0, x[0] * sum;
+    return x[0] * x[3] * sum + x[2];
+  };
+  p.constraint_number = 3;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << x.prod() - 25.0, x.squaredNorm() - 40.0, 40.0 - x.squaredNorm();
+    J.row(0) = x.prod() * x.cwiseInverse();
+    J.row(1) = 2.0 * x;
+    J.row(2) = -2.0 * x;
+  };
+  return p;
+}
+
+FunctionProblem sum_of_squares(FunctionProblem problem, int count,
+                               std::function<void(const VectorXd&, VectorXd&, RowMajor&)> residuals,
+                               bool shown)
+{
+  problem.objective = [count, residuals](const VectorXd& x, VectorXd& g) {
+    VectorXd r(count);
+    RowMajor J(count, x.size());
+    residuals(x, r, J);
+    g = J.transpose() * r;
+    return 0.5 * r.squaredNorm();
+  };
+  if (!shown) return problem;
+  problem.residual_number = count;
+  problem.residual_functions = std::move(residuals);
+  return problem;
+}
+
+void kinked_residuals(const VectorXd& x, VectorXd& r, RowMajor& J)
+{
+  constexpr int n = 6;
+  J.setZero();
+  for (int i = 0; i < n; ++i) {
+    VectorXd a = VectorXd::Zero(n), b = VectorXd::Zero(n);
+    a[i] = 1.0;
+    a[(i + 1) % n] = 0.4;
+    b[(i + 2) % n] = 0.9;
+    b[(i + 3) % n] = 0.5;
+    const VectorXd& g = a.dot(x) <= b.dot(x) ? a : b;
+    r[i] = g.dot(x) - 1.0;
+    J.row(i) = g.transpose();
+    r[n + i] = 0.5 * x[i];
+    J(n + i, i) = 0.5;
+  }
+}
+
+std::vector<KnownProblem> known_problems()
+{
+  std::vector<KnownProblem> all;
+  all.push_back(quadratic());
+  all.push_back(known("rosenbrock", rosenbrock(-infinity, infinity), {-1.2, 1.0}, 0.0, {1.0, 1.0}));
+  all.push_back(rosenbrock_on_its_bound());
+  // The optimum to ten digits, from Newton's method on its equations.
+  all.push_back(known("hs71", hs71(), {1.0, 5.0, 5.0, 1.0}, 17.0140172891,
+                      {1.0, 4.7429996372, 3.8211499843, 1.3794082932}));
+  all.push_back(hs76());
+  all.push_back(circle());
+  all.push_back(degenerate());
+  all.push_back(contradiction());
+  all.push_back(no_ball());
+  all.push_back(kinked());
+  all.push_back(failing());
+  all.push_back(not_a_number());
+  all.push_back(short_way());
+  all.push_back(wall());
+  return all;
+}
+
+}  // namespace hauberk::testing_problems

@@ -1,0 +1,174 @@
+/// One run of an algorithm of NLopt. Its C code calls back into ours; no exception may pass through it.
+
+#include "adapter.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <nlopt.h>
+
+#include <string>
+
+namespace hauberk {
+namespace {
+
+/// NLopt's own limit of a decrease, as part of ours: it looks at one step, not at what is left to gain.
+constexpr double own_tolerance = 0.1;
+/// Runs from the best point, as long as each pays: walls mislead line searches and models.
+constexpr int most_runs = 20;
+constexpr double worthwhile_violation = 0.5;
+
+class Handle {
+ public:
+  Handle(nlopt_algorithm algorithm, unsigned n) : opt_(nlopt_create(algorithm, n))
+  {
+    if (opt_ == nullptr) throw ComputationError("NLopt: out of memory");
+  }
+  ~Handle() { nlopt_destroy(opt_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  nlopt_opt get() const { return opt_; }
+  void check(nlopt_result result) const
+  {
+    if (result >= 0) return;
+    const char* why = nlopt_get_errmsg(opt_);
+    throw ComputationError(std::string("NLopt: ") + (why != nullptr ? why : nlopt_result_to_string(result)));
+  }
+
+ private:
+  nlopt_opt opt_;
+};
+
+/// What callbacks get.
+struct Call {
+  NloptAdapter* adapter;
+  nlopt_opt opt;
+
+  void stop_if_wanted() const
+  {
+    if (adapter->stopped() != NloptAdapter::Stop::none) nlopt_force_stop(opt);
+  }
+};
+
+double objective(unsigned /*n*/, const double* z, double* gradient, void* data) noexcept
+{
+  const Call& call = *static_cast<const Call*>(data);
+  double value = 0.0;
+  try {
+    value = call.adapter->objective(z, gradient);
+  } catch (...) {
+    call.adapter->fail(std::current_exception());
+  }
+  call.stop_if_wanted();
+  return value;
+}
+
+void constraints(unsigned /*m*/, double* values, unsigned /*n*/, const double* z, double* jacobian,
+                 void* data) noexcept
+{
+  const Call& call = *static_cast<const Call*>(data);
+  try {
+    call.adapter->constraints(z, values, jacobian);
+  } catch (...) {
+    call.adapter->fail(std::current_exception());
+  }
+  call.stop_if_wanted();
+}
+
+nlopt_algorithm algorithm_of(NloptAlgorithm algorithm, bool constrained)
+{
+  switch (algorithm) {
+    case NloptAlgorithm::slsqp:
+      return NLOPT_LD_SLSQP;
+    case NloptAlgorithm::mma:
+      return NLOPT_LD_MMA;
+    case NloptAlgorithm::ccsaq:
+      return NLOPT_LD_CCSAQ;
+    case NloptAlgorithm::lbfgs:
+      return constrained ? NLOPT_AUGLAG : NLOPT_LD_LBFGS;
+    case NloptAlgorithm::cobyla:
+      return NLOPT_LN_COBYLA;
+  }
+  return NLOPT_LD_SLSQP;
+}
+
+void set_tolerances(const Handle& opt, const NloptSettings& settings)
+{
+  opt.check(nlopt_set_ftol_abs(opt.get(), own_tolerance * settings.tolerance));
+  opt.check(nlopt_set_xtol_abs1(opt.get(), settings.min_step));
+  opt.check(nlopt_set_vector_storage(opt.get(), settings.memory));
+}
+
+/// From the accepted point until NLopt ends; returns why it did.
+std::string run_once(NloptAdapter& adapter, const NloptSettings& settings)
+{
+  const auto n = static_cast<unsigned>(adapter.size());
+  const auto m = static_cast<unsigned>(adapter.constraint_count());
+  const Handle opt(algorithm_of(settings.algorithm, m > 0), n);
+  const Handle inner(NLOPT_LD_LBFGS, n);
+  Call call{&adapter, opt.get()};
+  const Eigen::VectorXd lower = adapter.lower(), upper = adapter.upper();
+  opt.check(nlopt_set_lower_bounds(opt.get(), lower.data()));
+  opt.check(nlopt_set_upper_bounds(opt.get(), upper.data()));
+  opt.check(nlopt_set_min_objective(opt.get(), objective, &call));
+  set_tolerances(opt, settings);
+  if (m > 0) {
+    const std::vector<double> tolerances(m, settings.constraint_tolerance);
+    opt.check(nlopt_add_inequality_mconstraint(opt.get(), m, constraints, &call, tolerances.data()));
+  }
+  if (settings.algorithm == NloptAlgorithm::lbfgs && m > 0) {
+    set_tolerances(inner, settings);
+    opt.check(nlopt_set_local_optimizer(opt.get(), inner.get()));
+  }
+  if (settings.algorithm == NloptAlgorithm::cobyla)
+    opt.check(nlopt_set_initial_step1(opt.get(), settings.initial_step));
+  Eigen::VectorXd z = adapter.position().cwiseMax(lower).cwiseMin(upper);
+  double value = 0.0;
+  return nlopt_result_to_string(nlopt_optimize(opt.get(), z.data(), &value));
+}
+
+OptimizerResult stopped(const NloptAdapter& adapter, const NloptSettings& settings)
+{
+  switch (adapter.stopped()) {
+    case NloptAdapter::Stop::observer:
+      return adapter.finish("stopped", "stopped on request");
+    case NloptAdapter::Stop::iterations:
+      return adapter.finish("iteration_limit",
+                            "stopped after " + std::to_string(settings.max_iterations) + " iterations");
+    default:
+      return adapter.finish("iteration_limit",
+                            "stopped after " + std::to_string(settings.max_evaluations) + " evaluations");
+  }
+}
+
+}  // namespace
+
+OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::span<const double> start,
+                                            OptimizerObserver& observer) const
+{
+  NloptAdapter adapter(problem, settings_, observer, start);
+  std::string why;
+  if (!adapter.begin(why)) return adapter.finish("failed", "the start cannot be evaluated: " + why);
+  std::string end = "nothing to do";
+  for (int run = 0; run < most_runs && adapter.stopped() == NloptAdapter::Stop::none; ++run) {
+    const double before = adapter.merit();
+    const double violation = adapter.violation();
+    if (adapter.size() > 0) end = run_once(adapter, settings_);
+    adapter.rethrow();
+    adapter.restore();
+    adapter.differentiate();
+    if (adapter.critical() || adapter.infeasible()) break;
+    const bool lower = adapter.merit() < before - settings_.tolerance * adapter.unit();
+    if (!lower && !(adapter.violation() < worthwhile_violation * violation)) break;
+  }
+  if (adapter.stopped() != NloptAdapter::Stop::none) return stopped(adapter, settings_);
+  if (adapter.critical())
+    return adapter.finish("converged", "the conditions of first order hold; NLopt: " + end);
+  if (adapter.infeasible())
+    return adapter.finish("infeasible",
+                          "no small step reduces the violation of the constraints; NLopt: " + end);
+  return adapter.finish("small_step", (adapter.blocked() ? "the next step would pass through an intersection"
+                                                         : "steps became too small to make progress") +
+                                          ("; NLopt: " + end));
+}
+
+}  // namespace hauberk

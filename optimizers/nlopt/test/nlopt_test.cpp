@@ -1,0 +1,152 @@
+/// How NLopt is made to keep the contract. The known problems are solved in common/test/conformance_test.cpp.
+
+#include "../adapter.hpp"
+
+#include <gtest/gtest.h>
+#include <common/test/known_problems.hpp>
+
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+using namespace testing_problems;
+
+/// An adapter for a problem within [0, 10] or so, begun at its start.
+struct Begun {
+  Begun(FunctionProblem& problem, const std::vector<double>& start, const NloptSettings& settings = {})
+      : adapter(problem, settings, recorder, start)
+  {
+    std::string why;
+    EXPECT_TRUE(adapter.begin(why)) << why;
+  }
+  Recorder recorder;
+  NloptAdapter adapter;
+};
+
+/// x0^2 + x1 over ranges of 4, from (2, 0): unit 4.
+FunctionProblem bowl()
+{
+  FunctionProblem p = box(2, -2.0, 2.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g << 2.0 * x[0], 1.0;
+    return x[0] * x[0] + x[1];
+  };
+  return p;
+}
+
+TEST(NloptAdapter, ScalesVariablesAndObjective)
+{
+  FunctionProblem problem = bowl();
+  Begun b(problem, {2.0, 0.0});
+  EXPECT_EQ(b.adapter.unit(), 4.0);
+  const Eigen::Vector2d z(0.25, 0.0);
+  Eigen::Vector2d gradient;
+  EXPECT_EQ(b.adapter.objective(z.data(), gradient.data()), 0.25);  // (1^2 + 0)/4
+  EXPECT_EQ(gradient, Eigen::Vector2d(2.0, 1.0));                   // (2, 1) * 4/4
+  EXPECT_EQ(problem.accepted.size(), 2U);
+}
+
+TEST(NloptAdapter, EvaluatesAPointOnce)
+{
+  FunctionProblem problem = hs71();
+  Begun b(problem, {1, 5, 5, 1});
+  const Eigen::Vector4d z = Eigen::Vector4d(1, 4, 4, 1) / 4.0;
+  Eigen::Vector4d gradient;
+  Eigen::Vector3d c;
+  b.adapter.constraints(z.data(), c.data(), nullptr);
+  const double value = b.adapter.objective(z.data(), gradient.data());
+  EXPECT_EQ(b.adapter.objective(z.data(), nullptr), value);
+  EXPECT_EQ(c, Eigen::Vector3d(9.0, 6.0, -6.0));  // -c: the sign of NLopt
+  EXPECT_LE(problem.evaluated.size(), 3U);        // the first question was without a gradient
+}
+
+TEST(NloptAdapter, AnUnsafePointIsAWallThatIsNotEvaluated)
+{
+  FunctionProblem problem = bowl();
+  problem.safe = [](const VectorXd&, const VectorXd& d) { return d[0] < 0.0 ? 0.5 : 1.0; };
+  Begun b(problem, {2.0, 0.0});
+  const Eigen::Vector2d z(0.25, 0.0);
+  Eigen::Vector2d gradient;
+  EXPECT_EQ(b.adapter.objective(z.data(), gradient.data()), 2.0);  // the worst that was seen, and one unit
+  EXPECT_EQ(gradient, Eigen::Vector2d(-4.0, 0.0));                 // rises away from the accepted point
+  EXPECT_EQ(problem.evaluated.size(), 1U);
+  EXPECT_TRUE(b.adapter.blocked());
+  EXPECT_EQ(problem.accepted.size(), 1U);
+}
+
+TEST(NloptAdapter, AFailedEvaluationIsAWallWithLinearisedConstraints)
+{
+  FunctionProblem problem = hs71();
+  problem.fails = [](const VectorXd& x) { return x[0] > 1.5; };
+  Begun b(problem, {1, 5, 5, 1});
+  const double start = b.adapter.merit();
+  const Eigen::Vector4d z = Eigen::Vector4d(2, 5, 5, 1) / 4.0;
+  Eigen::Vector3d c;
+  EXPECT_EQ(b.adapter.objective(z.data(), nullptr), 2.0);
+  b.adapter.constraints(z.data(), c.data(), nullptr);
+  // c = (0, 12, -12) and its slopes (25, 2, -2) at the start, times 1, with NLopt's sign.
+  EXPECT_NEAR((c - Eigen::Vector3d(-25.0, -14.0, 14.0)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(b.adapter.merit(), start);
+  EXPECT_FALSE(b.adapter.blocked());
+}
+
+TEST(NloptAdapter, AcceptsWhatIsBetterOnly)
+{
+  FunctionProblem problem = bowl();
+  Begun b(problem, {1.0, 0.0});
+  const Eigen::Vector2d worse(0.5, 0.0), better(0.0, 0.0);
+  b.adapter.objective(worse.data(), nullptr);
+  EXPECT_EQ(problem.accepted.size(), 1U);
+  b.adapter.objective(better.data(), nullptr);
+  EXPECT_EQ(problem.accepted.size(), 2U);
+  EXPECT_EQ(b.recorder.iterates.back().value, 0.0);
+  EXPECT_EQ(b.recorder.iterates.back().step, 0.25);
+}
+
+TEST(NloptAdapter, NothingIsAskedAfterAStop)
+{
+  FunctionProblem problem = bowl();
+  Begun b(problem, {1.0, 0.0});
+  b.adapter.stop(NloptAdapter::Stop::observer);
+  const Eigen::Vector2d z(0.0, 0.0);
+  b.adapter.objective(z.data(), nullptr);
+  EXPECT_EQ(problem.evaluated.size(), 1U);
+}
+
+TEST(NloptAdapter, NotANumberIsAWall)
+{
+  FunctionProblem problem = bowl();
+  Begun b(problem, {1.0, 0.0});
+  const Eigen::Vector2d z(std::nan(""), 0.0);
+  Eigen::Vector2d gradient;
+  EXPECT_EQ(b.adapter.objective(z.data(), gradient.data()), 2.0);
+  EXPECT_EQ(gradient, Eigen::Vector2d(0.0, 0.0));
+  EXPECT_EQ(problem.evaluated.size(), 1U);
+}
+
+TEST(Nlopt, ResultIsFeasibleAlsoWhereTheMethodComesFromOutside)
+{
+  // The augmented Lagrangian ends slightly beyond the disk.
+  FunctionProblem problem = box(2, -2.0, 2.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    g << -3.0, -4.0;
+    return g.dot(x);
+  };
+  problem.constraint_number = 1;
+  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << 1.0 - x.squaredNorm();
+    J.row(0) = -2.0 * x;
+  };
+  NloptSettings settings;
+  settings.algorithm = NloptAlgorithm::lbfgs;
+  Recorder recorder;
+  const OptimizerResult r =
+      NloptOptimizer(settings).minimize(problem, std::vector<double>{0.1, -0.3}, recorder);
+  EXPECT_EQ(r.status, "converged") << r.message;
+  EXPECT_LE(std::hypot(r.x[0], r.x[1]), 1.0 + 1e-8);
+  EXPECT_NEAR(r.value, -5.0, 1e-5);
+}
+
+}  // namespace
+}  // namespace hauberk

@@ -1,0 +1,57 @@
+#include <hauberk/limits/room.hpp>
+#include <hauberk/parallel.hpp>
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+/// First step of the gap, L; a tenth of a tube of usual thickness.
+constexpr double first_step = 0.02;
+constexpr double largest_step = 0.1;
+/// Range in which the smallest gap is looked for, L: tubes that far apart are no fabric.
+constexpr double far = 4.0;
+
+RoomyState grow(const Model& m, State state, const RoomSettings& settings, const KeepGoing& keep_going)
+{
+  RoomyState out{std::move(state), 0.0, 0};
+  out.gap = smallest_gap(m, out.state, far);
+  double step = first_step;
+  while (step >= settings.resolution && keep_going()) {
+    const Relaxed r = relax(m, out.state, out.gap + step, settings.cell);
+    const double gap = links_kept(m, r.state) ? smallest_gap(m, r.state, far) : out.gap;
+    if (r.problem.empty()) {
+      step = std::min(2.0 * step, largest_step);
+    } else {
+      step *= 0.5;
+    }
+    // Also where it is less than was asked for.
+    if (gap > out.gap) {
+      out.state = r.state;
+      out.gap = gap;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Room find_room(const Model& m, const RoomSettings& settings, unsigned threads, const KeepGoing& keep_going)
+{
+  std::vector<RoomyState> found(static_cast<std::size_t>(std::max(settings.starts, 1)));
+  parallel_for(found.size(), threads, [&](std::size_t k) {
+    const std::uint64_t seed = settings.seed + k;
+    State from = rest_state(m);
+    if (k > 0) from = perturbed(m, from, settings.perturbation, seed, Copies::apart);
+    found[k] = grow(m, std::move(from), settings, keep_going);
+    found[k].seed = seed;
+  });
+  Room out;
+  for (const RoomyState& state : found) {
+    out.gaps.push_back(state.gap);
+    if (out.gaps.size() == 1 || state.gap > out.best.gap) out.best = state;
+  }
+  return out;
+}
+
+}  // namespace hauberk

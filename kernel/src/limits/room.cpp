@@ -9,6 +9,9 @@ namespace {
 /// First step of the gap, L; a tenth of a tube of usual thickness.
 constexpr double first_step = 0.02;
 constexpr double largest_step = 0.1;
+/// Where less than this part of a step is gained, the step was too long.
+constexpr double worth_a_step = 0.1;
+constexpr int most_steps = 1000;
 /// Range in which the smallest gap is looked for, L: tubes that far apart are no fabric.
 constexpr double far = 4.0;
 
@@ -17,18 +20,19 @@ RoomyState grow(const Model& m, State state, const RoomSettings& settings, const
   RoomyState out{std::move(state), 0.0, 0};
   out.gap = smallest_gap(m, out.state, far);
   double step = first_step;
-  while (step >= settings.resolution && keep_going()) {
+  for (int it = 0; it < most_steps && step >= settings.resolution && keep_going(); ++it) {
     const Relaxed r = relax(m, out.state, out.gap + step, settings.cell);
     const double gap = links_kept(m, r.state) ? smallest_gap(m, r.state, far) : out.gap;
-    if (r.problem.empty()) {
-      step = std::min(2.0 * step, largest_step);
-    } else {
-      step *= 0.5;
-    }
-    // Also where it is less than was asked for.
-    if (gap > out.gap) {
+    const double gain = gap - out.gap;
+    // What is gained counts also where it is less than was asked for.
+    if (gain > 0.0) {
       out.state = r.state;
       out.gap = gap;
+    }
+    if (r.problem.empty()) {
+      step = std::min(2.0 * step, largest_step);
+    } else if (gain < worth_a_step * step) {
+      step *= 0.5;
     }
   }
   return out;

@@ -27,7 +27,7 @@ struct RoomSettings {
   int starts = 1;             ///< the first as at rest, the others perturbed
   double perturbation = 0.3;  ///< L
   std::uint64_t seed = 1;
-  double resolution = 1e-7;  ///< of the gap, L: where growing ends
+  double resolution = 1e-10;  ///< of the gap, L: where growing ends
 };
 
 /// Maximises the smallest gap of the model over poses and, with Cell::free, strains:

@@ -70,8 +70,10 @@ std::string endless_text()
 
 const std::vector<TaskCase>& task_cases()
 {
-  static const std::vector<TaskCase> tasks{
-      {"limits", chainmail_text, true}, {"design", design_text, false}, {"stability", map_text, true}};
+  static const std::vector<TaskCase> tasks{{"limits", chainmail_text, true},
+                                           {"design", design_text, false},
+                                           {"stability", map_text, true},
+                                           {"sweep", sweep_text, true}};
   return tasks;
 }
 

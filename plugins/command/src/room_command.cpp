@@ -100,7 +100,7 @@ int room_command(const std::vector<std::string>& words)
   fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, gaps.size(),
              gaps.back() * m.length);
   if (options.has("output")) {
-    const std::string file = options.get<std::string>("output");
+    const auto& file = options.get<std::string>("output");
     const Node experiment = scene_experiment(loaded.experiment, scene_in(loaded, m, room.best.state),
                                              loaded.experiment.name + "_room");
     std::ofstream out(file);

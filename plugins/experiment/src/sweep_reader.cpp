@@ -99,10 +99,10 @@ std::vector<SweepMeasure> all_limits(const ExperimentSweep& sweep, const Experim
   const auto names = experiment.load_case->sense_names();
   for (std::size_t d = 0; d < experiment.directions_deg.size(); ++d) {
     for (const Sense sense : experiment.senses) {
-      const std::string& word = sense == Sense::positive ? names.first : names.second;
-      const std::string which =
-          fixed ? format_number(experiment.directions_deg[d]) : "in direction " + std::to_string(d + 1);
-      out.push_back({word + " " + which, "/limits/" + std::to_string(out.size()) + "/value"});
+      std::string name = sense == Sense::positive ? names.first : names.second;
+      name += fixed ? " " + format_number(experiment.directions_deg[d])
+                    : " in direction " + std::to_string(d + 1);
+      out.push_back({std::move(name), "/limits/" + std::to_string(out.size()) + "/value"});
     }
   }
   return out;

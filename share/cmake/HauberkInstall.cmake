@@ -17,3 +17,5 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/hauberkConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/hauberkConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/share/cmake/HauberkAddPlugin.cmake"
         DESTINATION "${package_folder}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/weaves/" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/weaves"
+        FILES_MATCHING PATTERN "*.json")

@@ -187,4 +187,26 @@ std::string map_text()
         "vary": [ { "pointer": "/solver/starts", "values": [1] } ] } ] },)");
 }
 
+std::string sweep_text()
+{
+  return R"({
+  "name": "chains", "task": "sweep",
+  "elements": {
+    "a": { "shape": "torus_union", "tori": [ { "name": "ring" } ],
+      "parameters": { "ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7 } },
+    "b": { "shape": "torus_union", "tori": [ { "name": "ring" } ],
+      "parameters": { "ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7 } } },
+  "cell": {
+    "vectors": [[12, 0], [0, 100]],
+    "place": [
+      { "element": "a", "position": [0, 0, 0] },
+      { "element": "b", "position": [6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } } ] },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "sweep": { "vary": [
+    { "name": "R", "pointers": ["/elements/a/parameters/ring.R", { "pointer": "/elements/b/parameters/ring.R", "factor": 0.5, "offset": 2.5 }], "values": [4.8, 5.2, 0.6] },
+    { "name": "r", "pointers": ["/elements/a/parameters/ring.r0", "/elements/a/parameters/ring.r1", "/elements/b/parameters/ring.r0", "/elements/b/parameters/ring.r1"], "values": [0.5, 0.6, 0.7] } ] },
+  "expect": [ { "pointer": "/sweep/counts/refused", "value": 3 } ]
+})";
+}
+
 }  // namespace hauberk::test

@@ -74,4 +74,8 @@ std::string design_text();
 /// nothing holds it. Ten cases.
 std::string map_text();
 
+/// A sweep over chains of two kinds of rings, R_B = R_A/2 + 2.5, r_A = r_B: 3 x 3 rows, the last three of
+/// which are no scene.
+std::string sweep_text();
+
 }  // namespace hauberk::test

@@ -20,6 +20,13 @@ int check_command(const std::vector<std::string>& words)
                loaded.stability.size());
     return exit_done;
   }
+  if (!loaded.sweep.empty()) {
+    const auto refused = std::count_if(loaded.sweep.begin(), loaded.sweep.end(),
+                                       [](const VariantReading& row) { return !row.experiment; });
+    fmt::print("{}: no problems; {} rows of {} limits{}\n", options.positional(), loaded.sweep.size(),
+               loaded.tasks.size(), refused > 0 ? fmt::format(" ({} refused as input)", refused) : "");
+    return exit_done;
+  }
   if (loaded.transition) {
     fmt::print("{}: no problems; {} paths, {} formulations\n", options.positional(),
                loaded.transition->spec.paths.size(), loaded.transition->spec.contacts.size());

@@ -27,6 +27,8 @@ constexpr std::array sub_commands{
     SubCommand{"check", "EXPERIMENT.json", "every problem in the file at once, with its place",
                check_command},
     SubCommand{"plan", "EXPERIMENT.json", "what will be modelled, and why; the rest state", plan_command},
+    SubCommand{"room", "EXPERIMENT.json [--starts N] [-o FILE]", "the thickest rings that leave a rest state",
+               room_command},
     SubCommand{"verify", "RESULTS.json", "recheck a result from its file alone", verify_command},
     SubCommand{"plugins", "[list | describe ID]", "shapes, load cases and optimizers that are found",
                plugins_command},

@@ -20,6 +20,7 @@ int dispatch(const std::vector<std::string>& words) noexcept;
 int run_command(const std::vector<std::string>& words);
 int check_command(const std::vector<std::string>& words);
 int plan_command(const std::vector<std::string>& words);
+int room_command(const std::vector<std::string>& words);
 int verify_command(const std::vector<std::string>& words);
 int plugins_command(const std::vector<std::string>& words);
 

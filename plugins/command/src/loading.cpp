@@ -1,8 +1,10 @@
 #include "loading.hpp"
 #include "presets.hpp"
 #include "stability_loading.hpp"
+#include "sweep_loading.hpp"
 #include "tasks.hpp"
 #include "transition_run.hpp"
+#include "weave_library.hpp"
 
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/experiment/jsonc.hpp>
@@ -162,7 +164,7 @@ Loaded load(const Options& options)
 {
   const std::string& file = options.positional();
   std::shared_ptr<const Registry> registry = open_registry(options);
-  return load(std::move(registry), {file, read_text_file(file), options.list("set")});
+  return load(std::move(registry), {file, read_text_file(file), options.list("set"), weave_lookup(file)});
 }
 
 Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& source)
@@ -185,6 +187,10 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
   if (e.task == Task::stability) {
     loaded.stability =
         load_stability(*e.stability, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+    stop_on_problems();
+  }
+  if (e.task == Task::sweep) {
+    loaded.sweep = load_sweep(e, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
     stop_on_problems();
   }
   loaded.settings = limit_settings(e.solver, loaded.scene, e.length_unit);

@@ -44,6 +44,7 @@ struct Loaded {
   std::optional<DesignSpec> design;         ///< task design only
   SceneSpec design_scene;                   ///< rest with the design's clearance; task design only
   std::vector<StabilityItem> stability;     ///< by family, member, method; task stability only
+  std::vector<VariantReading> sweep;        ///< by row; task sweep only
   std::optional<TransitionJob> transition;  ///< task transition only
   Plan plan;
 };

@@ -107,6 +107,14 @@ Output::Files Output::content(const RunResult& run, const StabilityMap& map)
   return stability_content(document_, map, labels_.title);
 }
 
+Output::Files Output::content(const RunResult& run, const SweepTable& table)
+{
+  names_.files = sweep_files();
+  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_["sweep"] = sweep_json(table);
+  return sweep_content(document_, table, labels_);
+}
+
 Output::Files Output::content(const RunResult& run, const TransitionResult& transition)
 {
   names_.files = transition_files();
@@ -150,6 +158,8 @@ void Output::write(const RunResult& run) { write_or_rescue(content(run)); }
 
 void Output::write(const RunResult& run, const StabilityMap& map) { write_or_rescue(content(run, map)); }
 
+void Output::write(const RunResult& run, const SweepTable& table) { write_or_rescue(content(run, table)); }
+
 void Output::write(const RunResult& run, const TransitionResult& transition)
 {
   write_or_rescue(content(run, transition));
@@ -187,6 +197,11 @@ void Output::write_sometimes(const RunResult& run)
 void Output::write_sometimes(const RunResult& run, const StabilityMap& map)
 {
   if (is_time()) try_writing(content(run, map));
+}
+
+void Output::write_sometimes(const RunResult& run, const SweepTable& table)
+{
+  if (is_time()) try_writing(content(run, table));
 }
 
 }  // namespace hauberk::command

@@ -30,6 +30,8 @@ class Output {
   void write(const RunResult& run);
   /// The same for a stability experiment; `run` describes the base scene.
   void write(const RunResult& run, const StabilityMap& map);
+  /// The same for a sweep.
+  void write(const RunResult& run, const SweepTable& table);
   /// The same for a transition experiment.
   void write(const RunResult& run, const TransitionResult& transition);
   /// Writes what there is. Never throws.
@@ -37,6 +39,7 @@ class Output {
   /// Does so if the last time was a few seconds ago.
   void write_sometimes(const RunResult& run);
   void write_sometimes(const RunResult& run, const StabilityMap& map);
+  void write_sometimes(const RunResult& run, const SweepTable& table);
 
   /// Results are complete: those of former runs go.
   void done();
@@ -54,6 +57,7 @@ class Output {
   bool is_time() const;
   Files content(const RunResult& run);
   Files content(const RunResult& run, const StabilityMap& map);
+  Files content(const RunResult& run, const SweepTable& table);
   Files content(const RunResult& run, const TransitionResult& transition);
   void replace(const Files& files);
   void write_or_rescue(const Files& files);

@@ -1,6 +1,7 @@
 #include "resume.hpp"
 #include "output.hpp"
 #include "stability_run.hpp"
+#include "sweep_run.hpp"
 
 #include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/results/json_text.hpp>
@@ -147,6 +148,20 @@ void read_stability(const json::value& document, const Loaded& loaded, Resumed& 
   }
 }
 
+/// Rows of the same experiment are the same and in the same order.
+void read_sweep(const json::value& document, const Loaded& loaded, Resumed& out)
+{
+  out.sweep = empty_table(loaded);
+  const json::array& entries = document.at("sweep").at("rows").as_array();
+  if (entries.size() != out.sweep->rows.size()) throw InputError("its rows are not complete");
+  out.complete = true;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    SweepRow& row = out.sweep->rows[k];
+    if (!take_row(entries[k], *out.sweep, row)) throw InputError("its rows are in another order");
+    out.complete = out.complete && row.status != RowStatus::interrupted;
+  }
+}
+
 /// Quick enough to be computed anew unless it is complete.
 void read_transition(const json::value& document, const Loaded& loaded, Resumed& out)
 {
@@ -183,6 +198,8 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
     check_origin(document, loaded);
     if (loaded.experiment.task == Task::stability)
       read_stability(document, loaded, out);
+    else if (loaded.experiment.task == Task::sweep)
+      read_sweep(document, loaded, out);
     else if (loaded.experiment.task == Task::transition)
       read_transition(document, loaded, out);
     else

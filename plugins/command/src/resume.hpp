@@ -4,6 +4,7 @@
 #include "loading.hpp"
 
 #include <hauberk/results/stability.hpp>
+#include <hauberk/results/sweep.hpp>
 
 #include <boost/json/value.hpp>
 
@@ -18,6 +19,7 @@ struct Resumed {
   std::vector<std::optional<LimitResult>> limits;
   std::vector<boost::json::value> entries;
   std::optional<StabilityMap> stability;  ///< with the finished cases; task stability only
+  std::optional<SweepTable> sweep;        ///< with the finished rows; task sweep only
   bool complete = false;                  ///< nothing is left to be done
   boost::json::value document;            ///< of a complete run
 };

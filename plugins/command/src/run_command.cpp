@@ -7,6 +7,7 @@
 #include "stability_run.hpp"
 #include "stability_summary.hpp"
 #include "summary.hpp"
+#include "sweep_run.hpp"
 #include "transition_run.hpp"
 
 #include <hauberk/experiment/expect.hpp>
@@ -128,6 +129,20 @@ int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed,
   return conclude(loaded, output, stability_summary(map), stability_files(), begin);
 }
 
+/// Whole run of a sweep. Rows that are bad input are answers; those that failed make the run fail.
+int run_sweep_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
+                   Output& output, const RunResult& base)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  SweepTable table = resumed.sweep ? std::move(*resumed.sweep) : empty_table(loaded);
+  run_sweep(loaded, threads, progress, table,
+            [&](const SweepTable& so_far) { output.write_sometimes(base, so_far); });
+  progress.clear();
+  output.write(base, table);
+  const int code = conclude(loaded, output, sweep_summary(table), sweep_files(), begin);
+  return code == exit_done && any_failed(table) ? exit_failed : code;
+}
+
 int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progress, Output& output,
                         const RunResult& base)
 {
@@ -193,6 +208,7 @@ int already_complete(const Loaded& loaded, const Resumed& resumed, const std::fi
   drop_evaluations(folder);
   fmt::print("{}: complete already\n", (folder / results_file).string());
   bool failed = report_expectations(loaded.experiment, resumed.document);
+  failed = failed || (resumed.sweep && any_failed(*resumed.sweep));
   for (const auto& limit : resumed.limits)
     failed = failed || limit->status == LimitStatus::failed || limit->status == LimitStatus::stalled;
   return failed ? exit_failed : exit_done;
@@ -228,6 +244,7 @@ int run_command(const std::vector<std::string>& words)
                   : loaded.design     ? "resuming: the search is repeated from its evaluations"
                   : loaded.transition ? "not finished: starting anew"
                   : resumed.stability ? "resuming: finished cases are kept"
+                  : resumed.sweep     ? "resuming: finished rows are kept"
                                       : "resuming: finished limits are kept");
   }
   Output output(folder, loaded, threads, resuming, progress);
@@ -236,6 +253,8 @@ int run_command(const std::vector<std::string>& words)
   run.scene = loaded.scene;
   if (loaded.experiment.task == Task::stability)
     return run_stability_task(loaded, threads, resumed, progress, output, run);
+  if (loaded.experiment.task == Task::sweep)
+    return run_sweep_task(loaded, threads, resumed, progress, output, run);
   if (loaded.transition) return run_transition_task(loaded, threads, progress, output, run);
   compute(loaded, threads, resumed, resuming, progress, output, run);
   progress.clear();

@@ -42,7 +42,7 @@ std::vector<StabilityItem> load_stability(const ExperimentStability& stability, 
     const StabilityFamily& family = stability.families[f];
     for (std::size_t k = 0; k < family.members.size(); ++k) {
       for (std::size_t m = 0; m < stability.methods.size(); ++m) {
-        StabilityReading reading = read_stability_member(stability, f, k, m, lookup, diagnostics);
+        VariantReading reading = read_stability_member(stability, f, k, m, lookup, diagnostics);
         StabilityItem item{f, k, m, std::move(reading.experiment), std::move(reading.refusal), 0};
         const std::string scene =
             item.experiment ? scene_text(*item.experiment) : fmt::format("refused {} {} {}", f, k, m);

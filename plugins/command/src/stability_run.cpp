@@ -1,16 +1,13 @@
 #include "stability_run.hpp"
 #include "interrupt.hpp"
-#include "presets.hpp"
 #include "tasks.hpp"
+#include "variant_run.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/parallel.hpp>
 #include <hauberk/stability/check.hpp>
 #include <hauberk/stability/classify.hpp>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <mutex>
@@ -35,17 +32,6 @@ std::vector<Range> ranges(const std::vector<StabilityItem>& items)
   return out;
 }
 
-/// The item's rest state as it would be loaded. Throws InputError when there is none.
-PreparedScene rest_of(const Experiment& e)
-{
-  if (const std::vector<Problem> problems = solver_problems(e); !problems.empty())
-    throw InputError(problems.front().message);
-  const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
-  const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
-  if (!wrong.empty()) throw InputError(fmt::format("{}", fmt::join(wrong, "; ")));
-  return prepare_rest(e.scene, *e.load_case, e.solver.clearance);
-}
-
 void refuse(std::vector<StabilityCase>& cases, const char* status, const std::string& message)
 {
   for (StabilityCase& c : cases) {
@@ -59,22 +45,11 @@ void solve(const StabilityItem& item, std::vector<StabilityCase>& cases)
   if (!item.experiment) return refuse(cases, "refused", item.refusal);
   const Experiment& e = *item.experiment;
   RunResult run;
-  std::optional<State> start;
   try {
-    PreparedScene prepared = rest_of(e);
-    run.scene = std::move(prepared.scene);
-    start = std::move(prepared.start);
+    run = run_variant(e);
   } catch (const InputError& error) {
     return refuse(cases, "refused", error.what());
   }
-  const Model model = make_model(run.scene, *e.load_case, e.solver.clearance);
-  // One thread: items are what is done in parallel, and an item alone decides its result.
-  LimitsObserver observer;
-  observer.keep_going = [] { return !interrupted(); };
-  LimitSettings settings = limit_settings(e.solver, run.scene, e.length_unit);
-  settings.start = std::move(start);
-  run.limits = compute_limits(model, run.scene, profile_tasks(e), settings, 1, observer);
-  run.profiles = profiles(run.limits, *e.load_case);
   const std::vector<VerifyLine> lines = independent_check(run, write_json(e.resolved));
   for (std::size_t k = 0; k < cases.size(); ++k) enter_claim(cases[k], run.limits[k], lines[k]);
 }

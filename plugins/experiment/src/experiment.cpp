@@ -3,6 +3,7 @@
 #include "node_access.hpp"
 #include "scene_reader.hpp"
 #include "sections.hpp"
+#include "weave.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/check.hpp>
@@ -10,6 +11,7 @@
 #include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/experiment/overrides.hpp>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -20,26 +22,26 @@ namespace hauberk {
 
 namespace {
 
+/// Tasks that have a section of their own.
+constexpr std::array section_tasks{std::pair{"design", Task::design}, std::pair{"stability", Task::stability},
+                                   std::pair{"transition", Task::transition},
+                                   std::pair{"sweep", Task::sweep}};
+
 void read_task(const Node& root, Problems& problems, Experiment& experiment)
 {
   const Node* task = root.find("task");
-  if (task == nullptr) return;
-  if (task->string == "design") {
-    experiment.task = Task::design;
-    if (root.find("design") == nullptr) problems.add(root, "missing key 'design': task design needs it");
-  } else if (task->string == "stability") {
-    experiment.task = Task::stability;
-    if (root.find("stability") == nullptr)
-      problems.add(root, "missing key 'stability': task stability needs it");
-  } else if (task->string == "transition") {
-    experiment.task = Task::transition;
-    if (root.find("transition") == nullptr)
-      problems.add(root, "missing key 'transition': task transition needs it");
-  } else if (task->string != "limits") {
-    problems.add(*task,
-                 "task '" + task->string +
-                     "' is not supported yet by this version; use limits, design, stability or transition");
+  if (task == nullptr || task->string == "limits") return;
+  for (const auto& [name, kind] : section_tasks) {
+    if (task->string != name) continue;
+    experiment.task = kind;
+    if (root.find(name) == nullptr)
+      problems.add(root, std::string("missing key '") + name + "': task " + name + " needs it");
+    return;
   }
+  problems.add(
+      *task,
+      "task '" + task->string +
+          "' is not supported yet by this version; use limits, design, sweep, stability or transition");
 }
 
 /// Frozen for the whole run; 1 where the scene cannot say, so that later sections can still be checked.
@@ -83,23 +85,24 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   std::optional<Node> root = read_jsonc(source.text, problems);
   if (!root) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
-  return read_tree(std::move(*root), lookup, diagnostics);
+  return read_tree(std::move(*root), {lookup, source.weaves}, diagnostics);
 }
 
-std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diagnostics& diagnostics,
+std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnostics& diagnostics,
                                     bool* well_formed)
 {
   Problems& problems = diagnostics.problems;
   if (well_formed) *well_formed = false;
   std::optional<Node> root(std::move(given));
-  // Members of a stability experiment start from what is written, not from defaults that follow from it.
-  const Node base = root->find("stability") != nullptr ? *root : Node{};
+  const bool has_variants = root->find("stability") != nullptr || root->find("sweep") != nullptr;
+  const VariantBase base = has_variants ? variant_base(*root, lookups.weaves) : VariantBase{};
+  if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
-  PluginResolver plugins(lookup);
+  PluginResolver plugins(lookups.plugins);
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };
-  if (!check_fields(*root, experiment_fields(), problems, extra)) return std::nullopt;
+  if (!check_fields(*root, expanded_fields(), problems, extra)) return std::nullopt;
   if (well_formed) *well_formed = problems.empty();
 
   Experiment experiment;
@@ -123,6 +126,8 @@ std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diag
   }
   if (const Node* stability = root->find("stability"))
     experiment.stability = read_stability(*stability, base, problems);
+  if (const Node* sweep = root->find("sweep"))
+    experiment.sweep = read_sweep(*sweep, base, experiment, problems);
   if (Node* transition = find_mutable(*root, "transition")) {
     experiment.transition =
         read_transition(*transition, experiment.scene, experiment.solver.clearance, scene_complete, problems);
@@ -132,6 +137,10 @@ std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diag
     experiment.expect = read_expectations(*expect, problems);
   }
   if (!problems.empty()) return std::nullopt;
+  if (experiment.sweep) check_sweep_pointers(root->at("sweep"), *experiment.sweep, *root, problems);
+  if (!problems.empty()) return std::nullopt;
+  // Variants are made from the weave again when this is read again.
+  if (has_variants) keep_weave(*root, base.file);
   experiment.resolved = std::move(*root);
   return experiment;
 }

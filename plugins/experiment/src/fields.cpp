@@ -2,7 +2,9 @@
 
 #include "field_helpers.hpp"
 #include "stability_fields.hpp"
+#include "sweep_fields.hpp"
 #include "transition_fields.hpp"
+#include "weave.hpp"
 
 #include <algorithm>
 
@@ -20,7 +22,8 @@ Field elements_field()
   Field element = object("element", "One kind of element.",
                          {required(string("shape", "Plugin that turns parameters into primitives.")),
                           with_default(std::move(parameters), "{}")});
-  Field elements = required(map("elements", "The kinds of elements, by name.", std::move(element)));
+  Field elements = map("elements", "The kinds of elements, by name. Needed unless cell.weave brings them.",
+                       std::move(element));
   elements.min_items = 1;
   return elements;
 }
@@ -40,7 +43,8 @@ Field place_field()
                        {required(string("element", "Name of an entry of elements.")),
                         required(in_unit(numbers("position", "Place of the element's origin.", 3), "length")),
                         std::move(rotation), std::move(overrides)});
-  Field place = required(list("place", "What is in the cell, before it is repeated.", std::move(entry)));
+  Field place = list("place", "What is in the cell, before it is repeated. Needed unless weave brings it.",
+                     std::move(entry));
   place.min_items = 1;
   return place;
 }
@@ -67,7 +71,7 @@ Field cell_field()
       "cell", "What is simulated: a periodic cell, or a finite patch.",
       {vectors_field("vectors", "The two lattice vectors (x, y) of the cell before it is repeated."),
        with_default(integers("repeat", "m and n: the m x n supercell becomes the cell.", 2, 1), "[1, 1]"),
-       patch_field(), place_field(),
+       patch_field(), place_field(), weave_field(),
        with_default(
            boolean("relax", "Allow a rest state that violates the clearance, to be relaxed before loading."),
            "false")}));
@@ -247,7 +251,8 @@ Field experiment_fields()
       {string("$schema", "Place of the schema file, for editors."),
        required(string("name", "Name of the experiment.")), string("description", "What it shows."),
        with_default(
-           choice("task", "What is computed. This version does limits, design, stability and transition.",
+           choice("task",
+                  "What is computed. This version does limits, design, sweep, stability and transition.",
                   {"limits", "design", "sweep", "chart", "stability", "transition"}),
            "\"limits\""),
        with_default(choice("length_unit",
@@ -256,8 +261,8 @@ Field experiment_fields()
                            {"m", "mm", "um"}),
                     "\"mm\""),
        with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(), cell_field(),
-       load_case_field(), solver_field(), design_field(), stability_field(), transition_field(),
-       expect_field()});
+       load_case_field(), solver_field(), design_field(), sweep_field(), stability_field(),
+       transition_field(), expect_field()});
 }
 
 std::optional<PluginSection> plugin_section(const Field& object)

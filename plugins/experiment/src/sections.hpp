@@ -32,16 +32,34 @@ std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec
                                                const std::vector<int>& tile_of, bool scene_complete,
                                                Problems& problems);
 
-/// stability; `base` is the whole file before it was checked.
-ExperimentStability read_stability(const Node& section, const Node& base, Problems& problems);
+/// What variants of the file start from; `file` is the whole file before it was checked.
+VariantBase variant_base(const Node& file, WeaveLookup weaves);
+
+/// stability.
+ExperimentStability read_stability(const Node& section, VariantBase base, Problems& problems);
+
+/// sweep; names of limits are those of `experiment`, whose directions and senses must have been read.
+ExperimentSweep read_sweep(const Node& section, VariantBase base, const Experiment& experiment,
+                           Problems& problems);
+
+/// Pointers of the sweep must lead to something in the file as written or as resolved: a slip of the keyboard
+/// would otherwise be refused row by row.
+void check_sweep_pointers(const Node& section, const ExperimentSweep& sweep, const Node& resolved,
+                          Problems& problems);
 
 /// transition; fills in the range. `clearance` is the solver's.
 ExperimentTransition read_transition(Node& section, const SceneSpec& scene, double clearance,
                                      bool scene_complete, Problems& problems);
 
+/// Where an experiment finds what it names.
+struct Lookups {
+  const PluginLookup& plugins;
+  WeaveLookup weaves;
+};
+
 /// Everything from a tree with values in place to an experiment. `well_formed`, when wanted: nothing was
 /// wrong with its form (keys, types, ranges).
-std::optional<Experiment> read_tree(Node given, const PluginLookup& lookup, Diagnostics& diagnostics,
+std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnostics& diagnostics,
                                     bool* well_formed = nullptr);
 
 /// expect.

@@ -2,7 +2,6 @@
 #include "sections.hpp"
 
 #include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/experiment/overrides.hpp>
 
 #include <algorithm>
 
@@ -107,15 +106,9 @@ void check_names(const Node& list, const std::vector<Named>& entries, const char
   }
 }
 
-void set_member(Node& root, const std::string& key, Node value)
-{
-  std::erase_if(root.members, [&](const auto& member) { return member.first == key; });
-  root.members.emplace_back(key, std::move(value));
-}
-
 }  // namespace
 
-ExperimentStability read_stability(const Node& section, const Node& base, Problems& problems)
+ExperimentStability read_stability(const Node& section, VariantBase base, Problems& problems)
 {
   ExperimentStability out;
   out.tolerance = number_or(section, "tolerance", 1e-6);
@@ -128,44 +121,22 @@ ExperimentStability read_stability(const Node& section, const Node& base, Proble
     for (const Node& item : families->items) out.families.push_back(read_family(item, problems));
     check_names(*families, out.families, "family", problems);
   }
-  out.base = base;
-  std::erase_if(out.base.members, [](const auto& member) {
-    return member.first == "stability" || member.first == "transition" || member.first == "design" ||
-           member.first == "expect";
-  });
-  set_member(out.base, "task", string_node("limits"));
+  out.base = std::move(base);
   return out;
 }
 
-StabilityReading read_stability_member(const ExperimentStability& stability, std::size_t family,
-                                       std::size_t member, std::size_t method, const PluginLookup& lookup,
-                                       Diagnostics& diagnostics)
+VariantReading read_stability_member(const ExperimentStability& stability, std::size_t family,
+                                     std::size_t member, std::size_t method, const PluginLookup& lookup,
+                                     Diagnostics& diagnostics)
 {
   const StabilityFamily& from = stability.families[family];
   const StabilityMethod& by = stability.methods[method];
-  const std::string place =
-      "family '" + from.name + "', member '" + from.labels[member] + "', method '" + by.name + "': ";
-  Node root = stability.base;
-  Diagnostics found;
-  for (const auto* assignments : {&from.members[member], &by.set}) {
-    for (const Assignment& a : *assignments) {
-      const std::string problem = set_value(root, a.pointer, a.value);
-      if (!problem.empty()) found.problems.add({a.value.pointer, a.value.line, problem});
-    }
-  }
-  set_member(root, "name", string_node(from.name + ", " + from.labels[member] + ", " + by.name));
-  bool well_formed = false;
-  StabilityReading out;
-  if (found.empty()) out.experiment = read_tree(std::move(root), lookup, found, &well_formed);
-  for (const Problem& problem : found.problems.list()) {
-    if (!well_formed) {
-      diagnostics.problems.add({problem.pointer, problem.line, place + problem.message});
-    } else {
-      if (!out.refusal.empty()) out.refusal += "; ";
-      out.refusal += (problem.pointer.empty() ? "" : problem.pointer + ": ") + problem.message;
-    }
-  }
-  return out;
+  std::vector<Assignment> values = from.members[member];
+  values.insert(values.end(), by.set.begin(), by.set.end());
+  return read_variant(
+      stability.base, values, from.name + ", " + from.labels[member] + ", " + by.name,
+      "family '" + from.name + "', member '" + from.labels[member] + "', method '" + by.name + "': ", lookup,
+      diagnostics);
 }
 
 }  // namespace hauberk

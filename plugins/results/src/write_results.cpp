@@ -52,4 +52,17 @@ std::vector<NamedContent> transition_content(const boost::json::object& document
           {results_file, write_json(document)}};
 }
 
+std::vector<std::pair<std::string, std::string>> sweep_files()
+{
+  return {{"sweep", sweep_file}, {"picture", sweep_picture_file}};
+}
+
+std::vector<NamedContent> sweep_content(const boost::json::object& document, const SweepTable& table,
+                                        const PlotLabels& labels)
+{
+  return {{sweep_file, sweep_csv(table)},
+          {sweep_picture_file, sweep_svg(table, labels.title, labels.subtitle)},
+          {results_file, write_json(document)}};
+}
+
 }  // namespace hauberk

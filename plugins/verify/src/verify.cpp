@@ -38,6 +38,82 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
   return out;
 }
 
+/// One document's limits, and profiles where it has any limit; `prefix` is its place in the file.
+void check_scene_and_limits(const json::value& results, const std::string& prefix,
+                            const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
+{
+  const Setting setting = read_setting(member(results, "experiment", prefix));
+  const Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
+  if ((setting.load == Load::strain) != (scene.cell.size() == 2))
+    throw Malformed(prefix + "/scene/cell_vectors: two for in_plane_periodic, none for a patch");
+  check_length(scene, scene.length, prefix + "/scene");
+  const auto limits =
+      check_limits(scene, member(results, "limits", prefix), prefix, setting, tolerances, lines);
+  VerifyLine line = check_profiles(results, setting.load, limits, tolerances);
+  if (!prefix.empty()) line.text = prefix + ": " + line.text;
+  lines.push_back(std::move(line));
+}
+
+/// A swept number stands in the row's experiment, where its pointer leads there (those of a weave do not: it
+/// has been replaced by what it stands for).
+void check_placed(const json::value& axis, const json::value& value, const json::value& experiment,
+                  const std::string& where)
+{
+  if (!value.is_number()) return;
+  for (const json::value& place : array(member(axis, "places", where), where)) {
+    const std::string pointer = text(member(place, "pointer", where), where);
+    json::error_code none;
+    const json::value* found = experiment.find_pointer(pointer, none);
+    if (found == nullptr) continue;
+    const double expected = number(member(place, "factor", where), where) * number(value, where) +
+                            number(member(place, "offset", where), where);
+    if (number(*found, where) != expected)
+      throw Malformed(fmt::format("{}: the row's experiment has {} at {}, the table says {}", where,
+                                  number(*found, where), pointer, expected));
+  }
+}
+
+/// What is recorded of a row is what its results say.
+void check_measured(const json::value& measures, const json::value& row, const json::value& result,
+                    const std::string& where)
+{
+  for (const json::value& measure : array(measures, "/sweep/measures")) {
+    const std::string name = text(member(measure, "name", where), where);
+    json::error_code none;
+    const json::value* found = result.find_pointer(text(member(measure, "pointer", where), where), none);
+    const json::value& recorded = member(member(row, "measured", where), name.c_str(), where);
+    const bool same = found != nullptr && found->is_number() ? recorded == *found : recorded.is_null();
+    if (!same) throw Malformed(fmt::format("{}/measured: '{}' is not what the results say", where, name));
+  }
+}
+
+/// Every row that has results, each with a scene of its own.
+void check_sweep(const json::value& sweep, const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
+{
+  const json::array& axes = array(member(sweep, "axes", "/sweep"), "/sweep/axes");
+  std::size_t k = 0;
+  for (const json::value& row : array(member(sweep, "rows", "/sweep"), "/sweep/rows")) {
+    const std::string where = fmt::format("/sweep/rows/{}", k++);
+    const json::value& result = member(row, "result", where);
+    if (result.is_null()) {
+      lines.push_back(
+          {true, where + ": " + text(member(row, "status", where), where) + ", no results", false});
+      continue;
+    }
+    try {
+      for (const json::value& axis : axes) {
+        const std::string name = text(member(axis, "name", "/sweep/axes"), "/sweep/axes");
+        check_placed(axis, member(member(row, "values", where), name.c_str(), where),
+                     member(result, "experiment", where + "/result"), where);
+      }
+      check_measured(member(sweep, "measures", "/sweep"), row, result, where);
+      check_scene_and_limits(result, where + "/result", tolerances, lines);
+    } catch (const Malformed& error) {
+      lines.push_back({false, error.what()});
+    }
+  }
+}
+
 void check_document(const json::value& results, const VerifyTolerances& tolerances,
                     std::vector<VerifyLine>& lines)
 {
@@ -45,16 +121,18 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
     throw Malformed("/format: missing; these are no results: give the results.json that `hauberk run` wrote");
   if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
+  if (const json::value* sweep = results.as_object().if_contains("sweep"))
+    return check_sweep(*sweep, tolerances, lines);
+  const json::value* none = results.as_object().if_contains("design");
+  if (none != nullptr && none->is_null()) return check_scene_and_limits(results, "", tolerances, lines);
+
   const Setting setting = read_setting(member(results, "experiment", ""));
   const Scene scene = read_scene(member(results, "scene", ""), "/scene");
   if ((setting.load == Load::strain) != (scene.cell.size() == 2))
     throw Malformed("/scene/cell_vectors: two for in_plane_periodic, none for a patch");
   const json::value& design = member(results, "design", "");
-  if (design.is_null()) check_length(scene, scene.length, "/scene");
   const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, tolerances, lines);
   lines.push_back(check_profiles(results, setting.load, limits, tolerances));
-  if (design.is_null()) return;
-
   const json::value& initial = member(design, "initial", "/design");
   const Scene initial_scene =
       read_scene(member(initial, "scene", "/design/initial"), "/design/initial/scene");

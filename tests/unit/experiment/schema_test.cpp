@@ -104,6 +104,9 @@ TEST(Schema, ShippedExperimentsAreCorrect)
       return nullptr;
     }
   };
+  const WeaveLookup weaves = [](const std::string& name, std::string&) {
+    return std::optional(read_text_file(HAUBERK_SOURCE_DIR "/share/weaves/" + name + ".json"));
+  };
   int count = 0;
   for (const char* folder : {"share/experiments", "shapes", "loadcases", "optimizers"}) {
     const std::filesystem::path root = std::filesystem::path(HAUBERK_SOURCE_DIR) / folder;
@@ -112,12 +115,13 @@ TEST(Schema, ShippedExperimentsAreCorrect)
       if (entry.path().extension() != ".json") continue;
       SCOPED_TRACE(entry.path().string());
       Diagnostics diagnostics;
-      const auto experiment =
-          read_experiment({entry.path().filename(), read_text_file(entry.path()), {}}, lookup, diagnostics);
+      const auto experiment = read_experiment(
+          {entry.path().filename(), read_text_file(entry.path()), {}, weaves}, lookup, diagnostics);
       EXPECT_EQ(diagnostics.text(), "");
       if (experiment) {
         Diagnostics again;
-        EXPECT_TRUE(read_experiment({"resolved", write_json(experiment->resolved), {}}, lookup, again))
+        EXPECT_TRUE(
+            read_experiment({"resolved", write_json(experiment->resolved), {}, weaves}, lookup, again))
             << again.text();
       }
       ++count;

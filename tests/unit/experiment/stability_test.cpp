@@ -19,8 +19,8 @@ std::string text(const std::string& what = section)
   return with(valid_text(), "\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"stability\", " + what);
 }
 
-StabilityReading read_member(const Experiment& e, std::size_t member, std::size_t method,
-                             Diagnostics& diagnostics)
+VariantReading read_member(const Experiment& e, std::size_t member, std::size_t method,
+                           Diagnostics& diagnostics)
 {
   return read_stability_member(*e.stability, 0, member, method, fake_lookup, diagnostics);
 }
@@ -44,7 +44,7 @@ TEST(Stability, AMemberIsAnOrdinaryExperiment)
 {
   const Experiment e = read_ok(text());
   Diagnostics diagnostics;
-  const StabilityReading reading = read_member(e, 0, 1, diagnostics);
+  const VariantReading reading = read_member(e, 0, 1, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   ASSERT_TRUE(reading.experiment) << reading.refusal;
   const Experiment& m = *reading.experiment;
@@ -65,7 +65,7 @@ TEST(Stability, AMemberThatMakesNoSceneIsRefusedAndNoMistake)
 {
   const Experiment e = read_ok(text());
   Diagnostics diagnostics;
-  const StabilityReading reading = read_member(e, 1, 0, diagnostics);  // r = 6 > R = 5
+  const VariantReading reading = read_member(e, 1, 0, diagnostics);  // r = 6 > R = 5
   EXPECT_EQ(diagnostics.text(), "");
   EXPECT_FALSE(reading.experiment);
   EXPECT_NE(reading.refusal, "");

@@ -20,7 +20,11 @@ namespace hauberk {
 using PluginLookup =
     std::function<const PluginTable*(PluginKind kind, const std::string& id, std::string& error)>;
 
-enum class Task { limits, design, stability, transition };
+/// Text of the weave file that `name` stands for (a name of the library, or a path as the experiment gives
+/// it); null and a sentence in `error` when there is none. Empty function: there is no library.
+using WeaveLookup = std::function<std::optional<std::string>(const std::string& name, std::string& error)>;
+
+enum class Task { limits, design, stability, transition, sweep };
 
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
@@ -78,6 +82,13 @@ struct Assignment {
   Node value;
 };
 
+/// A file as given, without what a variant of it does not have (tasks other than limits, expect): variants
+/// are made from what is written, not from defaults that follow from it.
+struct VariantBase {
+  Node file;
+  WeaveLookup weaves;
+};
+
 /// A way of solving: what it sets, usually below /solver.
 struct StabilityMethod {
   std::string name;
@@ -98,7 +109,37 @@ struct ExperimentStability {
   double tolerance = 0.0;  ///< of 1 + value
   std::vector<StabilityMethod> methods;
   std::vector<StabilityFamily> families;
-  Node base;  ///< the file as given, without this section, design and expect
+  VariantBase base;
+};
+
+/// A place that a swept value goes to, as factor times value plus offset.
+struct SweepPlace {
+  std::string pointer;
+  double factor = 1.0, offset = 0.0;  ///< 1 and 0: any value, else numbers only
+};
+
+/// A quantity that is varied: all its places move together.
+struct SweepAxis {
+  std::string name;
+  std::vector<SweepPlace> places;
+  std::vector<Node> values;
+  bool logarithmic = false;  ///< values are evenly spaced on a logarithmic scale
+};
+
+/// What is recorded of every row.
+struct SweepMeasure {
+  std::string name, pointer;  ///< pointer into the row's results
+};
+
+/// The section `sweep`: every combination of the values of its axes is a row.
+struct ExperimentSweep {
+  std::vector<SweepAxis> axes;
+  std::vector<SweepMeasure> measure;  ///< the values of all limits when the file says nothing
+  VariantBase base;
+
+  std::size_t row_count() const;
+  /// Which value of each axis a row has; the last axis is the fastest.
+  std::vector<std::size_t> indices(std::size_t row) const;
 };
 
 /// A rigid motion of one element, linear in time: a rotation about a line and then a translation, from rest.
@@ -134,6 +175,7 @@ struct Experiment {
   std::optional<ExperimentDesign> design;          ///< set whenever the file has the section
   std::optional<ExperimentStability> stability;    ///< likewise
   std::optional<ExperimentTransition> transition;  ///< likewise
+  std::optional<ExperimentSweep> sweep;            ///< likewise
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
 };
@@ -143,6 +185,7 @@ struct ExperimentSource {
   std::string file;                    ///< named in messages
   std::string text;                    ///< JSON with comments and trailing commas
   std::vector<std::string> overrides;  ///< --set assignments, applied in order
+  WeaveLookup weaves = {};             ///< for cell.weave
 };
 
 /// Reads, checks and expands an experiment. Every problem is put into `diagnostics`; null when there is any.
@@ -150,18 +193,28 @@ struct ExperimentSource {
 std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& lookup,
                                           Diagnostics& diagnostics);
 
-/// One member of a family, by one method, as an experiment of its own.
-struct StabilityReading {
+/// A variant of a file as an experiment of its own.
+struct VariantReading {
   std::optional<Experiment> experiment;  ///< null: it makes no sense, and `refusal` says why
   std::string refusal;
 };
 
-/// Makes the ordinary experiment (task limits) of a member and a method and reads it. A mistake in the form
-/// of the file (an unknown key, a value of the wrong type, a pointer that leads nowhere) goes to
-/// `diagnostics`; a member whose values make no scene is no mistake but an answer: that input is refused.
-StabilityReading read_stability_member(const ExperimentStability& stability, std::size_t family,
-                                       std::size_t member, std::size_t method, const PluginLookup& lookup,
-                                       Diagnostics& diagnostics);
+/// Makes an ordinary experiment (task limits) named `name` by putting `values` into `base` and reads it. A
+/// mistake in the form of the file (an unknown key, a value of the wrong type, a pointer that leads nowhere)
+/// goes to `diagnostics`, its message after `place`; values that make no scene are no mistake but an answer:
+/// that input is refused.
+VariantReading read_variant(const VariantBase& base, const std::vector<Assignment>& values,
+                            const std::string& name, const std::string& place, const PluginLookup& lookup,
+                            Diagnostics& diagnostics);
+
+/// One member of a family, by one method.
+VariantReading read_stability_member(const ExperimentStability& stability, std::size_t family,
+                                     std::size_t member, std::size_t method, const PluginLookup& lookup,
+                                     Diagnostics& diagnostics);
+
+/// One row of a sweep; `name` is the experiment's.
+VariantReading read_sweep_row(const ExperimentSweep& sweep, std::size_t row, const std::string& name,
+                              const PluginLookup& lookup, Diagnostics& diagnostics);
 
 /// Text of a file. Throws InputError "cannot read 'x.json': ..." when it cannot be read or is beyond 64 MB.
 std::string read_text_file(const std::string& path);

@@ -1,5 +1,5 @@
 #pragma once
-/// Where plugins are looked for.
+/// Where plugins and data are looked for.
 
 #include <filesystem>
 #include <span>
@@ -18,5 +18,8 @@ std::vector<std::filesystem::path> plugin_search_path(std::span<const std::files
 
 /// The same with this process's environment and executable.
 std::vector<std::filesystem::path> plugin_search_path(std::span<const std::filesystem::path> command_line);
+
+/// ../share/hauberk seen from the folder of this process's executable: data that belong to the program.
+std::filesystem::path shared_data_folder();
 
 }  // namespace hauberk

@@ -5,6 +5,7 @@
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/polar_svg.hpp>
 #include <hauberk/results/stability.hpp>
+#include <hauberk/results/sweep.hpp>
 #include <hauberk/results/transition.hpp>
 
 #include <boost/json/object.hpp>
@@ -27,10 +28,14 @@ inline constexpr const char* stability_picture_file = "stability.svg";
 inline constexpr const char* transition_file = "transition.csv";
 inline constexpr const char* transition_minima_file = "minima.csv";
 inline constexpr const char* transition_picture_file = "transition.svg";
+
+inline constexpr const char* sweep_file = "sweep.csv";
+inline constexpr const char* sweep_picture_file = "sweep.svg";
 /// All of them: what a run may leave.
 inline constexpr std::array result_names{
-    results_file,           limits_file,     profile_file,           designed_file,          stability_file,
-    stability_picture_file, transition_file, transition_minima_file, transition_picture_file};
+    results_file,           limits_file,     profile_file,           designed_file,           stability_file,
+    stability_picture_file, transition_file, transition_minima_file, transition_picture_file, sweep_file,
+    sweep_picture_file};
 
 /// The files of `results_content` for `run`, for ResultNames::files: limits, profile and, for a design
 /// of a periodic cell, designed.
@@ -56,5 +61,12 @@ std::vector<std::pair<std::string, std::string>> transition_files();
 /// transition.csv, minima.csv, transition.svg and, last, results.json.
 std::vector<NamedContent> transition_content(const boost::json::object& document,
                                              const TransitionResult& result, const std::string& title);
+
+/// Those of a sweep: sweep and picture.
+std::vector<std::pair<std::string, std::string>> sweep_files();
+
+/// sweep.csv, sweep.svg and, last, results.json.
+std::vector<NamedContent> sweep_content(const boost::json::object& document, const SweepTable& table,
+                                        const PlotLabels& labels);
 
 }  // namespace hauberk

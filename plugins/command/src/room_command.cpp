@@ -1,0 +1,114 @@
+#include "dispatch.hpp"
+#include "interrupt.hpp"
+#include "loading.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/limits/room.hpp>
+
+#include <fmt/format.h>
+#include <boost/program_options/value_semantic.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <set>
+
+namespace hauberk::command {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr int most_starts = 100000;
+
+Options room_options()
+{
+  Options options(
+      "room EXPERIMENT.json [options]",
+      "Finds the rest state in which the linked elements are farthest apart, and the thickest rings "
+      "of which the fabric can be built: inner diameter over wire diameter. A local search from the "
+      "rest state and from perturbed ones; the strain is searched with the poses.",
+      "EXPERIMENT.json");
+  auto add = options.add().add_options()("starts", po::value<int>()->value_name("N"),
+                                         "starts, the rest state first; default 8");
+  add("fixed-cell", "keep the cell: poses only");
+  add("output,o", po::value<std::string>()->value_name("FILE"),
+      "write the rest state found as an experiment");
+  options.add_experiment_options();
+  return options;
+}
+
+/// The scene in the state that was found: the strain goes into the cell.
+SceneSpec scene_in(const Loaded& loaded, const Model& m, const State& state)
+{
+  SceneSpec scene = with_rest(loaded.scene, m, state);
+  if (scene.lattice.empty()) return scene;
+  PositionMap at, moved;
+  const std::vector<double> none(static_cast<std::size_t>(m.coordinate_count), 0.0);
+  const std::span<const double> macro{state.macro.data(), static_cast<std::size_t>(m.macro_count)};
+  m.load->position(macro, none, Vec3::Zero(), Vec3::Zero(), at);
+  for (std::size_t k = 0; k < scene.lattice.size(); ++k) {
+    m.load->position(macro, none, Vec3::Zero(), m.lattice[k], moved);
+    scene.lattice[k] = (moved.x - at.x) * m.length;
+  }
+  return scene;
+}
+
+/// Ratios of the round rings whose tubes are `grow` thicker than now, each kind once.
+std::string ratios(const Model& m, double grow)
+{
+  std::set<std::pair<double, double>> rings;
+  for (const Body& body : m.bodies) {
+    if (body.is_tube()) rings.emplace(body.R, body.r0);
+  }
+  std::string text;
+  for (const auto& [R, r] : rings) {
+    const double thick = r + grow;
+    text += fmt::format(
+        "  ring of radius {:.6g}, wire {:.6g} -> {:.8g}: inner diameter / wire {:.6f} -> {:.6f}\n",
+        R * m.length, 2.0 * r * m.length, 2.0 * thick * m.length, (R - r) / r, (R - thick) / thick);
+  }
+  return text;
+}
+
+}  // namespace
+
+int room_command(const std::vector<std::string>& words)
+{
+  catch_interrupts();
+  Options options = room_options();
+  options.parse(words);
+  RoomSettings settings;
+  settings.starts = options.has("starts") ? options.get<int>("starts") : 8;
+  if (settings.starts < 1 || settings.starts > most_starts)
+    throw UsageError(
+        fmt::format("--starts: expected a number from 1 to {}, found {}", most_starts, settings.starts),
+        options.usage());
+  if (options.has("fixed-cell")) settings.cell = Cell::fixed;
+  const Loaded loaded = load(options);
+  settings.seed = loaded.experiment.seed;
+  const Model m = make_model(loaded.scene, *loaded.experiment.load_case, loaded.experiment.solver.clearance);
+  const Room room = find_room(m, settings, 0, [] { return !interrupted(); });
+  const std::string unit = loaded.experiment.length_unit;
+  fmt::print("{}\nlargest rest clearance {:.8g} {} more than solver.clearance (seed {})\n",
+             loaded.experiment.name, room.best.gap * m.length, unit, room.best.seed);
+  fmt::print("{}", ratios(m, 0.5 * room.best.gap));
+  std::vector<double> gaps = room.gaps;
+  std::sort(gaps.begin(), gaps.end(), std::greater<>());
+  const auto near =
+      std::count_if(gaps.begin(), gaps.end(), [&](double g) { return room.best.gap - g < 1e-4; });
+  fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, gaps.size(),
+             gaps.back() * m.length);
+  if (options.has("output")) {
+    const auto& file = options.get<std::string>("output");
+    const Node experiment = scene_experiment(loaded.experiment, scene_in(loaded, m, room.best.state),
+                                             loaded.experiment.name + "_room");
+    std::ofstream out(file);
+    out << write_json(experiment) << "\n" << std::flush;
+    if (!out) throw ComputationError(fmt::format("{}: cannot be written", file));
+    fmt::print("written to {}\n", file);
+  }
+  return interrupted() ? exit_interrupted : exit_done;
+}
+
+}  // namespace hauberk::command

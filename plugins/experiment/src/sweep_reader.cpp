@@ -1,0 +1,226 @@
+#include "node_access.hpp"
+#include "sections.hpp"
+
+#include <hauberk/experiment/check.hpp>
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/experiment/jsonc.hpp>
+#include <hauberk/load_case.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+
+namespace {
+
+constexpr double most_rows = 10000;  ///< more is a slip of the keyboard
+
+std::vector<SweepPlace> read_places(const Node& entry)
+{
+  std::vector<SweepPlace> out;
+  const Node* list = find_typed(entry, "pointers", Node::Type::array);
+  if (list == nullptr) return out;
+  for (const Node& item : list->items) {
+    if (item.is(Node::Type::string))
+      out.push_back({item.string});
+    else
+      out.push_back(
+          {string_or(item, "pointer", ""), number_or(item, "factor", 1.0), number_or(item, "offset", 0.0)});
+  }
+  return out;
+}
+
+/// Both ends as given; in between by interpolation of the values or of their logarithms.
+std::vector<Node> spread(const Node& range, Problems& problems)
+{
+  const double from = number_or(range, "from", 0.0), to = number_or(range, "to", 0.0);
+  const int count = int_or(range, "count", 2);
+  const bool log = string_or(range, "scale", "linear") == "log";
+  std::vector<Node> out;
+  if (count > most_rows) {
+    problems.add(range, "expected at most " + format_number(most_rows) + " values, found " +
+                            format_number(static_cast<double>(count)));
+    return out;
+  }
+  if (log && !(from > 0.0 && to > 0.0)) {
+    problems.add(range, "a logarithmic scale needs positive ends, found " + format_number(from) + " and " +
+                            format_number(to));
+    return out;
+  }
+  out.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const double t = static_cast<double>(k) / (count - 1);
+    double x = log ? from * std::pow(to / from, t) : from + (to - from) * t;
+    if (k == 0) x = from;
+    if (k == count - 1) x = to;
+    Node value = number_node(x);
+    relocate(value, range.pointer, range.line);
+    out.push_back(std::move(value));
+  }
+  return out;
+}
+
+SweepAxis read_axis(const Node& entry, Problems& problems)
+{
+  SweepAxis axis{string_or(entry, "name", ""), read_places(entry), {}, false};
+  const Node* values = find_typed(entry, "values", Node::Type::array);
+  const Node* range = find_typed(entry, "range", Node::Type::object);
+  if ((values != nullptr) == (range != nullptr)) {
+    problems.add(entry, "expected either values or range");
+    return axis;
+  }
+  if (range != nullptr) {
+    axis.values = spread(*range, problems);
+    axis.logarithmic = string_or(*range, "scale", "linear") == "log";
+  } else {
+    axis.values = values->items;
+  }
+  for (const SweepPlace& place : axis.places) {
+    if (place.factor == 1.0 && place.offset == 0.0) continue;
+    for (const Node& value : axis.values) {
+      if (!value.is(Node::Type::number))
+        problems.add(value, "a factor or an offset needs numbers, found " + describe_found(value));
+    }
+  }
+  return axis;
+}
+
+/// "stretch 30" where directions are the same in all rows, else by their place in the file.
+std::vector<SweepMeasure> all_limits(const ExperimentSweep& sweep, const Experiment& experiment)
+{
+  bool fixed = true;
+  for (const SweepAxis& axis : sweep.axes) {
+    for (const SweepPlace& place : axis.places)
+      fixed = fixed && !pointer_within(place.pointer, "/load_case/directions_deg") &&
+              place.pointer != "/load_case";
+  }
+  std::vector<SweepMeasure> out;
+  if (!experiment.load_case) return out;
+  const auto names = experiment.load_case->sense_names();
+  for (std::size_t d = 0; d < experiment.directions_deg.size(); ++d) {
+    for (const Sense sense : experiment.senses) {
+      std::string name = sense == Sense::positive ? names.first : names.second;
+      name += fixed ? " " + format_number(experiment.directions_deg[d])
+                    : " in direction " + std::to_string(d + 1);
+      out.push_back({std::move(name), "/limits/" + std::to_string(out.size()) + "/value"});
+    }
+  }
+  return out;
+}
+
+template <class Named>
+void check_names(const Node& list, const std::vector<Named>& entries, Problems& problems)
+{
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    if (entries[k].name.empty()) problems.add(list.items[k], "expected a name, found \"\"");
+    for (std::size_t j = 0; j < k; ++j) {
+      if (entries[j].name == entries[k].name)
+        problems.add(list.items[k], "the name '" + entries[k].name + "' is given twice");
+    }
+  }
+}
+
+bool leads_somewhere(const Node& root, const std::string& pointer)
+{
+  const Node* node = &root;
+  std::size_t start = 1;
+  while (node != nullptr && start <= pointer.size()) {
+    const std::size_t stop = std::min(pointer.find('/', start), pointer.size());
+    const std::string key = pointer_key(std::string_view(pointer).substr(start, stop - start));
+    start = stop + 1;
+    if (!node->is(Node::Type::array)) {
+      node = node->find(key);
+      continue;
+    }
+    const auto at = std::find_if(node->items.begin(), node->items.end(), [&](const Node& item) {
+      return std::to_string(&item - node->items.data()) == key;
+    });
+    node = at == node->items.end() ? nullptr : &*at;
+  }
+  return node != nullptr;
+}
+
+}  // namespace
+
+std::size_t ExperimentSweep::row_count() const
+{
+  std::size_t rows = 1;
+  for (const SweepAxis& axis : axes) rows *= axis.values.size();
+  return rows;
+}
+
+std::vector<std::size_t> ExperimentSweep::indices(std::size_t row) const
+{
+  std::vector<std::size_t> out(axes.size());
+  for (std::size_t k = axes.size(); k-- > 0;) {
+    out[k] = row % axes[k].values.size();
+    row /= axes[k].values.size();
+  }
+  return out;
+}
+
+ExperimentSweep read_sweep(const Node& section, VariantBase base, const Experiment& experiment,
+                           Problems& problems)
+{
+  ExperimentSweep out;
+  out.base = std::move(base);
+  const Node* vary = find_typed(section, "vary", Node::Type::array);
+  if (vary == nullptr) return out;
+  double rows = 1.0;
+  for (const Node& entry : vary->items) {
+    out.axes.push_back(read_axis(entry, problems));
+    rows *= static_cast<double>(out.axes.back().values.size());
+  }
+  check_names(*vary, out.axes, problems);
+  if (rows > most_rows)
+    problems.add(*vary,
+                 "expected at most " + format_number(most_rows) + " rows, found " + format_number(rows));
+  if (const Node* measure = find_typed(section, "measure", Node::Type::array)) {
+    for (const Node& item : measure->items) {
+      out.measure.push_back({string_or(item, "name", ""), string_or(item, "pointer", "")});
+      if (!out.measure.back().pointer.starts_with('/'))
+        problems.add(item, "expected a JSON pointer such as /limits/0/value, found " +
+                               quote_json(out.measure.back().pointer));
+    }
+    check_names(*measure, out.measure, problems);
+  } else {
+    out.measure = all_limits(out, experiment);
+  }
+  return out;
+}
+
+void check_sweep_pointers(const Node& section, const ExperimentSweep& sweep, const Node& resolved,
+                          Problems& problems)
+{
+  for (std::size_t k = 0; k < sweep.axes.size(); ++k) {
+    const Node& list = section.at("vary").items[k].at("pointers");
+    for (std::size_t i = 0; i < list.items.size(); ++i) {
+      const std::string& pointer = sweep.axes[k].places[i].pointer;
+      if (!pointer.starts_with('/'))
+        problems.add(list.items[i],
+                     "expected a JSON pointer such as /solver/clearance, found " + quote_json(pointer));
+      else if (!leads_somewhere(sweep.base.file, pointer) && !leads_somewhere(resolved, pointer))
+        problems.add(list.items[i], "there is nothing at " + quote_json(pointer) + " of this experiment");
+    }
+  }
+}
+
+VariantReading read_sweep_row(const ExperimentSweep& sweep, std::size_t row, const std::string& name,
+                              const PluginLookup& lookup, Diagnostics& diagnostics)
+{
+  std::vector<Assignment> values;
+  const std::vector<std::size_t> at = sweep.indices(row);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const Node& value = sweep.axes[k].values[at[k]];
+    for (const SweepPlace& place : sweep.axes[k].places) {
+      Node put = value;
+      if (put.is(Node::Type::number)) put.number = place.factor * put.number + place.offset;
+      values.push_back({place.pointer, std::move(put)});
+    }
+  }
+  const std::string number = std::to_string(row);
+  return read_variant(sweep.base, values, name + ", row " + number, "row " + number + ": ", lookup,
+                      diagnostics);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,195 @@
+/// `hauberk run` of sweeps, from the file to a table.
+
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace hauberk::test {
+namespace {
+
+namespace fs = std::filesystem;
+namespace json = boost::json;
+
+const json::value& row(const json::value& results, std::size_t k)
+{
+  return results.at_pointer("/sweep/rows").as_array().at(k);
+}
+
+std::string text(const json::value& v) { return std::string(v.as_string()); }
+
+/// Rows with results, and those that are no scene.
+constexpr std::size_t good_rows = 6, bad_rows = 3;
+
+/// Two kinds of rings, the second half as large again as 5: its period is 2 (R_A + R_B - r_A - r_B).
+TEST(SweepRun, ChainsFollowTheirFormula)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("s.json", sweep_text()), "-o", folder / "out"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const json::value r = read_results(folder / "out");
+  ASSERT_EQ(r.at_pointer("/sweep/rows").as_array().size(), good_rows + bad_rows);
+  std::size_t computed = 0;
+  for (std::size_t k = 0; k < good_rows + bad_rows; ++k) {
+    const json::value& x = row(r, k);
+    const double R = number_at(x, "/values/R"), tube = number_at(x, "/values/r");
+    if (R != 4.8 && R != 5.2) continue;
+    ++computed;
+    EXPECT_EQ(text(x.at("status")), "done");
+    const double exact = 2.0 * (R + (0.5 * R + 2.5) - 2.0 * tube) / 12.0 - 1.0;
+    EXPECT_NEAR(number_at(x, "/measured/stretch 0"), exact, 1e-9) << R << ' ' << tube;
+    EXPECT_EQ(x.at_pointer("/result/limits/0/value"), x.at_pointer("/measured/stretch 0"));
+    EXPECT_EQ(number_at(x, "/result/experiment/elements/b/parameters/ring.R"), 0.5 * R + 2.5);
+  }
+  EXPECT_EQ(computed, good_rows);
+  EXPECT_EQ(number_at(r, "/sweep/counts/done"), good_rows);
+  EXPECT_EQ(number_at(r, "/sweep/counts/refused"), bad_rows);
+  EXPECT_NE(o.err.find("sweep: 9/9"), std::string::npos) << o.err;
+  EXPECT_NE(o.out.find("all 1 expected results are met\n"), std::string::npos) << o.out;
+}
+
+TEST(SweepRun, BadRowsAreRowsWithAMessage)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "s.json",
+      with(with(sweep_text(), R"([4.8, 5.2, 0.6])", R"([0.6, 5.0, 2, 5.6])"), "[0.5, 0.6, 0.7]", "[0.7]"));
+  const Outcome checked = run_program({"check", file});
+  EXPECT_EQ(checked.out, file + ": no problems; 4 rows of 1 limits (1 refused as input)\n");
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/expect=[]"}).code, 0);
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(text(row(r, 0).at("status")), "refused");
+  EXPECT_NE(text(row(r, 0).at("message")).find("/elements/a/parameters"), std::string::npos)
+      << "a tube thicker than the ring: " << row(r, 0).at("message");
+  EXPECT_EQ(text(row(r, 1).at("status")), "done");
+  EXPECT_NE(text(row(r, 2).at("message")).find("nothing is linked"), std::string::npos);
+  EXPECT_NE(text(row(r, 3).at("message")).find("overlap at rest by"), std::string::npos);
+  for (const std::size_t k : {0U, 2U, 3U}) {
+    EXPECT_TRUE(row(r, k).at("result").is_null());
+    EXPECT_TRUE(row(r, k).at_pointer("/measured/stretch 0").is_null());
+  }
+}
+
+TEST(SweepRun, TableAndPicture)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", folder / "out"}).code, 0);
+  std::istringstream table(read_text(folder.path() / "out" / "sweep.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "R,r,status,stretch 0,evaluations,seconds,message");
+  std::getline(table, line);
+  EXPECT_TRUE(line.starts_with("4.8,0.5,done,0.4")) << line;
+  const std::string picture = read_text(folder.path() / "out" / "sweep.svg");
+  for (const char* label : {">r = 0.5<", ">r = 0.6<", ">r = 0.7<", ">stretch 0<", ">R<"})
+    EXPECT_NE(picture.find(label), std::string::npos) << label;
+  EXPECT_NE(picture.find("stroke-dasharray=\"8,4\""), std::string::npos) << "lines differ without colour";
+  EXPECT_EQ(read_results(folder / "out").at_pointer("/files/sweep").as_string(), "sweep.csv");
+}
+
+TEST(SweepRun, SameResultsForAnyNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("s.json", sweep_text());
+  std::vector<std::string> texts;
+  for (const char* n : {"1", "2", "5"}) {
+    const std::string out = folder / (std::string("out") + n);
+    ASSERT_EQ(run_program({"run", file, "-o", out, "--threads", n}).code, 0);
+    texts.push_back(write_json(timeless(read_results(out))) + read_text(out + "/sweep.svg"));
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+  EXPECT_EQ(texts[0], texts[2]);
+}
+
+TEST(SweepRun, ResumesWhatIsMissing)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("s.json", sweep_text()), out = folder / "out";
+  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
+  const json::value whole = read_results(out);
+  json::value partial = whole;
+  for (const char* k : {"1", "7"}) {
+    json::value& missing = partial.at_pointer(std::string("/sweep/rows/") + k);
+    missing.at("status") = "interrupted";
+    missing.at("result") = nullptr;
+  }
+  // Marks a row that must not be computed again.
+  partial.at_pointer("/sweep/rows/0/message") = "kept";
+  std::ofstream(out + "/results.json") << write_json(partial);
+  const Outcome o = run_program({"run", file, "-o", out, "--resume"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_NE(o.err.find("resuming: finished rows are kept\n"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("sweep: 2/2"), std::string::npos) << o.err;
+  json::value resumed = read_results(out);
+  EXPECT_EQ(text(resumed.at_pointer("/sweep/rows/0/message")), "kept");
+  resumed.at_pointer("/sweep/rows/0/message") = "";
+  EXPECT_EQ(write_json(timeless(resumed)), write_json(timeless(whole)));
+  EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).out,
+            out + "/results.json: complete already\nall 1 expected results are met\n");
+}
+
+TEST(SweepRun, InterruptKeepsWhatThereIs)
+{
+  const TemporaryFolder folder;
+  // The second row is never done.
+  const std::string file = folder.write(
+      "s.json",
+      with(
+          with(
+              sweep_text(),
+              R"({ "name": "r", "pointers": ["/elements/a/parameters/ring.r0", "/elements/a/parameters/ring.r1", "/elements/b/parameters/ring.r0", "/elements/b/parameters/ring.r1"], "values": [0.5, 0.6, 0.7] })",
+              R"({ "name": "starts", "pointers": ["/solver/starts"], "values": [1, 200000] })"),
+          "[4.8, 5.2, 0.6]", "[5]"));
+  const std::string out = folder / "out";
+  Process process({"run", file, "-o", out, "--threads", "1", "--set", "/expect=[]"}, folder);
+  for (int wait = 0; wait < 1200 && !fs::exists(out + "/results.json"); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  process.signal(SIGINT);
+  const Outcome o = process.wait();
+  EXPECT_EQ(o.code, 130) << o.err;
+  const json::value r = read_results(out);
+  EXPECT_EQ(text(row(r, 0).at("status")), "done");
+  EXPECT_EQ(text(row(r, 1).at("status")), "interrupted");
+  EXPECT_TRUE(row(r, 1).at("result").is_null());
+}
+
+TEST(SweepRun, RowsAreVerifiedFromTheFile)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", out}).code, 0);
+  const Outcome good = run_program({"verify", out});
+  EXPECT_EQ(good.code, 0) << good.out;
+  EXPECT_NE(good.out.find("PASS /sweep/rows/0/result/limits/0 (0 deg, stretch)"), std::string::npos)
+      << good.out;
+  EXPECT_NE(good.out.find("NONE /sweep/rows/8: refused, no results"), std::string::npos) << good.out;
+  const json::value whole = read_results(out);
+  const auto after = [&](const char* pointer, const json::value& value) {
+    json::value wrong = whole;
+    wrong.at_pointer(pointer) = value;
+    std::ofstream(out + "/results.json") << write_json(wrong);
+    return run_program({"verify", out});
+  };
+  EXPECT_EQ(after("/sweep/rows/1/result/limits/0/poses/0/position/0", 0.01).code, 1);
+  EXPECT_NE(
+      after("/sweep/rows/1/measured/stretch 0", 0.5).out.find("'stretch 0' is not what the results say"),
+      std::string::npos);
+  EXPECT_NE(after("/sweep/rows/1/values/r", 0.61)
+                .out.find("the row's experiment has 0.6 at "
+                          "/elements/a/parameters/ring.r0, the table says 0.61"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -345,8 +345,8 @@ template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
              SideTerms& out)
 {
-  if (settings.quadrature == Quadrature::rough)
-    ArcIntegral<dim, dim == 1 ? 5 : 4>(frame, settings, request, share, out).run();
+  if (dim == 2 && settings.quadrature == Quadrature::rough)
+    ArcIntegral<dim, 4>(frame, settings, request, share, out).run();
   else
     ArcIntegral<dim, dim == 1 ? 9 : 7>(frame, settings, request, share, out).run();
 }

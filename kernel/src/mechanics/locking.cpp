@@ -62,7 +62,9 @@ class Path {
   {
     Stage s;
     s.contact = {f, g_hat, m_.clearance, schedule_.search};
-    s.contact.quadrature = last ? schedule_.last_quadrature : Quadrature::rough;
+    s.contact.quadrature = last                       ? schedule_.last_quadrature
+                           : g_hat > schedule_.change ? Quadrature::rough
+                                                      : Quadrature::fine;
     s.ccd = schedule_.ccd;
     s.target = schedule_.target;
     s.mu = schedule_.stiffness * g_hat * size_;

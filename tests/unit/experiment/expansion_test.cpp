@@ -70,9 +70,9 @@ TEST(Expansion, DisksAndRectanglesOfCells)
   EXPECT_EQ(disk.size(), 2 * 13U);  // 1, 6 at 10 and 6 at 17.32
   const auto square = patch("[[10, 0], [0, 20]]", "{ \"rectangle\": [3, 2] }");
   ASSERT_EQ(square.size(), 12U);
-  EXPECT_EQ(square[0].rest.position, Vec3(-13, -10, 0));
-  EXPECT_EQ(square[2].rest.position, Vec3(-3, -10, 0));
-  EXPECT_EQ(square[11].rest.position, Vec3(13, 10, 0));
+  EXPECT_LT((square[0].rest.position - Vec3(-13, -10, 0)).norm(), 1e-13);
+  EXPECT_LT((square[2].rest.position - Vec3(-3, -10, 0)).norm(), 1e-13);
+  EXPECT_LT((square[11].rest.position - Vec3(13, 10, 0)).norm(), 1e-13);
 }
 
 TEST(Expansion, RotationsAreActiveAndExactAtRightAngles)

@@ -139,6 +139,8 @@ TEST(Meaning, DesignQuantityAndTargets)
             "stretch and compress");
   EXPECT_EQ(
       after("\"plugin\": \"plane\"", "\"plugin\": \"bend\""),
+      "t.json:13: /load_case/plugin: 'bend' loads a finite patch: use cell.patch instead of cell.vectors and "
+      "cell.repeat\n"
       "t.json:16: /design/quantity: 'eta' needs a load case that stretches and compresses; this one reports "
       "'normal_curvature' in the senses up and down");
   EXPECT_EQ(after("\"value\": 0.05 }", "\"value\": 0.05 }, { \"direction_deg\": 180, \"value\": 0.1 }"),

@@ -156,11 +156,19 @@ TEST(DesignedExperiment, DescribesTheFinalSceneAlone)
   EXPECT_NEAR(out.at_pointer("/cell/place/1/rotation/axis/0").as_double(), 1.0, 1e-15);
 }
 
-TEST(DesignedExperiment, PatchesAreRefused)
+TEST(DesignedExperiment, APatchIsOneCellWithEveryElement)
 {
   SceneSpec scene = test::sample_run().scene;
   scene.lattice.clear();
-  EXPECT_THROW(designed_experiment(test::sample_experiment(), scene), ComputationError);
+  json::object patched = parse_json(test::sample_experiment(), "sample").as_object();
+  patched["cell"] = {
+      {"patch", {{"vectors", {{12, 0}, {0, 100}}}, {"outline", {{"hexagon", 2}}}, {"tile", {2, 2}}}},
+      {"place", json::array{}}};
+  const json::value out = designed_experiment(write_json(patched), scene);
+  EXPECT_EQ(out.at_pointer("/cell/patch/outline"), (json::value{{"rectangle", {1, 1}}}));
+  EXPECT_EQ(out.at_pointer("/cell/patch/tile"), (json::value{1, 1}));
+  EXPECT_FALSE(out.at("cell").as_object().contains("vectors"));
+  EXPECT_EQ(out.at_pointer("/cell/place").as_array().size(), scene.elements.size());
 }
 
 }  // namespace

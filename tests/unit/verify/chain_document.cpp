@@ -96,15 +96,16 @@ json::value chain_document(const Chain& chain)
                         {"rest", pose(0.5 * v1, upright)},
                         {"primitives", json::array{ring(chain.R_b, chain.r_b, r1(chain.r_b))}}}}}};
 
-  return {
-      {"format", "hauberk-results/1"},
-      {"experiment", {{"solver", {{"clearance", chain.clearance}}}, {"load_case", {{"out_of_plane", 0}}}}},
-      {"scene", std::move(scene)},
-      {"limits", json::array{std::move(limit)}},
-      {"profiles",
-       json::array{json::object{
-           {"direction_deg", chain.turned_deg}, {"e_s", value}, {"e_c", nullptr}, {"eta", nullptr}}}},
-      {"design", nullptr}};
+  return {{"format", "hauberk-results/1"},
+          {"experiment",
+           {{"solver", {{"clearance", chain.clearance}}},
+            {"load_case", {{"plugin", "in_plane_periodic"}, {"out_of_plane", 0}}}}},
+          {"scene", std::move(scene)},
+          {"limits", json::array{std::move(limit)}},
+          {"profiles",
+           json::array{json::object{
+               {"direction_deg", chain.turned_deg}, {"e_s", value}, {"e_c", nullptr}, {"eta", nullptr}}}},
+          {"design", nullptr}};
 }
 
 std::string limit_line(const json::value& document)

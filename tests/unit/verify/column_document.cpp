@@ -62,7 +62,9 @@ json::value column_document()
                      {"length", R},
                      {"elements", {element(0.0), element(0.5 * column_rest_period)}}};
   return {{"format", "hauberk-results/1"},
-          {"experiment", {{"solver", {{"clearance", 0}}}, {"load_case", {{"out_of_plane", 0}}}}},
+          {"experiment",
+           {{"solver", {{"clearance", 0}}},
+            {"load_case", {{"plugin", "in_plane_periodic"}, {"out_of_plane", 0}}}}},
           {"scene", std::move(scene)},
           {"limits", json::array{std::move(limit)}},
           {"profiles", json::array{json::object{

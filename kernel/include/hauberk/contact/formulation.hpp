@@ -24,8 +24,8 @@ inline const char* name_of(Formulation f)
 /// How local minima of the distance are found: none missed, or from samples as published (`published` only).
 enum class MinimaSearch { certified, sampled };
 
-/// How accurately `arc` integrates: `fine` to 1e-8 and better of the energy, `rough` to about 1e-5, at half
-/// the cost, for stages that only lead on to others.
+/// How accurately `arc` integrates over surfaces: `fine` to 1e-8 and better of the energy, `rough` to about
+/// 3e-5, at half the cost, for stages that only lead on to others. Lines cost little and are always fine.
 enum class Quadrature { fine, rough };
 
 /// Activation distance and clearance, scaled by L.
@@ -36,7 +36,7 @@ struct ContactSettings {
   MinimaSearch search = MinimaSearch::certified;
   /// Of `arc`: half-width of a panel over the distance to the integrand's nearest complex singularity. With
   /// y = 1/ratio the error of n-point Gauss falls like (y + sqrt(y^2 - 1))^(-2n): 5e-11 for n = 9 on lines,
-  /// 1e-8 for n = 7 on surfaces (rough: 2e-6 for n = 5, 3e-5 for n = 4) at the default, as far as the gap is
+  /// 1e-8 for n = 7 on surfaces (rough: 3e-5 for n = 4) at the default, as far as the gap is
   /// quadratic over a panel; smaller ratios serve to measure it.
   double panel_ratio = 0.5;
   Quadrature quadrature = Quadrature::fine;

@@ -140,7 +140,7 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
 Schedule design_schedule()
 {
   Schedule schedule;
-  schedule.first = getenv("DF") ? atof(getenv("DF")) : 0.03;
+  schedule.first = 0.03;
   schedule.ratio = 0.1;
   schedule.last = 1e-4;
   // Leaves forces, and so gradients, accurate to about a thousandth.

@@ -102,6 +102,23 @@ TEST_F(Bending, ReportsTheParaboloidInUnitsOfTheFile)
   EXPECT_TRUE(r.at_pointer("/profiles/0/eta").is_null());
 }
 
+/// A curvature is the inverse of a length.
+TEST_F(Bending, ScalesWithTheScene)
+{
+  std::string text = with(patch_text(), "[0, 60, 120]", "[0], \"senses\": [\"up\"]");
+  for (const auto& [one, ten] :
+       {std::pair("[[9.591231359, 5.5375], [0, 11.075]]", "[[95.91231359, 55.375], [0, 110.75]]"),
+        std::pair("\"centre.R\": 4.25", "\"centre.R\": 42.5"),
+        std::pair("\"side.R\": 2.575", "\"side.R\": 25.75"),
+        std::pair("\"centre.r0\": 0.95, \"centre.r1\": 0.95", "\"centre.r0\": 9.5, \"centre.r1\": 9.5"),
+        std::pair("\"side.r0\": 0.95, \"side.r1\": 0.95", "\"side.r0\": 9.5, \"side.r1\": 9.5")})
+    text = with(text, one, ten);
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"run", folder.write("p.json", text), "-o", folder / "out"}).code, 0);
+  const double first = number_at(results_, "/limits/0/value");
+  EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 0.1 * first, 1e-9 * first);
+}
+
 TEST_F(Bending, PassesTheIndependentCheck)
 {
   const Outcome o = verify(results_);
@@ -119,6 +136,14 @@ TEST_F(Bending, TheCheckSeesWhatIsOffTheParaboloid)
   r = results_;
   for (int k = 0; k < 7; ++k) shift("/limits/0/poses/" + std::to_string(k) + "/position/0", 1e-5);
   expect_caught(r, "the mean of the patch moved by 1e-05 from the apex");
+  r = results_;
+  for (int k = 0; k < 7; ++k) {
+    const std::string at = "/limits/0/poses/" + std::to_string(k) + "/position/";
+    const double x = number_at(r, at + "0"), y = number_at(r, at + "1");
+    shift(at + "0", -1e-5 * y);
+    shift(at + "1", 1e-5 * x);
+  }
+  expect_caught(r, "the patch turned");
   r = results_;
   shift("/limits/0/macro/A", 1e-6);
   expect_caught(r, "off the paraboloid");

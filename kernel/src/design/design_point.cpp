@@ -122,7 +122,10 @@ Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
 
 Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables)
 {
-  return gap_response(point, point.rest_gaps, variables, false, response_weight);
+  Matrix response = gap_response(point, point.rest_gaps, variables, false, response_weight);
+  for (Eigen::Index v = 0; v < response.cols(); ++v)
+    response.col(v) = free_part(point.model, response.col(v));
+  return response;
 }
 
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
@@ -133,7 +136,7 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
   const Vector dx = change_of_variables(from, to);
   const double range = contact_range * warm.g_hat;
   const std::vector<Gap> gaps = find_gaps(m, warm.state, range, true);
-  const Vector dy = gap_response(from, gaps, variables, true, follow_weight) * dx;
+  const Vector dy = free_part(m, gap_response(from, gaps, variables, true, follow_weight) * dx);
   const State s = advanced(m, warm.state, dy, 1.0);
   if (farthest_relative_motion(m, warm.state, s, dy, to.model) > 1.0) return std::nullopt;
   if (!m.load->admissible({s.macro.data(), static_cast<std::size_t>(m.macro_count)})) return std::nullopt;

@@ -173,7 +173,9 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                                    : LimitStatus::stalled;
   r.message = l.message;
   if (l.status == LockStatus::unbounded) {
-    r.message = "the strain left every bound although links bound this direction";
+    r.message = m.load->periodic()
+                    ? "the strain left every bound although links bound this direction"
+                    : "the macroscopic unknowns left every bound: nothing stops this patch in this direction";
   }
   r.iterations = l.iterations;
   r.evaluations = l.evaluations;

@@ -10,7 +10,7 @@ namespace hauberk {
 namespace {
 
 /// Step of the differences, as part of the smallest gap over the motion: forces go like 1/gap, so the error
-/// of fourth order is about 4 step^4, below the noise of quadrature (1e-10) over the step.
+/// of fourth order is about 4 step^4, below the noise of fine quadrature over the step.
 constexpr double step_of_gap = 3e-3;
 /// Curvatures below this part of the largest are rounding, and below this part of the load (L = 1)
 /// quadrature: contact forces have the load's size, and bend with curvatures of order 1.
@@ -40,24 +40,30 @@ AdjointGradient adjoint_gradient(const Model& model, const State& state, const V
                                  const Stage& stage, const Vector& quantity)
 {
   AdjointGradient out;
-  const std::vector<ElementPair> pairs = stage_pairs(model, state, stage);
-  const TotalEnergy e = total_energy(model, state, load, stage, pairs, 2);
+  Stage fine = stage;  // differences would see the panels of rough quadrature
+  fine.contact.quadrature = Quadrature::fine;
+  const std::vector<ElementPair> pairs = stage_pairs(model, state, fine);
+  const TotalEnergy e = total_energy(model, state, load, fine, pairs, 2);
   out.evaluations = e.contact.evaluations;
   if (!e.admissible) throw ComputationError("adjoint: the state touches; it is no minimum of a stage");
   Request request;
   request.order = 1;
   request.parameters = true;
   const auto explicit_at = [&](const State& s) {
-    const ContactEnergy c = contact_energy(model, s, pairs, stage.contact, request);
+    const ContactEnergy c = contact_energy(model, s, pairs, fine.contact, request);
     out.evaluations += c.evaluations;
-    return Matrix(stage.mu * c.parameters);
+    if (!(c.min_gap > 0.0)) throw ComputationError("adjoint: a state of the differences touches");
+    return Matrix(fine.mu * c.parameters);
   };
   if (quantity.squaredNorm() == 0.0) {
     out.parameters = Matrix::Zero(explicit_at(state).rows(), model.element_count());
     return out;
   }
-  const Vector a = solve(e.hessian, quantity, model.metric, load.norm(), out.residual);
-  const double motion = largest_motion(model, a);
+  const Vector a = solve(e.hessian, free_part(model, quantity), model.metric, load.norm(), out.residual);
+  // What elements move by themselves, and by the macroscopic unknowns, whose metric is that displacement's.
+  const int nm = model.macro_count;
+  const double motion = largest_motion(model, a) +
+                        std::sqrt((model.metric.head(nm).array() * a.head(nm).array().square()).sum());
   const double s = motion > 0.0 ? step_of_gap * e.contact.min_gap / motion : 1.0;
   const auto difference = [&](double by) {
     return Matrix(explicit_at(advanced(model, state, a, by)) - explicit_at(advanced(model, state, a, -by)));

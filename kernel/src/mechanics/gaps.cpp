@@ -196,7 +196,7 @@ Relaxed relax(const Model& m, const State& start, double target, Cell cell)
   for (int it = 0; it < most_relaxations && now.smallest < target; ++it) {
     Matrix A = now.hessian;
     A.diagonal() += damping * m.metric;
-    Vector dy = -A.llt().solve(now.gradient);
+    Vector dy = free_part(m, -A.llt().solve(now.gradient));
     const double size = step_norm(m, dy);
     if (size > 0.1) dy *= 0.1 / size;
     const State trial = advanced(m, out.state, dy, 1.0);

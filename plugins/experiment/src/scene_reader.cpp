@@ -246,6 +246,11 @@ class SceneReader {
     if (const Node* period = patch.find("tile")) {
       for (std::size_t k = 0; k < 2; ++k) tile[k] = static_cast<int>(period->items[k].number);
     }
+    if (static_cast<double>(tile[0]) * tile[1] * static_cast<double>(placed.size()) > largest_scene) {
+      problems_.add(*patch.find("tile"), "expected at most " + format_number(largest_scene) +
+                                             " placed elements in a tile; make it smaller");
+      return;
+    }
     const auto within = [](int index, int period) { return (index % period + period) % period; };
     Vec3 mean = Vec3::Zero();
     for (const auto& [i, j] : cells) {

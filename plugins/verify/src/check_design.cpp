@@ -135,12 +135,18 @@ void check_variables(const json::value& results, const json::value& design, doub
                      Sentences& problems)
 {
   const json::value& initial_scene = member(member(design, "initial", "/design"), "scene", "/design/initial");
+  const auto count = static_cast<double>(
+      array(member(member(results, "scene", ""), "elements", "/scene"), "/scene/elements").size());
   std::size_t i = 0;
   for (const json::value& v : array(member(design, "variables", "/design"), "/design/variables")) {
     const std::string at = fmt::format("/design/variables/{}", i++);
     Variable name{text(member(v, "name", at), at), {}};
-    for (const json::value& k : array(member(v, "elements", at), at + "/elements"))
-      name.places.insert(static_cast<std::size_t>(number(k, at + "/elements")));
+    for (const json::value& k : array(member(v, "elements", at), at + "/elements")) {
+      const double element = number(k, at + "/elements");
+      if (!(element >= 0.0 && element < count))
+        throw Malformed(at + "/elements: expected numbers of elements of the scene");
+      name.places.insert(static_cast<std::size_t>(element));
+    }
     const double lower = number(member(v, "lower", at), at), upper = number(member(v, "upper", at), at);
     const double first = number(member(v, "initial", at), at), last = number(member(v, "final", at), at);
     for (const double x : {first, last})

@@ -90,8 +90,7 @@ class LoadCase {
   /// a step is admissible when both its ends are.
   bool admissible(std::span<const double> macro) const { return do_admissible(macro); }
 
-  /// Smallest and largest factor by which macro changes the length of a lattice translation. Where nothing
-  /// repeats it only says when macro has left every bound: outside 1e-3 .. 1e3.
+  /// Smallest and largest factor by which macro lengthens a lattice translation; outside 1e-3 .. 1e3: runaway.
   std::pair<double, double> stretch_range(std::span<const double> macro) const
   {
     return do_stretch_range(macro);

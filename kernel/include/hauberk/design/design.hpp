@@ -46,7 +46,7 @@ struct DesignSpec {
   Schedule schedule;  ///< stages of the final search (few: their bias is reported by recomputing)
   /// Activation distance that ends the stages of the first search, from every start. Limits at a coarse
   /// stage are smooth functions of the parameters, on the scale of its gaps, where exact ones have kinks.
-  double coarse_last = 1e-2;
+  double coarse_last = 3e-3;
 };
 
 /// What the observer is told. Called from one thread.

@@ -131,18 +131,28 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
 
 void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
 {
-  unsaved_ = nullptr;
+  tried_.push_back(p);
   long cost = 0;
   if (memory_ != nullptr && memory_->recall(*p, cost)) {
     evaluations_ += cost;
     p->states_missing = p->evaluated;
     return;
   }
+  // A start is the iterate before it is accepted.
+  if (current_->states_missing) find_states(*current_);
   const long before = evaluations_;
   solve_targets(*p);
   if (memory_ == nullptr) return;
   memory_->record(*p, evaluations_ - before);
-  unsaved_ = p;
+}
+
+void DesignProblem::find_states(DesignPoint& p)
+{
+  p.evaluated = false;
+  const long before = evaluations_;
+  solve_targets(p);
+  evaluations_ = before;
+  p.states_missing = false;
 }
 
 void DesignProblem::solve_targets(DesignPoint& p)

@@ -202,6 +202,53 @@ TEST(DesignProblem, GoesBackToAnyIterateWithoutSolvingAgain)
   EXPECT_THROW(problem.accept(thick), PluginError);
 }
 
+/// A sheet that cannot be computed while it is widened by more than a percent.
+class Fragile final : public Sheet {
+ public:
+  bool broken = false;
+
+ protected:
+  std::pair<double, double> do_stretch_range(std::span<const double> macro) const override
+  {
+    if (broken && macro[0] > 0.01) throw ComputationError("too wide");
+    return Sheet::do_stretch_range(macro);
+  }
+};
+
+TEST(DesignProblem, ADesignThatCannotBeComputedIsAnEvaluationThatFailed)
+{
+  const SceneSpec scene = uneven_chainmail();
+  Fragile load;
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 2, [] { return true; });
+  std::vector<double> x = problem.scene_variables();
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  problem.accept(x);
+  x[0] += 0.02;
+  load.broken = true;
+  const OptimizationProblem::Evaluation e = problem.evaluate(x, true);
+  EXPECT_FALSE(e.ok);
+  EXPECT_EQ(e.why, "no limit at 20 degrees: too wide");
+  load.broken = false;
+  x[0] += 0.01;
+  EXPECT_TRUE(problem.evaluate(x, true).ok);
+}
+
+TEST(DesignProblem, AdjointsAreCounted)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  std::array<long, 2> evaluations{};
+  for (const DesignValue value : {DesignValue::less_contact, DesignValue::plain}) {
+    DesignSpec design = spec();
+    design.value = value;
+    DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+    ASSERT_TRUE(problem.evaluate(problem.scene_variables(), true).ok);
+    evaluations[value == DesignValue::plain ? 1 : 0] = problem.evaluations();
+  }
+  // The locked states are the same; an adjoint takes one Hessian and four gradients, the other one gradient.
+  EXPECT_GT(evaluations[1], evaluations[0]);
+}
+
 /// What an optimizer does that tries two designs before it accepts the first, from the start on.
 std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
 {

@@ -73,6 +73,7 @@ class DesignProblem final : public OptimizationProblem {
     long evaluations = 0;
     bool followed = false;  ///< there was a state to follow
     bool changed = false;   ///< and this is not its continuation
+    std::string problem;    ///< why it, or its gradient, could not be computed
   };
   /// Furthest locked state of one task that the iterate's states lead to.
   LockedTarget lock_target(const DesignPoint& p, const Vector& load,

@@ -42,6 +42,7 @@ class Handle {
 struct Call {
   NloptAdapter* adapter;
   nlopt_opt opt;
+  int asked = 0;  ///< values of the objective
 
   void stop_if_wanted() const
   {
@@ -51,7 +52,8 @@ struct Call {
 
 double objective(unsigned /*n*/, const double* z, double* gradient, void* data) noexcept
 {
-  const Call& call = *static_cast<const Call*>(data);
+  Call& call = *static_cast<Call*>(data);
+  ++call.asked;
   double value = 0.0;
   try {
     value = call.adapter->objective(z, gradient);
@@ -98,14 +100,28 @@ void set_tolerances(const Handle& opt, const NloptSettings& settings)
   opt.check(nlopt_set_vector_storage(opt.get(), settings.memory));
 }
 
-/// From the accepted point until NLopt ends; returns why it did.
-std::string run_once(NloptAdapter& adapter, const NloptSettings& settings)
+/// How NLopt ended.
+struct Ending {
+  std::string why = "nothing to do";
+  bool failed = false;  ///< it did not even search
+};
+
+/// Ends that are none of a search. A method that gives up (line searches at kinks and walls) calls that a
+/// failure, too, after more points than its first.
+bool is_failure(nlopt_result result, int asked)
+{
+  return result == NLOPT_INVALID_ARGS || result == NLOPT_OUT_OF_MEMORY ||
+         (result == NLOPT_FAILURE && asked < 2);
+}
+
+/// From the accepted point until NLopt ends.
+Ending run_once(NloptAdapter& adapter, const NloptSettings& settings)
 {
   const auto n = static_cast<unsigned>(adapter.size());
   const auto m = static_cast<unsigned>(adapter.constraint_count());
   const Handle opt(algorithm_of(settings.algorithm, m > 0), n);
   const Handle inner(NLOPT_LD_LBFGS, n);
-  Call call{&adapter, opt.get()};
+  Call call{&adapter, opt.get(), 0};
   const Eigen::VectorXd lower = adapter.lower(), upper = adapter.upper();
   opt.check(nlopt_set_lower_bounds(opt.get(), lower.data()));
   opt.check(nlopt_set_upper_bounds(opt.get(), upper.data()));
@@ -123,7 +139,11 @@ std::string run_once(NloptAdapter& adapter, const NloptSettings& settings)
     opt.check(nlopt_set_initial_step1(opt.get(), settings.initial_step));
   Eigen::VectorXd z = adapter.position().cwiseMax(lower).cwiseMin(upper);
   double value = 0.0;
-  return nlopt_result_to_string(nlopt_optimize(opt.get(), z.data(), &value));
+  const nlopt_result result = nlopt_optimize(opt.get(), z.data(), &value);
+  Ending end{nlopt_result_to_string(result), is_failure(result, call.asked)};
+  const char* details = nlopt_get_errmsg(opt.get());
+  if (result < 0 && details != nullptr) end.why += std::string(", ") + details;
+  return end;
 }
 
 OptimizerResult stopped(const NloptAdapter& adapter, const NloptSettings& settings)
@@ -148,7 +168,7 @@ OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::s
   NloptAdapter adapter(problem, settings_, observer, start);
   std::string why;
   if (!adapter.begin(why)) return adapter.finish("failed", "the start cannot be evaluated: " + why);
-  std::string end = "nothing to do";
+  Ending end;
   for (int run = 0; run < most_runs && adapter.stopped() == NloptAdapter::Stop::none; ++run) {
     const double before = adapter.merit();
     const double violation = adapter.violation();
@@ -156,19 +176,20 @@ OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::s
     adapter.rethrow();
     adapter.restore();
     adapter.differentiate();
-    if (adapter.critical() || adapter.infeasible()) break;
+    if (end.failed || adapter.critical() || adapter.infeasible()) break;
     const bool lower = adapter.merit() < before - settings_.tolerance * adapter.unit();
     if (!lower && !(adapter.violation() < worthwhile_violation * violation)) break;
   }
   if (adapter.stopped() != NloptAdapter::Stop::none) return stopped(adapter, settings_);
   if (adapter.critical())
-    return adapter.finish("converged", "the conditions of first order hold; NLopt: " + end);
+    return adapter.finish("converged", "the conditions of first order hold; NLopt: " + end.why);
+  if (end.failed) return adapter.finish("failed", "NLopt failed: " + end.why);
   if (adapter.infeasible())
     return adapter.finish("infeasible",
-                          "no small step reduces the violation of the constraints; NLopt: " + end);
+                          "no small step reduces the violation of the constraints; NLopt: " + end.why);
   return adapter.finish("small_step", (adapter.blocked() ? "the next step would pass through an intersection"
                                                          : "steps became too small to make progress") +
-                                          ("; NLopt: " + end));
+                                          ("; NLopt: " + end.why));
 }
 
 }  // namespace hauberk

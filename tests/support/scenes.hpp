@@ -29,7 +29,7 @@ class Rings final : public Shape {
 };
 
 /// Periodic sheet: exx, eyy, exy; x = F (X + T) + u; `coordinates` 2 (z fixed) or 3.
-class Sheet final : public LoadCase {
+class Sheet : public LoadCase {
  public:
   explicit Sheet(int coordinates = 2) : coordinates_(coordinates) {}
 

@@ -102,8 +102,10 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   const auto is_at = [x](const auto& p) { return std::equal(x.begin(), x.end(), p->x.begin(), p->x.end()); };
   if (is_at(current_)) return current_;
   if (is_at(last_)) return last_;
-  const auto known = std::find_if(accepted_.begin(), accepted_.end(), is_at);
-  if (known != accepted_.end()) return *known;
+  for (const auto* points : {&tried_, &accepted_}) {
+    const auto known = std::find_if(points->begin(), points->end(), is_at);
+    if (known != points->end()) return *known;
+  }
   auto p = std::make_shared<DesignPoint>();
   p->x = copy(x);
   p->spec = with_variables(scene_, design_.variables, x);
@@ -279,27 +281,25 @@ void DesignProblem::set_schedule(const Schedule& schedule)
   current_ = last_ = std::make_shared<DesignPoint>(*current_);
   current_->evaluated = false;
   current_->why.clear();
-  accepted_.clear();  // their values are of the other stages
+  current_->states_missing = current_->states_kept = false;
+  tried_.clear();  // their values are of the other stages
+  accepted_.clear();
 }
 
 void DesignProblem::accept(std::span<const double> x)
 {
   const std::shared_ptr<DesignPoint> p = make_point(x);
   if (!p->evaluated)
-    throw PluginError("the optimizer accepted a design that it could not evaluate: " + p->why);
-  if (p->states_missing && !memory_->recall_states(*p)) {
-    // The run ended between evaluation and acceptance: its states are found again as they were found first.
-    p->evaluated = false;
-    const long before = evaluations_;
-    solve_targets(*p);
-    evaluations_ = before;
-    memory_->record_states(*p);
-  } else if (memory_ != nullptr && !p->states_missing && p == unsaved_) {
-    memory_->record_states(*p);
-  }
+    throw PluginError("the optimizer accepted a design that it " + (p->why.empty()
+                                                                        ? "did not evaluate from its iterate"
+                                                                        : "could not evaluate: " + p->why));
+  const bool recalled = p->states_missing && memory_->recall_states(*p);
+  if (p->states_missing && !recalled) find_states(*p);
+  if (memory_ != nullptr && !p->states_kept && !recalled) memory_->record_states(*p);
   p->states_missing = false;
-  unsaved_ = nullptr;
-  current_ = p;
+  p->states_kept = memory_ != nullptr;
+  tried_.clear();  // from the former iterate; from this one they may come out otherwise
+  current_ = last_ = p;
   accepted_.push_back(p);
 }
 

@@ -1,13 +1,16 @@
 /// The limits that a design's targets ask for, with their gradients.
 
 #include <hauberk/design/design_problem.hpp>
+#include <hauberk/error.hpp>
 #include <hauberk/limits/lessons.hpp>
 #include <hauberk/mechanics/adjoint.hpp>
 #include <hauberk/parallel.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -21,14 +24,32 @@ void enter(const Locked& l, std::vector<WarmStart>& out)
   for (std::size_t i = 0; i < l.trail.size(); ++i) out.push_back({l.stages[i].g_hat, l.trail[i]});
 }
 
+/// Part of a value that may depend on directions in which its state is free. What rounding and quadrature
+/// leave is below 1e-8; a gradient that lacks more than this leads nowhere.
+constexpr double free_part = 1e-2;
+
 /// A value along the load at the end of a stage, and its derivatives in the element parameters.
-std::pair<double, Matrix> value_of(const Model& model, const Locked& l, const Vector& load, DesignValue which)
+struct Value {
+  double value = 0.0;
+  Matrix parameters;
+  long evaluations = 0;
+};
+
+/// Throws ComputationError where the state does not determine the derivatives.
+Value value_of(const Model& model, const Locked& l, const Vector& load, DesignValue which)
 {
   const double plain = load.dot(l.state.macro);
   if (which == DesignValue::plain) {
     Vector quantity = Vector::Zero(model.dofs());
     quantity.head(model.macro_count) = load;
-    return {plain, adjoint_gradient(model, l.state, load, l.stage, quantity).parameters};
+    AdjointGradient g = adjoint_gradient(model, l.state, load, l.stage, quantity);
+    if (!(g.residual <= free_part)) {
+      throw ComputationError(
+          fmt::format("{:.2g} of the value depends on motions that no contact resists: it has no gradient "
+                      "there; design.value less_contact needs none of them",
+                      g.residual));
+    }
+    return {plain, std::move(g.parameters), g.evaluations};
   }
   // -E = +-value - mu contact; its gradient in the parameters is explicit (envelope theorem).
   Request request;
@@ -36,7 +57,7 @@ std::pair<double, Matrix> value_of(const Model& model, const Locked& l, const Ve
   request.parameters = true;
   const ContactEnergy e =
       contact_energy(model, l.state, stage_pairs(model, l.state, l.stage), l.stage.contact, request);
-  return {plain - l.stage.mu * e.energy, Matrix(-l.stage.mu * e.parameters)};
+  return {plain - l.stage.mu * e.energy, Matrix(-l.stage.mu * e.parameters), e.evaluations};
 }
 
 }  // namespace
@@ -111,8 +132,12 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
     std::vector<Locked> found(lessons.size());
     parallel_for(lessons.size(), threads_, [&](std::size_t i) {
       const auto [k, donor] = lessons[i];
-      found[i] = lock(p.model, targets[donor].locked.state, loads[k], limits_.contact,
-                      without_widest(schedule_), keep_going_);
+      try {
+        found[i] = lock(p.model, targets[donor].locked.state, loads[k], limits_.contact,
+                        without_widest(schedule_), keep_going_);
+      } catch (const ComputationError&) {
+        // What cannot be computed teaches nothing: the learner keeps its own state.
+      }
     });
     for (std::size_t i = 0; i < lessons.size(); ++i) {
       LockedTarget& t = targets[lessons[i].learner];
@@ -131,18 +156,28 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
 
 void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
 {
-  unsaved_ = nullptr;
+  tried_.push_back(p);
   long cost = 0;
   if (memory_ != nullptr && memory_->recall(*p, cost)) {
     evaluations_ += cost;
     p->states_missing = p->evaluated;
     return;
   }
+  // A start is the iterate before it is accepted.
+  if (current_->states_missing) find_states(*current_);
   const long before = evaluations_;
   solve_targets(*p);
   if (memory_ == nullptr) return;
   memory_->record(*p, evaluations_ - before);
-  unsaved_ = p;
+}
+
+void DesignProblem::find_states(DesignPoint& p)
+{
+  p.evaluated = false;
+  const long before = evaluations_;
+  solve_targets(p);
+  evaluations_ = before;
+  p.states_missing = false;
 }
 
 void DesignProblem::solve_targets(DesignPoint& p)
@@ -156,30 +191,42 @@ void DesignProblem::solve_targets(DesignPoint& p)
   for (const LimitTask& task : tasks_)
     loads.push_back(load_vector(p.model, task.direction_deg * degree, task.sense));
   const auto nv = static_cast<int>(design_.variables.size());
-  parallel_for(tasks_.size(), threads_,
-               [&](std::size_t k) { targets[k] = lock_target(p, loads[k], warm[k]); });
-  learn(p, loads, targets);
-  parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
+  const auto each = [&](const auto& compute) {
+    parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
+      try {
+        compute(k);
+      } catch (const ComputationError& e) {  // of this design, which is one of many
+        targets[k].problem = e.what();
+      }
+    });
+  };
+  const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
+  each([&](std::size_t k) { targets[k] = lock_target(p, loads[k], warm[k]); });
+  if (std::none_of(targets.begin(), targets.end(), has_problem)) learn(p, loads, targets);
+  each([&](std::size_t k) {
     const Locked& l = targets[k].locked;
     if (l.status != LockStatus::locked) return;
     p.warm[k] = targets[k].trail;
     const Vector& load = loads[k];
     const double sign = tasks_[k].sense == Sense::positive ? 1.0 : -1.0;
     const double scale = sign * std::pow(p.model.length, load_.value_length_power());
-    const auto [value, parameters] = value_of(p.model, l, load, design_.value);
-    estimate[k] = scale * value;
+    const Value v = value_of(p.model, l, load, design_.value);
+    targets[k].evaluations += v.evaluations;
+    estimate[k] = scale * v.value;
     gradient[k] = Vector::Zero(nv);
-    for (int v = 0; v < nv; ++v) {
-      for (const auto& [element, parameter] : design_.variables[static_cast<std::size_t>(v)].entries)
-        gradient[k][v] += scale * parameters(parameter, element);
+    for (int i = 0; i < nv; ++i) {
+      for (const auto& [element, parameter] : design_.variables[static_cast<std::size_t>(i)].entries)
+        gradient[k][i] += scale * v.parameters(parameter, element);
     }
   });
   p.changed.clear();
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
     evaluations_ += targets[k].evaluations;
     if (targets[k].changed) p.changed.push_back(static_cast<int>(k));
-    if (targets[k].locked.status != LockStatus::locked && p.why.empty())
-      p.why = fmt::format("no limit at {} degrees: {}", tasks_[k].direction_deg, targets[k].locked.message);
+    const bool locked = targets[k].locked.status == LockStatus::locked;
+    if (!p.why.empty() || (locked && targets[k].problem.empty())) continue;
+    p.why = fmt::format("no {} at {} degrees: {}", locked ? "gradient" : "limit", tasks_[k].direction_deg,
+                        has_problem(targets[k]) ? targets[k].problem : targets[k].locked.message);
   }
   if (!p.why.empty()) return;
   const auto nt = static_cast<int>(design_.targets.size());

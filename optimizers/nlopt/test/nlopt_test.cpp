@@ -125,6 +125,39 @@ TEST(NloptAdapter, NotANumberIsAWall)
   EXPECT_EQ(problem.evaluated.size(), 1U);
 }
 
+TEST(Nlopt, WhatNloptRefusesIsAFailureWithItsReason)
+{
+  FunctionProblem problem = bowl();
+  NloptSettings settings;
+  settings.algorithm = NloptAlgorithm::cobyla;
+  settings.initial_step = std::nan("");
+  Recorder recorder;
+  const OptimizerResult r =
+      NloptOptimizer(settings).minimize(problem, std::vector<double>{1.0, 0.5}, recorder);
+  EXPECT_EQ(r.status, "failed");
+  EXPECT_NE(r.message.find("INVALID_ARGS, invalid scaling"), std::string::npos) << r.message;
+  EXPECT_EQ(r.x, (std::vector<double>{1.0, 0.5}));
+  EXPECT_EQ(r.value, 1.5);
+}
+
+TEST(Nlopt, AMethodThatGivesUpAtAKinkHasNotFailed)
+{
+  FunctionProblem problem = box(2, -2.0, 2.0);
+  problem.objective = [](const VectorXd& x, VectorXd& g) {
+    g << (x[0] < 0.3 ? -1.0 : 1.0), (x[1] < -0.4 ? -3.0 : 3.0);
+    return std::abs(x[0] - 0.3) + 3.0 * std::abs(x[1] + 0.4);
+  };
+  for (const NloptAlgorithm algorithm : {NloptAlgorithm::slsqp, NloptAlgorithm::lbfgs}) {
+    NloptSettings settings;
+    settings.algorithm = algorithm;
+    Recorder recorder;
+    const OptimizerResult r =
+        NloptOptimizer(settings).minimize(problem, std::vector<double>{1.7, 1.1}, recorder);
+    EXPECT_EQ(r.status, "small_step") << r.message;
+    EXPECT_LT(r.value, 5.9);
+  }
+}
+
 TEST(Nlopt, ResultIsFeasibleAlsoWhereTheMethodComesFromOutside)
 {
   // The augmented Lagrangian ends slightly beyond the disk.

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view format_name = "hauberk-evaluations/1 ";
+constexpr std::string_view format_name = "hauberk-evaluations/2 ";
 constexpr std::string_view end_of_line = " .";  ///< of a whole one
 constexpr char evaluation_mark = 'E';
 constexpr char states_mark = 'S';
@@ -225,6 +225,7 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
 
 void EvaluationLog::record(const DesignPoint& p, long evaluations)
 {
+  forget();
   Writer out(evaluation_mark);
   out.numbers(p.x);
   out.number(evaluations);
@@ -245,6 +246,7 @@ bool EvaluationLog::recall_states(DesignPoint& p)
 {
   if (next_ >= lines_.size() || lines_[next_].text.front() != states_mark) return false;
   Reader in(std::string_view(lines_[next_].text).substr(1));
+  const std::vector<double> x = in.numbers();
   const auto tasks = in.number<std::size_t>();
   std::vector<std::vector<WarmStart>> warm(tasks <= lines_[next_].text.size() ? tasks : 0);
   for (std::vector<WarmStart>& stages : warm) {
@@ -262,7 +264,7 @@ bool EvaluationLog::recall_states(DesignPoint& p)
       stages.push_back(std::move(w));
     }
   }
-  if (!in.good || warm.size() != tasks) {
+  if (!in.good || !same(x, p.x) || warm.size() != tasks) {
     forget();
     return false;
   }
@@ -274,7 +276,9 @@ bool EvaluationLog::recall_states(DesignPoint& p)
 
 void EvaluationLog::record_states(const DesignPoint& p)
 {
+  forget();
   Writer out(states_mark);
+  out.numbers(p.x);
   out.number(p.warm.size());
   for (const std::vector<WarmStart>& stages : p.warm) {
     out.number(stages.size());

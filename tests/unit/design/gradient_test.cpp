@@ -4,12 +4,22 @@
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
 
+#include "evaluation_log.hpp"
 #include "scenes.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace hauberk::test {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// One cell of chainmail whose two rings differ, so that contact forces are unique.
 SceneSpec uneven_chainmail()
@@ -190,6 +200,129 @@ TEST(DesignProblem, GoesBackToAnyIterateWithoutSolvingAgain)
   thick[1] = thick[3] = 2.4;
   EXPECT_FALSE(problem.evaluate(thick, true).ok);
   EXPECT_THROW(problem.accept(thick), PluginError);
+}
+
+/// A sheet that cannot be computed while it is widened by more than a percent.
+class Fragile final : public Sheet {
+ public:
+  bool broken = false;
+
+ protected:
+  std::pair<double, double> do_stretch_range(std::span<const double> macro) const override
+  {
+    if (broken && macro[0] > 0.01) throw ComputationError("too wide");
+    return Sheet::do_stretch_range(macro);
+  }
+};
+
+TEST(DesignProblem, ADesignThatCannotBeComputedIsAnEvaluationThatFailed)
+{
+  const SceneSpec scene = uneven_chainmail();
+  Fragile load;
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 2, [] { return true; });
+  std::vector<double> x = problem.scene_variables();
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  problem.accept(x);
+  x[0] += 0.02;
+  load.broken = true;
+  const OptimizationProblem::Evaluation e = problem.evaluate(x, true);
+  EXPECT_FALSE(e.ok);
+  EXPECT_EQ(e.why, "no limit at 20 degrees: too wide");
+  load.broken = false;
+  x[0] += 0.01;
+  EXPECT_TRUE(problem.evaluate(x, true).ok);
+}
+
+TEST(DesignProblem, AdjointsAreCounted)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  std::array<long, 2> evaluations{};
+  for (const DesignValue value : {DesignValue::less_contact, DesignValue::plain}) {
+    DesignSpec design = spec();
+    design.value = value;
+    DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+    ASSERT_TRUE(problem.evaluate(problem.scene_variables(), true).ok);
+    evaluations[value == DesignValue::plain ? 1 : 0] = problem.evaluations();
+  }
+  // The locked states are the same; an adjoint takes one Hessian and four gradients, the other one gradient.
+  EXPECT_GT(evaluations[1], evaluations[0]);
+}
+
+/// What an optimizer does that tries two designs before it accepts the first, from the start on.
+std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  command::EvaluationLog memory(log, "identity", go_on, [](const std::string& w) { ADD_FAILURE() << w; });
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
+  problem.set_memory(&memory);
+  std::vector<double> numbers;
+  std::vector<double> first = problem.scene_variables();
+  for (int k = 0; k < 2; ++k) {
+    std::vector<double> second = first, next = first;
+    second[0] += 0.02;
+    next[3] -= 0.01;
+    for (const std::vector<double>& x : {first, second}) {
+      const OptimizationProblem::Evaluation e = problem.evaluate(x, true);
+      EXPECT_TRUE(e.ok) << e.why;
+      numbers.push_back(e.value);
+      numbers.insert(numbers.end(), e.gradient.begin(), e.gradient.end());
+    }
+    problem.accept(first);
+    for (const std::vector<WarmStart>& task : problem.current().warm) {
+      for (const WarmStart& w : task) numbers.push_back(w.state.macro.sum());
+    }
+    first = next;
+  }
+  numbers.push_back(static_cast<double>(problem.evaluations()));
+  return numbers;
+}
+
+std::string text_of(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(DesignMemory, HoldsForAnOptimizerThatAcceptsWhatItTriedFirst)
+{
+  const fs::path log = fs::path(::testing::TempDir()) / fmt::format("hauberk_memory_{}", ::getpid());
+  const std::vector<double> whole = try_two_accept_the_first(log, false);
+  const std::string all = text_of(log);
+  std::string marks;
+  std::vector<std::size_t> ends;
+  for (std::size_t begin = 0; begin < all.size(); begin = ends.back()) {
+    marks += all[begin];
+    ends.push_back(all.find('\n', begin) + 1);
+  }
+  EXPECT_EQ(marks, "hEESEES");
+  // Wherever it was cut off, the search and what is remembered of it come out the same.
+  for (const std::size_t end : ends) {
+    std::ofstream(log, std::ios::binary) << all.substr(0, end);
+    EXPECT_EQ(try_two_accept_the_first(log, true), whole) << end;
+    EXPECT_EQ(text_of(log), all) << end;
+  }
+  // Warm starts that are missing in the middle: what comes after them is not believed.
+  std::ofstream(log, std::ios::binary) << all.substr(0, ends[2]) + all.substr(ends[3]);
+  EXPECT_EQ(try_two_accept_the_first(log, true), whole);
+  EXPECT_EQ(text_of(log), all);
+  fs::remove(log);
+}
+
+TEST(DesignProblem, OnlyWhatWasTriedFromTheIterateIsAccepted)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
+  const std::vector<double> first = problem.scene_variables();
+  std::vector<double> second = first;
+  second[0] += 0.02;
+  ASSERT_TRUE(problem.evaluate(first, true).ok);
+  ASSERT_TRUE(problem.evaluate(second, true).ok);
+  problem.accept(first);
+  EXPECT_EQ(problem.current().x, first);
+  EXPECT_THROW(problem.accept(second), PluginError);
 }
 
 TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)

@@ -28,6 +28,7 @@ struct DesignPoint {
   Vector gradient;
   bool evaluated = false;
   bool states_missing = false;  ///< values are recalled from a former run, `warm` is not
+  bool states_kept = false;     ///< the memory has `warm`
   std::string why;              ///< why it could not be evaluated
 };
 

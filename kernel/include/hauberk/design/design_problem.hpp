@@ -63,6 +63,9 @@ class DesignProblem final : public OptimizationProblem {
   /// Recalls or solves, and records.
   void find_targets(const std::shared_ptr<DesignPoint>& p);
   void solve_targets(DesignPoint& p);
+  /// Warm starts of a design that was evaluated from the iterate in a run that ended before it kept them:
+  /// they are found again as they were found first, at no cost that was not counted then.
+  void find_states(DesignPoint& p);
   /// What one target asks for, locked.
   struct LockedTarget {
     Locked locked;
@@ -70,6 +73,7 @@ class DesignProblem final : public OptimizationProblem {
     long evaluations = 0;
     bool followed = false;  ///< there was a state to follow
     bool changed = false;   ///< and this is not its continuation
+    std::string problem;    ///< why it, or its gradient, could not be computed
   };
   /// Furthest locked state of one task that the iterate's states lead to.
   LockedTarget lock_target(const DesignPoint& p, const Vector& load,
@@ -97,7 +101,8 @@ class DesignProblem final : public OptimizationProblem {
   std::vector<Hole> holes_;
   std::vector<Pair> pairs_;
   std::shared_ptr<DesignPoint> current_, last_;
-  std::shared_ptr<DesignPoint> unsaved_;  ///< the point recorded last, if its states are not yet
+  /// Evaluated from the iterate: an optimizer may try several before it accepts one.
+  std::vector<std::shared_ptr<DesignPoint>> tried_;
   /// Iterates: an optimizer may go back to its best one, which is not always on the way from the last.
   std::vector<std::shared_ptr<DesignPoint>> accepted_;
   long evaluations_ = 0;

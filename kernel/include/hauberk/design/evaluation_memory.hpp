@@ -19,13 +19,14 @@ class EvaluationMemory {
   /// If the next remembered evaluation is of exactly p.x: enters what it found into `p`, all but warm starts,
   /// and into `evaluations` what it cost, and returns true. Otherwise nothing more is remembered.
   virtual bool recall(DesignPoint& p, long& evaluations) = 0;
-  /// Remembers an evaluation that was just made, also one that failed.
+  /// Remembers an evaluation that was just made, also one that failed. This and record_states follow what was
+  /// recalled: what was not recalled is no longer remembered.
   virtual void record(const DesignPoint& p, long evaluations) = 0;
 
-  /// Warm starts of the evaluation that was recalled last, if it was accepted: they are large, and only
-  /// accepted designs need them. False: not remembered.
+  /// Warm starts of p.x, recalled before, if that is what comes next: they are remembered where a design is
+  /// accepted, as they are large and no other design needs them. False: not remembered.
   virtual bool recall_states(DesignPoint& p) = 0;
-  /// Remembers the warm starts of the evaluation that was recorded last.
+  /// Remembers the warm starts of p.x, which is accepted.
   virtual void record_states(const DesignPoint& p) = 0;
 };
 

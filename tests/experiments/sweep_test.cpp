@@ -98,6 +98,26 @@ TEST(SweepRun, TableAndPicture)
   EXPECT_EQ(read_results(folder / "out").at_pointer("/files/sweep").as_string(), "sweep.csv");
 }
 
+TEST(SweepRun, ListsStandOnOneLine)
+{
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("s.json", R"({ "name": "lists", "task": "sweep", "cell": { "weave": { "name": "chain" } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "sweep": { "vary": [ { "name": "cells", "pointers": ["/cell/repeat"], "values": [[1, 1], [2, 1]] } ] } })");
+  const Outcome o = run_program({"run", file, "-o", folder / "out"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  std::istringstream lines(o.out);
+  std::string line;
+  std::size_t rows = 0;
+  while (std::getline(lines, line)) {
+    if (!line.ends_with(" done")) continue;
+    ++rows;
+    EXPECT_NE(line.find('['), std::string::npos) << o.out;
+  }
+  EXPECT_EQ(rows, 2U) << o.out;
+}
+
 TEST(SweepRun, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

@@ -98,6 +98,26 @@ TEST(SweepRun, TableAndPicture)
   EXPECT_EQ(read_results(folder / "out").at_pointer("/files/sweep").as_string(), "sweep.csv");
 }
 
+TEST(SweepRun, ListsStandOnOneLine)
+{
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("s.json", R"({ "name": "lists", "task": "sweep", "cell": { "weave": { "name": "chain" } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "sweep": { "vary": [ { "name": "cells", "pointers": ["/cell/repeat"], "values": [[1, 1], [2, 1]] } ] } })");
+  const Outcome o = run_program({"run", file, "-o", folder / "out"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  std::istringstream lines(o.out);
+  std::string line;
+  std::size_t rows = 0;
+  while (std::getline(lines, line)) {
+    if (!line.ends_with(" done")) continue;
+    ++rows;
+    EXPECT_NE(line.find('['), std::string::npos) << o.out;
+  }
+  EXPECT_EQ(rows, 2U) << o.out;
+}
+
 TEST(SweepRun, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;
@@ -188,6 +208,65 @@ TEST(SweepRun, RowsAreVerifiedFromTheFile)
   EXPECT_NE(after("/sweep/rows/1/values/r", 0.61)
                 .out.find("the row's experiment has 0.6 at "
                           "/elements/a/parameters/ring.r0, the table says 0.61"),
+            std::string::npos);
+}
+
+TEST(SweepRun, TableIsVerifiedAgainstWhatWasAskedFor)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", out}).code, 0);
+  const json::value whole = read_results(out);
+  const auto verdict = [&](const json::value& document) {
+    std::ofstream(out + "/results.json") << write_json(document);
+    const Outcome o = run_program({"verify", out});
+    return (o.code == 0 ? "ok " : "wrong ") + o.out;
+  };
+  const auto after = [&](const char* pointer, const json::value& value) {
+    json::value wrong = whole;
+    wrong.at_pointer(pointer) = value;
+    return verdict(wrong);
+  };
+  const auto says = [](const std::string& text, const std::string& part) {
+    return text.starts_with("wrong ") && text.find(part) != std::string::npos;
+  };
+  EXPECT_NE(verdict(whole).find("PASS /sweep: 9 rows, one for every combination of the values"),
+            std::string::npos);
+  std::string found = after("/sweep", json::object{});
+  EXPECT_TRUE(says(found, "FAIL /sweep")) << found;
+  found = after("/sweep/rows", json::array{});
+  EXPECT_TRUE(says(found, "rows: 9 expected, found 0")) << found;
+  found = after("/sweep/rows/8/values/r", 0.6);
+  EXPECT_TRUE(says(found, "rows/8: 'r' is not the value of this row")) << found;
+  found = after("/sweep/rows/0/result", nullptr);
+  EXPECT_TRUE(says(found, "FAIL /sweep/rows/0: done, no results")) << found;
+  found = after("/sweep/rows/8/status", "done");
+  EXPECT_TRUE(says(found, "counts/done: 7 expected, found 6")) << found;
+  found = after("/sweep/axes/0/places/1/factor", 0.4);
+  EXPECT_TRUE(says(found, "axes/0: not what the experiment varies")) << found;
+  // An empty sweep in results of another task stands for nothing.
+  json::value limits = whole;
+  limits.at_pointer("/experiment/task") = "limits";
+  limits.as_object()["sweep"] = {{"axes", json::array{}}, {"rows", json::array{}}};
+  limits.as_object().erase("limits");
+  found = verdict(limits);
+  EXPECT_TRUE(says(found, "limits")) << found;
+}
+
+TEST(SweepRun, RangesAreVerified)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const std::string file =
+      folder.write("s.json", with(with(sweep_text(), R"("values": [4.8, 5.2, 0.6])",
+                                       R"("range": { "from": 4.8, "to": 5.3, "count": 3, "scale": "log" })"),
+                                  "[0.5, 0.6, 0.7]", "[0.6]"));
+  ASSERT_EQ(run_program({"run", file, "-o", out, "--set", "/expect=[]"}).code, 0);
+  EXPECT_EQ(run_program({"verify", out}).code, 0);
+  json::value wrong = read_results(out);
+  wrong.at_pointer("/sweep/rows/1/values/R") = 5.05;
+  std::ofstream(out + "/results.json") << write_json(wrong);
+  EXPECT_NE(run_program({"verify", out}).out.find("rows/1: 'R' is not the value of this row"),
             std::string::npos);
 }
 

@@ -161,6 +161,52 @@ INSTANTIATE_TEST_SUITE_P(Library, SmallestRatio,
                                            std::tuple{Weave{"european_6in1", {6, 6}, "", "", 0.0}, 4.372529}),
                          [](const auto& info) { return std::string(std::get<0>(info.param).name); });
 
+/// Four rings of a chain.
+const char* const patch = R"({ "name": "patch",
+  "elements": { "ring": { "shape": "torus_union", "tori": [{ "name": "ring" }],
+    "parameters": { "ring.R": 5, "ring.r0": 0.7, "ring.r1": 0.7 } } },
+  "cell": { "patch": { "vectors": [[12, 0], [0, 12]], "outline": { "rectangle": [2, 1] } },
+    "place": [{ "element": "ring", "position": [0, 0, 0] },
+              { "element": "ring", "position": [6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } }] },
+  "load_case": { "plugin": "paraboloid_bending", "directions_deg": [0] } })";
+
+TEST(RoomFiles, PatchesCanBeLoaded)
+{
+  const TemporaryFolder folder;
+  const std::string found = folder / "found.json";
+  const Outcome o = run_program({"room", folder.write("p.json", patch), "-o", found, "--starts", "3"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome checked = run_program({"check", found});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  // The room found is that of the state that was written.
+  const auto first_line = [](const std::string& text) {
+    const std::string key = "largest rest clearance ";
+    return std::stod(text.substr(text.find(key) + key.size()));
+  };
+  const Outcome again = run_program({"room", found, "--starts", "1"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_GE(first_line(again.out), first_line(o.out) - 1e-6);
+  EXPECT_GT(first_line(o.out), 0.5);
+}
+
+TEST(RoomFiles, AreNotReplacedAndNothingElseIs)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("p.json", patch);
+  const Outcome own = run_program({"room", file, "-o", file, "--starts", "1"});
+  EXPECT_EQ(own.code, 2);
+  EXPECT_EQ(own.err, "hauberk: " + file + ": exists already; give another name with -o, or remove it\n");
+  EXPECT_EQ(read_text(file), patch);
+  folder.write("limits.csv", "results of a run");
+  EXPECT_EQ(run_program({"room", file, "-o", folder / "found.json", "--starts", "1"}).code, 0);
+  EXPECT_EQ(read_text(folder / "limits.csv"), "results of a run");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3)
+      << "no temporary file is left";
+  const Outcome nowhere = run_program({"room", file, "-o", folder / "none/found.json", "--starts", "1"});
+  EXPECT_EQ(nowhere.code, 1);
+  EXPECT_NE(nowhere.err.find("found.json: cannot be written"), std::string::npos) << nowhere.err;
+}
+
 TEST(WeaveFiles, ArePathsToo)
 {
   const TemporaryFolder folder;

@@ -2,6 +2,7 @@
 #include <hauberk/parallel.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace hauberk {
 namespace {
@@ -17,7 +18,8 @@ constexpr double far = 4.0;
 
 RoomyState grow(const Model& m, State state, const RoomSettings& settings, const KeepGoing& keep_going)
 {
-  RoomyState out{std::move(state), 0.0, 0};
+  RoomyState out{std::move(state), -std::numeric_limits<double>::infinity(), 0};
+  if (!links_kept(m, out.state)) return out;  // of another fabric, however much room it has
   out.gap = smallest_gap(m, out.state, far);
   double step = first_step;
   for (int it = 0; it < most_steps && step >= settings.resolution && keep_going(); ++it) {

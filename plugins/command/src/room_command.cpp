@@ -5,12 +5,13 @@
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/limits/room.hpp>
+#include <hauberk/results/atomic_file.hpp>
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
 
 #include <algorithm>
-#include <fstream>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -27,13 +28,13 @@ Options room_options()
       "room EXPERIMENT.json [options]",
       "Finds the rest state in which the linked elements are farthest apart, and the thickest rings "
       "of which the fabric can be built: inner diameter over wire diameter. A local search from the "
-      "rest state and from perturbed ones; the strain is searched with the poses.",
+      "rest state and from perturbed ones; the strain is searched with the poses (a patch stays unbent).",
       "EXPERIMENT.json");
   auto add = options.add().add_options()("starts", po::value<int>()->value_name("N"),
                                          "starts, the rest state first; default 8");
   add("fixed-cell", "keep the cell: poses only");
   add("output,o", po::value<std::string>()->value_name("FILE"),
-      "write the rest state found as an experiment");
+      "write the rest state found as an experiment, to a file that must not exist");
   options.add_experiment_options();
   return options;
 }
@@ -84,8 +85,10 @@ int room_command(const std::vector<std::string>& words)
     throw UsageError(
         fmt::format("--starts: expected a number from 1 to {}, found {}", most_starts, settings.starts),
         options.usage());
-  if (options.has("fixed-cell")) settings.cell = Cell::fixed;
+  if (options.has("output")) refuse_existing_file(options.get<std::string>("output"));
   const Loaded loaded = load(options);
+  // What is free of a patch is how it is bent, and at rest it is not.
+  if (options.has("fixed-cell") || loaded.scene.lattice.empty()) settings.cell = Cell::fixed;
   settings.seed = loaded.experiment.seed;
   const Model m = make_model(loaded.scene, *loaded.experiment.load_case, loaded.experiment.solver.clearance);
   const Room room = find_room(m, settings, 0, [] { return !interrupted(); });
@@ -94,18 +97,18 @@ int room_command(const std::vector<std::string>& words)
              loaded.experiment.name, room.best.gap * m.length, unit, room.best.seed);
   fmt::print("{}", ratios(m, 0.5 * room.best.gap));
   std::vector<double> gaps = room.gaps;
+  std::erase_if(gaps, [](double gap) { return !std::isfinite(gap); });  // starts that lost links
   std::sort(gaps.begin(), gaps.end(), std::greater<>());
   const auto near =
       std::count_if(gaps.begin(), gaps.end(), [&](double g) { return room.best.gap - g < 1e-4; });
-  fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, gaps.size(),
-             gaps.back() * m.length);
+  fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, room.gaps.size(),
+             gaps.empty() ? 0.0 : gaps.back() * m.length);
+  if (interrupted()) fmt::print("{}", "interrupted: the search is not done, there may be more room\n");
   if (options.has("output")) {
     const auto& file = options.get<std::string>("output");
     const Node experiment = scene_experiment(loaded.experiment, scene_in(loaded, m, room.best.state),
                                              loaded.experiment.name + "_room");
-    std::ofstream out(file);
-    out << write_json(experiment) << "\n" << std::flush;
-    if (!out) throw ComputationError(fmt::format("{}: cannot be written", file));
+    write_new_file_atomically(file, write_json(experiment) + "\n");
     fmt::print("written to {}\n", file);
   }
   return interrupted() ? exit_interrupted : exit_done;

@@ -42,7 +42,9 @@ std::string cell(const boost::json::value& value)
 {
   if (value.is_number()) return fmt::format("{:.6g}", value.to_number<double>());
   if (const boost::json::string* text = value.if_string()) return std::string(*text);
-  return hauberk::write_json(value);
+  std::string text = hauberk::write_json(value);
+  text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());
+  return text;
 }
 
 std::string cell(const SweepRow& row, std::size_t measure)

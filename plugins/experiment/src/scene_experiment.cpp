@@ -48,8 +48,16 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
     std::vector<Node> vectors;
     for (const Vec3& v : scene.lattice) vectors.push_back(numbers_node(std::array{v.x(), v.y()}));
     set_default(cell, "vectors", array_node(std::move(vectors)));
+    set_default(cell, "repeat", numbers_node(std::array{1.0, 1.0}));
+  } else {  // a patch: one cell that holds every element
+    Node outline = object_node();
+    set_default(outline, "rectangle", numbers_node(std::array{1.0, 1.0}));
+    Node patch = object_node();
+    set_default(patch, "vectors", experiment.resolved.at("cell").at("patch").at("vectors"));
+    set_default(patch, "outline", std::move(outline));
+    set_default(patch, "tile", numbers_node(std::array{1.0, 1.0}));
+    set_default(cell, "patch", std::move(patch));
   }
-  set_default(cell, "repeat", numbers_node(std::array{1.0, 1.0}));
   std::vector<Node> place;
   for (const PlacedElement& element : scene.elements) place.push_back(placement(scene, element));
   set_default(cell, "place", array_node(std::move(place)));

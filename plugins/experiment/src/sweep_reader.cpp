@@ -7,6 +7,7 @@
 #include <hauberk/load_case.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hauberk {
@@ -85,15 +86,27 @@ SweepAxis read_axis(const Node& entry, Problems& problems)
   return axis;
 }
 
-/// "stretch 30" where directions are the same in all rows, else by their place in the file.
+/// One of them is the other or holds it.
+bool overlap(const std::string& a, const std::string& b)
+{
+  return pointer_within(a, b) || pointer_within(b, a);
+}
+
+bool varies(const ExperimentSweep& sweep, const std::string& pointer)
+{
+  return std::any_of(sweep.axes.begin(), sweep.axes.end(), [&](const SweepAxis& axis) {
+    return std::any_of(axis.places.begin(), axis.places.end(),
+                       [&](const SweepPlace& place) { return overlap(place.pointer, pointer); });
+  });
+}
+
+/// "stretch 30" where all rows have these directions and senses. Directions that vary are told by their place
+/// in the file; where senses vary, or the load case that names them, a row's limits have nothing in common
+/// but their order.
 std::vector<SweepMeasure> all_limits(const ExperimentSweep& sweep, const Experiment& experiment)
 {
-  bool fixed = true;
-  for (const SweepAxis& axis : sweep.axes) {
-    for (const SweepPlace& place : axis.places)
-      fixed = fixed && !pointer_within(place.pointer, "/load_case/directions_deg") &&
-              place.pointer != "/load_case";
-  }
+  const bool fixed = !varies(sweep, "/load_case/directions_deg");
+  const bool same_senses = !varies(sweep, "/load_case/senses") && !varies(sweep, "/load_case/plugin");
   std::vector<SweepMeasure> out;
   if (!experiment.load_case) return out;
   const auto names = experiment.load_case->sense_names();
@@ -102,6 +115,7 @@ std::vector<SweepMeasure> all_limits(const ExperimentSweep& sweep, const Experim
       std::string name = sense == Sense::positive ? names.first : names.second;
       name += fixed ? " " + format_number(experiment.directions_deg[d])
                     : " in direction " + std::to_string(d + 1);
+      if (!same_senses) name = "limit " + std::to_string(out.size() + 1);
       out.push_back({std::move(name), "/limits/" + std::to_string(out.size()) + "/value"});
     }
   }
@@ -138,6 +152,39 @@ bool leads_somewhere(const Node& root, const std::string& pointer)
     node = at == node->items.end() ? nullptr : &*at;
   }
   return node != nullptr;
+}
+
+/// A parameter of a weave need not be written to be one; whether it is one the rows tell, which may have
+/// other weaves.
+bool is_weave_parameter(const Node& root, const std::string& pointer)
+{
+  const std::string parameters = "/cell/weave/parameters/";
+  return pointer.starts_with(parameters) && pointer.find('/', parameters.size()) == std::string::npos &&
+         leads_somewhere(root, "/cell/weave");
+}
+
+/// What rows do not have, or have of their own.
+bool without_effect(const std::string& pointer)
+{
+  constexpr std::array sections{"/name",      "/task",       "/expect", "/design",
+                                "/stability", "/transition", "/sweep"};
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](const char* section) { return pointer_within(pointer, section); });
+}
+
+/// What is wrong with a pointer by itself; empty when nothing is.
+std::string pointer_problem(const ExperimentSweep& sweep, const Node& resolved, const std::string& pointer)
+{
+  if (!pointer.starts_with('/'))
+    return "expected a JSON pointer such as /solver/clearance, found " + quote_json(pointer);
+  if (without_effect(pointer))
+    return quote_json(pointer) +
+           " has no effect: rows are limits experiments; vary something of elements, cell, load_case, solver "
+           "or seed";
+  if (!leads_somewhere(sweep.base.file, pointer) && !leads_somewhere(resolved, pointer) &&
+      !is_weave_parameter(sweep.base.file, pointer))
+    return "there is nothing at " + quote_json(pointer) + " of this experiment";
+  return "";
 }
 
 }  // namespace
@@ -192,15 +239,21 @@ ExperimentSweep read_sweep(const Node& section, VariantBase base, const Experime
 void check_sweep_pointers(const Node& section, const ExperimentSweep& sweep, const Node& resolved,
                           Problems& problems)
 {
+  std::vector<std::pair<std::string, std::string>> before;  // pointer, name of its axis
   for (std::size_t k = 0; k < sweep.axes.size(); ++k) {
     const Node& list = section.at("vary").items[k].at("pointers");
     for (std::size_t i = 0; i < list.items.size(); ++i) {
       const std::string& pointer = sweep.axes[k].places[i].pointer;
-      if (!pointer.starts_with('/'))
-        problems.add(list.items[i],
-                     "expected a JSON pointer such as /solver/clearance, found " + quote_json(pointer));
-      else if (!leads_somewhere(sweep.base.file, pointer) && !leads_somewhere(resolved, pointer))
-        problems.add(list.items[i], "there is nothing at " + quote_json(pointer) + " of this experiment");
+      if (const std::string problem = pointer_problem(sweep, resolved, pointer); !problem.empty()) {
+        problems.add(list.items[i], problem);
+        continue;
+      }
+      for (const auto& [other, axis] : before) {
+        if (overlap(pointer, other))
+          problems.add(list.items[i], quote_json(pointer) + " is varied already, by " + quote_json(other) +
+                                          " of '" + axis + "'; remove one of the two");
+      }
+      before.emplace_back(pointer, sweep.axes[k].name);
     }
   }
 }

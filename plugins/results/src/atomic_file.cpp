@@ -171,6 +171,28 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
   flush_folder(directory);
 }
 
+void refuse_existing_file(const fs::path& file)
+{
+  std::error_code unknown;  // then writing tells
+  if (fs::exists(fs::symlink_status(file, unknown)))
+    throw InputError(file.string() + ": exists already; give another name with -o, or remove it");
+}
+
+void write_new_file_atomically(const fs::path& file, const std::string& content)
+{
+  const fs::path temporary = temporary_for(file);
+  if (const int error = write_new(temporary, content); error != 0) cannot_write(file, error);
+  // A second name is refused where the file exists, also when somebody made it just now.
+  int error = ::link(temporary.c_str(), file.c_str()) == 0 ? 0 : errno;
+  if (error != 0 && error != EEXIST && !fs::exists(file)) {  // a file system without hard links
+    error = ::rename(temporary.c_str(), file.c_str()) == 0 ? 0 : errno;
+  }
+  ::unlink(temporary.c_str());
+  if (error == EEXIST) refuse_existing_file(file);
+  if (error != 0) cannot_write(file, error);
+  flush_folder(file.parent_path());
+}
+
 void remove_abandoned(const fs::path& directory)
 {
   std::error_code error;

@@ -72,7 +72,8 @@ std::string combination(const SweepTable& table, const SweepRow& row)
   return out;
 }
 
-/// A line per combination of the other axes, named `name` and the combination.
+/// A line per combination of the other axes, named `name` and the combination. It has a gap at rows that are
+/// not done: what is measured of them is where a computation gave up, no answer.
 std::vector<Line> lines_of(const SweepTable& table, std::size_t measure, const std::string& name)
 {
   std::vector<Line> lines;
@@ -85,7 +86,7 @@ std::vector<Line> lines_of(const SweepTable& table, std::size_t measure, const s
       line = lines.end() - 1;
     }
     std::optional<double> value;
-    if (measure < row.measured.size()) value = row.measured[measure];
+    if (row.status == RowStatus::done && measure < row.measured.size()) value = row.measured[measure];
     line->points.emplace_back(place(table, row), value);
   }
   for (Line& line : lines) {

@@ -35,6 +35,10 @@ VerifyLine check_profiles(const boost::json::value& results, Load load, const st
 VerifyLine check_design(const boost::json::value& results, const std::vector<Limit>& initial,
                         const std::vector<Limit>& final, const VerifyTolerances& tolerances);
 
+/// The table of a sweep is what its experiment asks for: axes, measures, a row for every combination of the
+/// values, and how many there are of each status. Throws Malformed.
+VerifyLine check_sweep_table(const boost::json::value& experiment, const boost::json::value& sweep);
+
 /// Equal to rounding: |a - b| <= tolerance (1 + |b|).
 bool equal(double a, double b, double tolerance);
 /// Both absent, or both there and equal.

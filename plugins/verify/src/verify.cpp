@@ -95,9 +95,10 @@ void check_sweep(const json::value& sweep, const VerifyTolerances& tolerances, s
   for (const json::value& row : array(member(sweep, "rows", "/sweep"), "/sweep/rows")) {
     const std::string where = fmt::format("/sweep/rows/{}", k++);
     const json::value& result = member(row, "result", where);
+    const std::string status = text(member(row, "status", where), where);
     if (result.is_null()) {
-      lines.push_back(
-          {true, where + ": " + text(member(row, "status", where), where) + ", no results", false});
+      // Only a row that is done must have any; whether the status is one at all the table tells.
+      lines.push_back({status != "done", where + ": " + status + ", no results", false});
       continue;
     }
     try {
@@ -121,12 +122,17 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
     throw Malformed("/format: missing; these are no results: give the results.json that `hauberk run` wrote");
   if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
-  if (const json::value* sweep = results.as_object().if_contains("sweep"))
-    return check_sweep(*sweep, tolerances, lines);
+  const json::value& experiment = member(results, "experiment", "");
+  const json::value* task = experiment.is_object() ? experiment.as_object().if_contains("task") : nullptr;
+  if (task != nullptr && text(*task, "/experiment/task") == "sweep") {
+    const json::value& sweep = member(results, "sweep", "");
+    lines.push_back(check_sweep_table(experiment, sweep));
+    return check_sweep(sweep, tolerances, lines);
+  }
   const json::value* none = results.as_object().if_contains("design");
   if (none != nullptr && none->is_null()) return check_scene_and_limits(results, "", tolerances, lines);
 
-  const Setting setting = read_setting(member(results, "experiment", ""));
+  const Setting setting = read_setting(experiment);
   const Scene scene = read_scene(member(results, "scene", ""), "/scene");
   if ((setting.load == Load::strain) != (scene.cell.size() == 2))
     throw Malformed("/scene/cell_vectors: two for in_plane_periodic, none for a patch");
@@ -161,6 +167,7 @@ VerifyReport verify(const json::value& results, const VerifyTolerances& toleranc
   } catch (const std::exception& error) {
     report.lines.push_back({false, error.what()});
   }
+  if (report.lines.empty()) report.lines.push_back({false, "nothing in this file could be checked"});
   for (const VerifyLine& line : report.lines) report.ok = report.ok && line.ok;
   return report;
 }

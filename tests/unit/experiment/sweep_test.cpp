@@ -59,6 +59,14 @@ TEST(Sweep, MeasuresAllLimitsUnlessItSaysWhat)
   EXPECT_EQ(e.sweep->measure[3].pointer, "/limits/3/value");
   const Experiment turned = read_ok(text(with(section, "\"/seed\"", "\"/load_case/directions_deg/0\"")));
   EXPECT_EQ(turned.sweep->measure[0].name, "stretch in direction 1") << "0 degrees in no row";
+  for (const char* touched : {"/load_case/senses", "/load_case/plugin", "/load_case"}) {
+    // Read only: what the rows would be does not matter here.
+    const Experiment other =
+        read_ok(with(text(with(section, "\"/seed\"", std::string("\"") + touched + "\"")),
+                     "\"plugin\": \"plane\"", R"("plugin": "plane", "senses": ["stretch"])"));
+    ASSERT_EQ(other.sweep->measure.size(), 2U);
+    EXPECT_EQ(other.sweep->measure[1].name, "limit 2") << "not the same sense in every row: " << touched;
+  }
   const Experiment chosen =
       read_ok(text(with(section, "\"sweep\": {",
                         R"("sweep": { "measure": [{ "name": "eta", "pointer": "/profiles/0/eta" }],)")));
@@ -87,6 +95,26 @@ TEST(Sweep, ReportsWhatMakesNoSense)
   EXPECT_EQ(after("\"/solver/clearance\"", "\"solver\""),
             "t.json:2: /sweep/vary/0/pointers/0: expected a JSON pointer such as /solver/clearance, found "
             "\"solver\"");
+  for (const char* section_name : {"name", "task", "design", "sweep/vary"}) {
+    const std::string pointer = std::string("\"/") + section_name + "\"";
+    EXPECT_EQ(after("\"/solver/clearance\"", pointer),
+              "t.json:2: /sweep/vary/0/pointers/0: " + pointer +
+                  " has no effect: rows are limits experiments; vary something of elements, cell, load_case, "
+                  "solver or seed");
+  }
+}
+
+TEST(Sweep, EveryPlaceIsVariedOnce)
+{
+  EXPECT_EQ(after("\"/cell/place/1/position/0\"", "\"/seed\""),
+            "t.json:2: /sweep/vary/1/pointers/0: \"/seed\" is varied already, by \"/seed\" of 'gap'; remove "
+            "one of the two");
+  EXPECT_EQ(after("\"/cell/place/1/position/0\"", "\"/solver\""),
+            "t.json:2: /sweep/vary/1/pointers/0: \"/solver\" is varied already, by \"/solver/clearance\" of "
+            "'gap'; remove one of the two");
+  EXPECT_EQ(after("\"/solver/clearance\"", "\"/seed\""),
+            "t.json:2: /sweep/vary/0/pointers/1: \"/seed\" is varied already, by \"/seed\" of 'gap'; remove "
+            "one of the two");
 }
 
 TEST(Sweep, MistakesOfFormAreProblemsAndImpossibleValuesAreRefused)
@@ -105,20 +133,21 @@ const std::string weave_file = R"({ "name": "line", "parameters": { "size": { "d
   "cell": { "vectors": [[{ "double": 2, "size": -1 }, 0], [0, 50]],
     "place": [{ "element": "w", "position": [0, { "double": 0.5 }, 0] }] } })";
 
-std::optional<Experiment> read_weave(const std::string& tail, Diagnostics& diagnostics)
+std::optional<Experiment> read_weave(const std::string& tail, Diagnostics& diagnostics,
+                                     const std::string& parameters = R"(, "parameters": { "size": 4 })")
 {
   const WeaveLookup weaves = [](const std::string& name, std::string& error) {
     error = "no " + name;
     return name == "line" ? std::optional(weave_file) : std::nullopt;
   };
-  return read_experiment(
-      {"t.json",
-       R"({ "name": "w", "cell": { "weave": { "name": "line", "parameters": { "size": 4 } } },
+  return read_experiment({"t.json",
+                          R"({ "name": "w", "cell": { "weave": { "name": "line")" + parameters +
+                              R"( } },
  "load_case": { "plugin": "plane", "directions_deg": [0] })" +
-           tail + "}",
-       {},
-       weaves},
-      fake_lookup, diagnostics);
+                              tail + "}",
+                          {},
+                          weaves},
+                         fake_lookup, diagnostics);
 }
 
 TEST(Weave, LengthsAreSumsOfItsParameters)
@@ -143,6 +172,27 @@ TEST(Weave, SweepsVaryItsParameters)
   ASSERT_TRUE(row.experiment.has_value()) << diagnostics.text();
   EXPECT_EQ(row.experiment->scene.lattice[0], Vec3(18, 0, 0));
   EXPECT_NE(write_json(e->resolved).find("weave"), std::string::npos) << "what the pointer leads to";
+}
+
+TEST(Weave, SweepsVaryParametersThatAreNotWritten)
+{
+  const auto read = [](const char* parameter, Diagnostics& diagnostics) {
+    return read_weave(std::string(R"(, "task": "sweep", "sweep": { "vary": [{ "name": "size",
+    "pointers": ["/cell/weave/parameters/)") +
+                          parameter + R"("], "values": [6] }] })",
+                      diagnostics, "");
+  };
+  Diagnostics diagnostics;
+  const std::optional<Experiment> e = read("size", diagnostics);
+  ASSERT_TRUE(e.has_value()) << diagnostics.text();
+  const VariantReading row = read_row(*e, 0, diagnostics);
+  ASSERT_TRUE(row.experiment.has_value()) << diagnostics.text();
+  EXPECT_EQ(row.experiment->scene.lattice[0], Vec3(18, 0, 0));
+  const std::optional<Experiment> wrong = read("length", diagnostics);
+  ASSERT_TRUE(wrong.has_value()) << diagnostics.text();
+  EXPECT_FALSE(read_row(*wrong, 0, diagnostics).experiment.has_value());
+  EXPECT_NE(diagnostics.text().find("row 0: the weave has no parameter 'length'"), std::string::npos)
+      << diagnostics.text();
 }
 
 }  // namespace

@@ -67,6 +67,22 @@ TEST(PolarPlot, UnboundedDirectionsAreMarked)
   EXPECT_EQ(count(svg, "(\u221e: no limit)"), 2u) << "both legends";
 }
 
+TEST(SweepPlot, RowsThatFailedAreGaps)
+{
+  SweepTable table;
+  table.axes.push_back({"R", {}, false});
+  table.measures.push_back({"stretch 0", "/limits/0/value"});
+  for (const double x : {1.0, 2.0, 3.0, 4.0})
+    table.rows.push_back({{x}, RowStatus::done, "", {0.1 * x}, nullptr});
+  const std::string all = sweep_svg(table, "t", "s");
+  table.rows[1].status = RowStatus::failed;
+  table.rows[1].measured = {7.0};
+  const std::string failed = sweep_svg(table, "t", "s");
+  EXPECT_NE(failed, all);
+  table.rows[1].measured = {std::nullopt};
+  EXPECT_EQ(failed, sweep_svg(table, "t", "s")) << "neither a point nor a scale follows from it";
+}
+
 TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
 {
   char name[] = "/tmp/hauberk-test-XXXXXX";

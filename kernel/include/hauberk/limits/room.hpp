@@ -11,14 +11,14 @@ namespace hauberk {
 /// One local maximum of the smallest gap.
 struct RoomyState {
   State state;
-  double gap = 0.0;  ///< smallest gap, scaled
+  double gap = 0.0;  ///< smallest gap, scaled; minus infinity for a start that has lost links
   std::uint64_t seed = 0;
 };
 
 /// What the search found.
 struct Room {
   RoomyState best;
-  std::vector<double> gaps;  ///< of every start, in their order, scaled
+  std::vector<double> gaps;  ///< of every start, in their order, scaled; as RoomyState::gap
 };
 
 /// How it is searched.

@@ -27,6 +27,14 @@ enum class FormerResults {
 void write_files_atomically(const std::filesystem::path& directory, const std::vector<NamedContent>& files,
                             FormerResults former = FormerResults::replaced);
 
+/// Writes a file of its own, whole or not at all; what else its folder holds stays. Throws InputError where
+/// there is a file of that name already, which is left as it is, ComputationError as above. Thread safe for
+/// different files.
+void write_new_file_atomically(const std::filesystem::path& file, const std::string& content);
+
+/// Throws the InputError of `write_new_file_atomically` where the file exists: before anything is computed.
+void refuse_existing_file(const std::filesystem::path& file);
+
 /// Removes temporary files that a killed process left. What cannot be removed stays.
 void remove_abandoned(const std::filesystem::path& directory);
 

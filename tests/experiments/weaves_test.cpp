@@ -222,6 +222,30 @@ TEST(WeaveFiles, ArePathsToo)
   EXPECT_NEAR(number_at(r, "/limits/0/value"), 2.0 * (10.0 - 1.4) / (8.0 / 3.0 * 5.0) - 1.0, 1e-9);
 }
 
+TEST(WeaveFiles, SweepsAreResumedOnlyFromTheSame)
+{
+  const TemporaryFolder folder;
+  const std::string weave = read_text(std::string(HAUBERK_WEAVES) + "/chain.json");
+  folder.write("own.json", weave);
+  const std::string file =
+      folder.write("s.json", R"({ "name": "s", "task": "sweep", "cell": { "weave": { "name": "./own.json" } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "sweep": { "vary": [ { "name": "wire", "pointers": ["/cell/weave/parameters/wire_diameter"],
+                         "values": [1.2, 1.4] } ] } })");
+  const std::string out = folder / "out";
+  const Outcome first = run_program({"run", file, "-o", out});
+  ASSERT_EQ(first.code, 0) << first.err;
+  const json::value results = read_results(out);
+  EXPECT_EQ(std::string(results.at_pointer("/provenance/weaves/.~1own.json").as_string()), weave);
+  EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0);
+  folder.write("own.json", weave + "\n");
+  const Outcome other = run_program({"run", file, "-o", out, "--resume"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("cannot be resumed: it was computed from another weave of this name"),
+            std::string::npos)
+      << other.err;
+}
+
 TEST(WeaveFiles, MistakesAreReported)
 {
   const TemporaryFolder folder;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace hauberk::command {
 namespace {
@@ -45,6 +46,21 @@ PluginLookup recording_lookup(const Registry& registry, std::vector<Provenance::
       error = problem.what();
       return nullptr;
     }
+  };
+}
+
+using WeaveTexts = std::map<std::string, std::string>;
+
+/// Looks weaves up and keeps what they hold: every variant is made of the same, whatever becomes of the file.
+WeaveLookup recording_lookup(WeaveLookup weaves, std::shared_ptr<WeaveTexts> used)
+{
+  if (!weaves) return weaves;
+  return [weaves = std::move(weaves), used = std::move(used)](
+             const std::string& name, std::string& error) -> std::optional<std::string> {
+    if (const auto known = used->find(name); known != used->end()) return known->second;
+    std::optional<std::string> text = weaves(name, error);
+    if (text) used->emplace(name, *text);
+    return text;
   };
 }
 
@@ -172,8 +188,10 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
   Loaded loaded;
   loaded.registry = std::move(registry);
   Diagnostics diagnostics;
+  const auto weaves = std::make_shared<WeaveTexts>();
   std::optional<Experiment> experiment =
-      read_experiment(source, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+      read_experiment({source.file, source.text, source.overrides, recording_lookup(source.weaves, weaves)},
+                      recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
   const auto stop_on_problems = [&diagnostics] {
     if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
   };
@@ -193,6 +211,7 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
     loaded.sweep = load_sweep(e, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
     stop_on_problems();
   }
+  if (e.stability || e.sweep) loaded.weaves.assign(weaves->begin(), weaves->end());
   loaded.settings = limit_settings(e.solver, loaded.scene, e.length_unit);
   loaded.settings.start = loaded.start;
   loaded.tasks = profile_tasks(e);

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hauberk::command {
@@ -35,6 +36,9 @@ struct TransitionJob {
 struct Loaded {
   std::shared_ptr<const Registry> registry;
   std::vector<Provenance::Plugin> plugins;  ///< used, in the order of first use
+  /// Name and text, by name, of the weaves that rows and members are made of; empty for other tasks, whose
+  /// experiment holds what the weave stands for.
+  std::vector<std::pair<std::string, std::string>> weaves;
   Experiment experiment;
   SceneSpec scene;             ///< rest as used: relaxed where elements touched
   double moved = 0.0;          ///< farthest that relaxation moved an element, file units

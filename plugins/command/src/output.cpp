@@ -64,6 +64,7 @@ Provenance provenance(const Loaded& loaded, unsigned threads)
       {"CHOLMOD",
        fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)}};
   p.plugins = loaded.plugins;
+  p.weaves = loaded.weaves;
   p.seed = loaded.experiment.seed;
   p.threads = static_cast<int>(threads);
   return p;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace hauberk::command {
@@ -172,6 +173,19 @@ void read_transition(const json::value& document, const Loaded& loaded, Resumed&
     out.complete = out.complete && path.at("curves").as_array().size() == spec.contacts.size();
 }
 
+/// Rows and members are made of weaves that the experiment only names.
+bool same_weaves(const json::object& provenance, const Provenance& now)
+{
+  const json::value* then = provenance.if_contains("weaves");
+  if (then == nullptr) return now.weaves.empty();
+  const json::object& texts = then->as_object();
+  return texts.size() == now.weaves.size() &&
+         std::all_of(now.weaves.begin(), now.weaves.end(), [&](const auto& weave) {
+           const json::value* text = texts.if_contains(weave.first);
+           return text != nullptr && text->as_string() == std::string_view(weave.second);
+         });
+}
+
 void check_origin(const json::value& document, const Loaded& loaded)
 {
   const Provenance now = provenance(loaded, 1);
@@ -180,6 +194,10 @@ void check_origin(const json::value& document, const Loaded& loaded)
     throw InputError(
         "it was computed from another experiment; give the same file and --set, or start anew with --force");
   const json::value& then = document.at("provenance");
+  if (!same_weaves(then.as_object(), now))
+    throw InputError(
+        "it was computed from another weave of this name; bring its file back (the results hold it, below "
+        "/provenance/weaves), or start anew with --force");
   if (text(then.at("version")) != now.version || text(then.at("build").at("type")) != now.build_type)
     throw InputError(fmt::format(
         "it was computed by version {} ({}), this is {} ({}); start anew with --force",

@@ -19,6 +19,10 @@ json::object provenance_json(const Provenance& provenance)
   json::array& plugins = out["plugins"].emplace_array();
   for (const Provenance::Plugin& plugin : provenance.plugins)
     plugins.push_back({{"id", plugin.id}, {"kind", plugin.kind}, {"version", plugin.version}});
+  if (!provenance.weaves.empty()) {
+    json::object& weaves = out["weaves"].emplace_object();
+    for (const auto& [name, text] : provenance.weaves) weaves[name] = text;
+  }
   out["seed"] = provenance.seed;
   out["threads"] = provenance.threads;
   return out;

@@ -25,6 +25,8 @@ struct Provenance {
   std::string compiler;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
   std::vector<Plugin> plugins;
+  /// Name and text of weave files that the experiment refers to without saying what they hold.
+  std::vector<std::pair<std::string, std::string>> weaves;
   std::uint64_t seed = 0;
   int threads = 1;
 };

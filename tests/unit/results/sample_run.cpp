@@ -112,8 +112,9 @@ RunResult sample_design()
 
 Provenance sample_provenance()
 {
-  return {"0.1.0", "RelWithDebInfo", "gcc 12", {{"Eigen", "3.4.0"}}, {{"torus_union", "shape", "0.1.0"}}, 7,
-          2};
+  return {
+      "0.1.0", "RelWithDebInfo", "gcc 12", {{"Eigen", "3.4.0"}}, {{"torus_union", "shape", "0.1.0"}}, {}, 7,
+      2};
 }
 
 std::string sample_experiment()

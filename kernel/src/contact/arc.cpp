@@ -171,7 +171,11 @@ class ArcIntegral {
     if (g <= 0.0) return;  // min_gap tells
     const std::array<double, 2> size = sizes(s, q, f, std::min(g, 4.0 * settings_.g_hat));
     if (std::max(size[0], size[1]) > 1.0 && std::max(s.hu, s.hv) > smallest_panel) {
-      for (const Panel& half : halves(s, size[0] >= size[1])) visit(half);
+      // Far from contact a bound that is too low is to be raised, by panels that are small in both
+      // directions.
+      const bool along_u =
+          g < 4.0 * settings_.g_hat ? size[0] >= size[1] : dim == 1 || probe_.Lu * s.hu >= probe_.Lv * s.hv;
+      for (const Panel& half : halves(s, along_u)) visit(half);
       return;
     }
     // A gap changes by no more than the distance moved.

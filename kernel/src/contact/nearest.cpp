@@ -111,7 +111,7 @@ class Search {
     const Local l = local_at(probe_, s.u, s.v);
     if (++evaluations_ > last_) give_up();
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
-    if (taylor_bound(probe_, s, l.f.m.phi, l.f.rho, l.gu, l.gv) > threshold_) return;
+    if (panel_bound(probe_, s, l.q, l.f, threshold_).bound > threshold_) return;
     // Largest curvature of the field on the panel.
     const FieldCurvature field = field_curvature(*probe_.f.F, l.f, d);
     if (field.third < std::numeric_limits<double>::infinity()) {

@@ -57,6 +57,8 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
     stack.push_back(second);
     stack.push_back(first);
   }
+  // Near contact the bounds are as sharp as rounding lets them be.
+  if (s.lower > 0.0) s.lower = std::max(0.0, s.lower - touching);
   return s;
 }
 

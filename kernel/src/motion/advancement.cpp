@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace hauberk {
 namespace {
@@ -31,6 +32,7 @@ class PairAdvance {
         count_(count),
         last_(count.evaluations + most_evaluations)
   {
+    open_.reserve(96);
   }
 
   /// Largest s <= limit such that the gap stays above `target`.
@@ -39,11 +41,8 @@ class PairAdvance {
     double s = 0.0, tau = limit;
     for (int k = 0; k < most_advances && s < limit; ++k) {
       begin(s);
-      tau = std::min(tau, limit - s);
-      while (!holds(tau, target)) {
-        tau *= 0.5;
-        if (tau < smallest_advance || count_.evaluations >= last_) return s;
-      }
+      tau = certified(std::min(tau, limit - s), target);
+      if (tau <= 0.0) return s;
       s += tau;
       tau *= 2.0;
     }
@@ -80,30 +79,49 @@ class PairAdvance {
     acceleration_ = a0 + wp * wp * reach + wf * wf * r + 2.0 * wf * (v + wp * reach);
   }
 
-  bool holds(double tau, double target)
+  /// How long the gap stays above `target` from the time of `begin`, at most `tau`; 0 if that is not worth
+  /// it. A panel that fails because of time alone halves tau. Panels that held for longer hold for shorter
+  /// times as well, so that none is looked at again.
+  double certified(double tau, double target)
   {
     const Probe<dim> probe(frame_);
     constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
-    for (int i = 0; i < nu; ++i) {
-      for (int j = 0; j < nv; ++j) {
-        const Panel s{(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0};
-        if (!panel_holds(probe, s, tau, target)) return false;
+    open_.clear();
+    for (int i = nu - 1; i >= 0; --i)
+      for (int j = nv - 1; j >= 0; --j)
+        open_.push_back({(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
+    while (!open_.empty()) {
+      const Panel s = open_.back();
+      open_.pop_back();
+      const ProbePoint q = probe.at(s.u, s.v);
+      const FieldValue f = field_at(F_, q.p);
+      ++count_.evaluations;
+      if (f.m.phi - probe.offset - clearance_ < target) return 0.0;
+      Verdict verdict = look(probe, s, q, f, tau, target);
+      while (verdict == Verdict::too_long) {
+        tau *= 0.5;
+        if (tau < smallest_advance || count_.evaluations >= last_) return 0.0;
+        verdict = look(probe, s, q, f, tau, target);
       }
+      if (verdict == Verdict::holds) continue;
+      Panel first, second;
+      split(probe, s, first, second);
+      open_.push_back(second);
+      open_.push_back(first);
     }
-    return true;
+    return tau;
   }
 
-  bool panel_holds(const Probe<dim>& probe, const Panel& s, double tau, double target)
+  enum class Verdict { holds, too_wide, too_long };
+
+  Verdict look(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f, double tau,
+               double target) const
   {
-    const ProbePoint q = probe.at(s.u, s.v);
-    const FieldValue f = field_at(F_, q.p);
-    ++count_.evaluations;
     const double g = f.m.phi - probe.offset - clearance_;
-    if (g < target) return false;
     const double travel = speed_ * tau;
     const PanelSize size = panel_size(probe, s);
     const double d = size.first;
-    if (g - d - travel >= target) return true;
+    if (g - d - travel >= target) return Verdict::holds;
 
     const Motion motion = motion_of(q, f);
     const double time = std::max(0.0, -motion.rate) * tau + 0.5 * acceleration_ * tau * tau;
@@ -111,19 +129,24 @@ class PairAdvance {
     double slope = std::abs(f.n.dot(q.pu)) * s.hu;
     if constexpr (dim == 2) slope += std::abs(f.n.dot(q.pv)) * s.hv;
     const double second = size.second + (d + travel) * (d + travel) / rho;
-    if (rho > 0.0 && g - slope - time - angular_ * d * tau - 0.5 * second >= target) return true;
-    double cross = std::abs(mixed_derivative(f, q.pu, motion)) * s.hu * tau;
-    if constexpr (dim == 2) cross += std::abs(mixed_derivative(f, q.pv, motion)) * s.hv * tau;
-    const double form = panel_terms(probe, s, q, f).form;
-    if (g - slope + 0.5 * form - cross - lost(motion, f, size, tau) >= target) return true;
+    if (rho > 0.0 && g - slope - time - angular_ * d * tau - 0.5 * second >= target) return Verdict::holds;
+    const PanelSize path = path_size(size, tau);
+    if (!F_.is_tube()) {
+      const RolledField rolled(F_, f);
+      const FieldCurvature field = rolled.curvature(path.first);
+      if (g + expanded(probe, s, q, rolled.f, motion_of(q, rolled.f), field, path, tau) >= target)
+        return Verdict::holds;
+    }
+    if (g + expanded(probe, s, q, f, motion, field_curvature(F_, f, path.first), path, tau) >= target)
+      return Verdict::holds;
 
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
-    if (g - std::min(alone, travel) < target && g - lost(motion, f, {}, tau) < target) return false;
-    if (s.hu < smallest_panel || count_.evaluations >= last_) return false;
-    Panel first, second_panel;
-    split(probe, s, first, second_panel);
-    return panel_holds(probe, first, tau, target) && panel_holds(probe, second_panel, tau, target);
+    const PanelSize moved = path_size({}, tau);
+    if (g - std::min(alone, travel) < target &&
+        g - lost(motion, field_curvature(F_, f, moved.first), moved, tau) < target)
+      return Verdict::too_long;
+    return s.hu < smallest_panel || count_.evaluations >= last_ ? Verdict::too_long : Verdict::too_wide;
   }
 
   /// How a material point of P moves in F's frame, and what that does to the field.
@@ -153,16 +176,31 @@ class PairAdvance {
     return field_hessian(f, along, motion.velocity) + f.n.dot((wp_ - wf_).cross(along));
   }
 
-  /// What time and the third order may take off the field over a panel of this size: the expansion in (u, v,
-  /// t) without its terms in u and v alone and without d^2 phi/(du dt). Origins accelerate in unknown
-  /// directions.
-  double lost(const Motion& motion, const FieldValue& f, const PanelSize& size, double tau) const
+  /// Bounds of the paths of points over a panel of this size and a time tau.
+  PanelSize path_size(const PanelSize& size, double tau) const
   {
-    const PanelSize path{size.first + speed_ * tau,
-                         size.second + 2.0 * angular_ * size.first * tau + acceleration_ * tau * tau,
-                         size.third + 3.0 * angular_ * size.second * tau +
-                             3.0 * angular_ * angular_ * size.first * tau * tau + jerk_ * tau * tau * tau};
-    const FieldCurvature field = field_curvature(F_, f, path.first);
+    return {size.first + speed_ * tau,
+            size.second + 2.0 * angular_ * size.first * tau + acceleration_ * tau * tau,
+            size.third + 3.0 * angular_ * size.second * tau +
+                3.0 * angular_ * angular_ * size.first * tau * tau + jerk_ * tau * tau * tau};
+  }
+
+  /// Least change of the field over a panel and a time tau, by its expansion in (u, v, t) to second order,
+  /// less what the third may take off.
+  double expanded(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
+                  const Motion& motion, const FieldCurvature& field, const PanelSize& path, double tau) const
+  {
+    if (!(field.third < std::numeric_limits<double>::infinity()))
+      return -std::numeric_limits<double>::infinity();
+    double cross = std::abs(mixed_derivative(f, q.pu, motion)) * s.hu * tau;
+    if constexpr (dim == 2) cross += std::abs(mixed_derivative(f, q.pv, motion)) * s.hv * tau;
+    return least_to_second_order(probe, s, q, f) - cross - lost(motion, field, path, tau);
+  }
+
+  /// What time and the third order may take off the field: the expansion without its terms in u and v alone
+  /// and without d^2 phi/(du dt). Origins accelerate in unknown directions.
+  double lost(const Motion& motion, const FieldCurvature& field, const PanelSize& path, double tau) const
+  {
     if (!(field.third < std::numeric_limits<double>::infinity())) return field.third;
     return std::max(0.0, -motion.rate) * tau + 0.5 * (std::max(0.0, -motion.second) + origins_) * tau * tau +
            third_order(field, path);
@@ -174,7 +212,8 @@ class PairAdvance {
   const Track& tf_;
   double clearance_;
   SafeStep& count_;
-  long last_;  ///< evaluation after which to give up
+  long last_;                ///< evaluation after which to give up
+  std::vector<Panel> open_;  ///< panels still to be looked at
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;

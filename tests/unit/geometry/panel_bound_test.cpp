@@ -99,7 +99,7 @@ template <int dim>
 void expect_below_samples(int count, std::uint64_t seed)
 {
   Random random(seed);
-  int better = 0, known = 0;
+  int better = 0, known = 0, oval = 0, wider = 0;
   for (int i = 0; i < count; ++i) {
     const Body F = random.body();
     Body P = random.body();
@@ -124,12 +124,24 @@ void expect_below_samples(int count, std::uint64_t seed)
     const double curved = curved_bound(probe, s, q, f, field);
     EXPECT_LE(curved, least + 1e-15) << i;
     better += curved > plain ? 1 : 0;
-    const PanelBound both = panel_bound(probe, s, std::max(curved, plain));
-    EXPECT_EQ(both.value, f.m.phi);
-    EXPECT_LE(both.bound, std::max(curved, plain));
+    const PanelBound best = panel_bound(probe, s, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(best.value, f.m.phi);
+    EXPECT_EQ(best.bound, plain);  // the centre alone fails: nothing dearer is tried
+    const PanelBound all = panel_bound(probe, s, f.m.phi);
+    EXPECT_LE(all.bound, least + 1e-15) << i;
+    EXPECT_GE(all.bound, plain);
+    if (F.is_tube()) continue;
+    ++oval;
+    const RolledField rolled(F, f);
+    const FieldCurvature disc = rolled.curvature(panel_size(probe, s).first);
+    if (!(disc.third < std::numeric_limits<double>::infinity())) continue;
+    const double wide = curved_bound(probe, s, q, rolled.f, disc);
+    EXPECT_LE(wide, least + 1e-15) << i;
+    wider += wide > curved && wide > plain ? 1 : 0;
   }
   EXPECT_GT(known, count / 2);
   EXPECT_GT(better, known / 4);
+  EXPECT_GT(wider, oval / 20);
 }
 
 TEST(PanelBound, CirclesStayAboveTheirBounds) { expect_below_samples<1>(20000, 2); }
@@ -154,23 +166,80 @@ TEST(PanelBound, ErrorOfTheDearerBoundIsOfThirdOrder)
   EXPECT_NEAR(loss[1] / loss[2], 8.0, 1.0);
 }
 
-TEST(LeastOfForm, AgreesWithSamples)
+TEST(LeastOverBox, AgreesWithSamples)
 {
   Random random(4);
-  for (int i = 0; i < 2000; ++i) {
-    const double xx = random.between(-1.0, 1.0), xy = random.between(-1.0, 1.0),
-                 yy = random.between(-1.0, 1.0);
+  int inside = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Quadratic q{random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0),
+                random.between(-1.0, 1.0), random.between(-1.0, 1.0)};
     const double hx = random.power_of_ten(-1.0, 0.0), hy = random.power_of_ten(-1.0, 0.0);
+    // Half of them near a minimum, as panels are.
+    if (i % 2 == 0) {
+      q.uu = 1.0 + std::abs(q.uu);
+      q.vv = 1.0 + std::abs(q.vv);
+      q.u *= hx;
+      q.v *= hy;
+    }
     double least = 0.0;
+    bool at_border = true;
     for (int a = -50; a <= 50; ++a)
       for (int b = -50; b <= 50; ++b) {
         const double x = hx * a / 50.0, y = hy * b / 50.0;
-        least = std::min(least, xx * x * x + 2.0 * xy * x * y + yy * y * y);
+        const double value = q.u * x + q.v * y + 0.5 * (q.uu * x * x + 2.0 * q.uv * x * y + q.vv * y * y);
+        if (value < least) at_border = std::abs(a) == 50 || std::abs(b) == 50;
+        least = std::min(least, value);
       }
-    const double found = least_of_form(xx, xy, yy, hx, hy);
+    inside += at_border ? 0 : 1;
+    const double found = least_over_box(q, hx, hy);
     EXPECT_LE(found, least + 1e-15);
     EXPECT_NEAR(found, least, 1e-3);
   }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(RolledField, IsNowhereAboveTheFieldAndEqualWhereItTouches)
+{
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Body F = random.body();
+    const Vec3 at = Vec3(random.between(0.0, 2.0), 0.0, random.between(-1.0, 1.0));
+    const FieldValue f = field_at(F, at);
+    if (f.m.phi <= 0.0) continue;
+    const RolledField rolled(F, f);
+    const double cx = f.rho - (rolled.radius + f.m.phi) * f.m.nr,
+                 cz = at.z() - (rolled.radius + f.m.phi) * f.m.nz;
+    EXPECT_NEAR(std::hypot(f.rho - cx, at.z() - cz) - rolled.radius, f.m.phi, 1e-13);
+    for (int k = 0; k < 50; ++k) {
+      const double x = at.x() + random.between(-1.0, 1.0), z = at.z() + random.between(-1.0, 1.0);
+      const double phi = meridian_distance(F, x, z).phi;
+      if (phi <= 0.0) continue;
+      EXPECT_LE(std::hypot(x - cx, z - cz) - rolled.radius, phi + 1e-13);
+    }
+  }
+}
+
+TEST(PanelBound, APanelWithItsMinimumOffTheCentreLosesNoMoreThanTheThirdOrder)
+{
+  // Linked rings at a right angle: the core of P comes nearest to F's at u = pi.
+  const Body P = torus(1.0, 0.2, 0.2), F = torus(1.0, 0.2, 0.2);
+  Pose pp;
+  pp.position = Vec3(1.59, 0.0, 0.0);
+  pp.rotation = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  const PairFrame frame(P, pp, F, Pose{});
+  const Probe<1> probe(frame);
+  std::array<double, 3> loss{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double h = 0.02 / static_cast<double>(1U << k);
+    const Panel s{std::numbers::pi + 0.9 * h, 0.0, h, 0.0};
+    const ProbePoint q = probe.at(s.u, s.v);
+    const FieldValue f = field_at(F, q.p);
+    loss[k] = field_at(F, probe.at(std::numbers::pi, 0.0).p).m.phi -
+              curved_bound(probe, s, q, f, field_curvature(F, f, panel_size(probe, s).first));
+  }
+  EXPECT_GT(loss[2], 0.0);
+  EXPECT_NEAR(loss[0] / loss[1], 8.0, 1.0);
+  EXPECT_NEAR(loss[1] / loss[2], 8.0, 1.0);
 }
 
 }  // namespace

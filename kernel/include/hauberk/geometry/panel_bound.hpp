@@ -11,6 +11,14 @@ struct FieldCurvature {
   double second, third;
 };
 
+/// The two bounds from those of the curvature k of level curves in the meridian half-plane and of its change
+/// k_s along them, at distances of at least rho from the axis; see field_curvature().
+inline FieldCurvature curvature_bounds(double k, double ks, double rho)
+{
+  constexpr double c = 1.1547005383792517;
+  return {std::max(k, 1.0 / rho), ks + c * (k * k + k / rho + 1.0 / (rho * rho))};
+}
+
 /// Bounds over all points within `d` of the point where `f` was evaluated.
 ///
 /// In the meridian half-plane, with the normal n and the tangent t of the level curve, D^2 phi = k t t^T and
@@ -27,7 +35,6 @@ struct FieldCurvature {
 inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double d)
 {
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  constexpr double c = 1.1547005383792517;
   const double rho = f.rho - d;
   if (!(rho > 0.0)) return {unknown, unknown};
   double k = 0.0, ks = 0.0;
@@ -52,19 +59,63 @@ inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double
     const double sum = beta * (wide * wide * wide + outside);  // beta = 1 where outside > 0
     ks = 3.0 * a * b * ws * (wide * wide) * (wide * wide * wide) / (sum * sum * sum);
   }
-  return {std::max(k, 1.0 / rho), ks + c * (k * k + k / rho + 1.0 / (rho * rho))};
+  return curvature_bounds(k, ks, rho);
 }
 
-/// Smallest value of xx x^2 + 2 xy x y + yy y^2 over |x| <= hx, |y| <= hy: 0, or on the border.
-inline double least_of_form(double xx, double xy, double yy, double hx, double hy)
+/// A field that is nowhere larger than F's, equal to it in value and slope where `f` was evaluated, and
+/// smoother: the distance from a disc that holds all of the profile and touches it at the closest point. A
+/// disc as wide as the profile's largest radius of curvature does (Blaschke's rolling theorem). Its curvature
+/// is 1/(radius + phi) everywhere, so that panels far from contact may be large where F's own sharp edges
+/// would make them small. For circle tubes it is F's field itself.
+struct RolledField {
+  FieldValue f;
+  double radius;
+
+  RolledField(const Body& F, const FieldValue& value)
+      : f(value), radius(std::max(F.r0 * F.r0 / F.r1, F.r1 * F.r1 / F.r0))
+  {
+    f.m.k = 1.0 / (radius + f.m.phi);
+  }
+
+  /// Bounds over all points within `d`, as field_curvature().
+  FieldCurvature curvature(double d) const
+  {
+    const double to_core = f.m.phi + radius - d, rho = f.rho - d;
+    if (!(to_core > 0.0 && rho > 0.0))
+      return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    return curvature_bounds(1.0 / to_core, 0.0, rho);
+  }
+};
+
+/// Smallest value of slope x + second x^2/2 over |x| <= h.
+inline double least_on_line(double slope, double second, double h)
 {
-  const auto edge = [](double fixed, double mixed, double free, double h, double reach) {
-    // fixed h^2 - 2 |mixed| h y + free y^2 over 0 <= y <= reach
-    const double m = std::abs(mixed) * h;
-    const double y = free > 0.0 ? std::min(reach, m / free) : reach;
-    return fixed * h * h + std::min(0.0, (free * y - 2.0 * m) * y);
+  const double g = std::abs(slope);
+  if (second * h > g) return -0.5 * g * g / second;
+  return (0.5 * second * h - g) * h;
+}
+
+/// A function of two coordinates to second order about a point, without its value there.
+struct Quadratic {
+  double u = 0.0, v = 0.0;              ///< first derivatives
+  double uu = 0.0, uv = 0.0, vv = 0.0;  ///< second derivatives
+};
+
+/// Smallest value of u a + v b + 1/2 (uu a^2 + 2 uv a b + vv b^2) over |a| <= hu, |b| <= hv, never positive:
+/// inside where the form is convex and its minimum lies there, on the border otherwise.
+inline double least_over_box(const Quadratic& q, double hu, double hv)
+{
+  const double det = q.uu * q.vv - q.uv * q.uv;
+  if (det > 0.0 && q.uu > 0.0) {
+    const double a = q.uv * q.v - q.vv * q.u, b = q.uv * q.u - q.uu * q.v;  // times det
+    if (std::abs(a) <= hu * det && std::abs(b) <= hv * det) return 0.5 * (q.u * a + q.v * b) / det;
+  }
+  const auto edge = [](double at, double along, double first, double second, double mixed, double across,
+                       double reach) {
+    return first * at + 0.5 * second * at * at + least_on_line(along + mixed * at, across, reach);
   };
-  return std::min({0.0, edge(xx, xy, yy, hx, hy), edge(yy, xy, xx, hy, hx)});
+  return std::min({0.0, edge(hu, q.v, q.u, q.uu, q.uv, q.vv, hv), edge(-hu, q.v, q.u, q.uu, q.uv, q.vv, hv),
+                   edge(hv, q.u, q.v, q.vv, q.uv, q.uu, hu), edge(-hv, q.u, q.v, q.vv, q.uv, q.uu, hu)});
 }
 
 /// Largest displacement on a panel, and how far paths on it bend: bounds of |p'|, |p''| and |p^(3)| along a
@@ -127,19 +178,18 @@ SurfaceHessian surface_hessian(const Probe<dim>& probe, const ProbePoint& q, con
   }
 }
 
-/// Terms of first and second order over a panel: phi >= phi_mid - slope + form/2 - (third order).
-struct PanelTerms {
-  double slope;  ///< |phi_u| hu + |phi_v| hv
-  double form;   ///< min (a, b) H (a, b)^T, H = D^2 phi[p_i, p_j] + n . p_ij; never positive
-};
-
+/// Least sum of the terms of first and second order over a panel: phi >= phi_mid + least - (third order),
+/// with the second derivatives H = D^2 phi[p_i, p_j] + n . p_ij. Taken together: near a minimum what the
+/// slope takes away the curvature gives back, so that a panel with a minimum at its border loses no more than
+/// one with it at its centre.
 template <int dim>
-PanelTerms panel_terms(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f)
+double least_to_second_order(const Probe<dim>& probe, const Panel& s, const ProbePoint& q,
+                             const FieldValue& f)
 {
   const SurfaceHessian h = surface_hessian(probe, q, f);
-  const double slope = std::abs(f.n.dot(q.pu)) * s.hu;
-  if constexpr (dim == 1) return {slope, std::min(0.0, h.uu) * s.hu * s.hu};
-  return {slope + std::abs(f.n.dot(q.pv)) * s.hv, least_of_form(h.uu, h.uv, h.vv, s.hu, s.hv)};
+  const double gu = f.n.dot(q.pu);
+  if constexpr (dim == 1) return std::min(0.0, least_on_line(gu, h.uu, s.hu));
+  return least_over_box({gu, f.n.dot(q.pv), h.uu, h.uv, h.vv}, s.hu, s.hv);
 }
 
 /// A sixth of the largest third derivative of the field along a path with these bounds of its derivatives.
@@ -156,8 +206,7 @@ template <int dim>
 double curved_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
                     const FieldCurvature& field)
 {
-  const PanelTerms t = panel_terms(probe, s, q, f);
-  return f.m.phi - t.slope + 0.5 * t.form - third_order(field, panel_size(probe, s));
+  return f.m.phi + least_to_second_order(probe, s, q, f) - third_order(field, panel_size(probe, s));
 }
 
 /// What is known of the field over a panel.
@@ -166,18 +215,26 @@ struct PanelBound {
   double bound = 0.0;  ///< phi over the panel is not smaller
 };
 
-/// Lower bound of the field over a panel, from the field `f` at its centre `q`. The dearer of the two is only
-/// tried where it can reach `needed`.
+/// Lower bound of the field over a panel, from the field `f` at its centre `q`. The dearer ones are only
+/// tried where they can reach `needed`.
 template <int dim>
 PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
                        double needed)
 {
   const double gu = f.n.dot(q.pu), gv = dim == 2 ? f.n.dot(q.pv) : 0.0;
   PanelBound r{f.m.phi, taylor_bound(probe, s, f.m.phi, f.rho, gu, gv)};
-  if (r.bound >= needed || f.m.phi - std::abs(gu) * s.hu - std::abs(gv) * s.hv < needed) return r;
-  const FieldCurvature field = field_curvature(*probe.f.F, f, panel_size(probe, s).first);
-  if (field.third < std::numeric_limits<double>::infinity())
-    r.bound = std::max(r.bound, curved_bound(probe, s, q, f, field));
+  if (r.bound >= needed || f.m.phi < needed) return r;
+  const double d = panel_size(probe, s).first;
+  const auto raise = [&](const FieldValue& at, const FieldCurvature& field) {
+    if (field.third < std::numeric_limits<double>::infinity())
+      r.bound = std::max(r.bound, curved_bound(probe, s, q, at, field));
+  };
+  if (!probe.f.F->is_tube()) {
+    const RolledField rolled(*probe.f.F, f);
+    raise(rolled.f, rolled.curvature(d));
+    if (r.bound >= needed) return r;
+  }
+  raise(f, field_curvature(*probe.f.F, f, d));
   return r;
 }
 

@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace hauberk {
 namespace {
@@ -73,27 +74,81 @@ struct LinePoint {
   bool inside() const { return beyond < 0.0; }
 };
 
+/// The cubic through two places with their slopes, over s in [0, 1] from one to the other.
+struct LineCubic {
+  double c0, c1, c2, c3;
+
+  LineCubic(const LinePoint& a, const LinePoint& b)
+  {
+    const double h = b.t - a.t, rise = b.beyond - a.beyond;
+    c0 = a.beyond;
+    c1 = h * a.slope;
+    c2 = 3.0 * rise - h * (2.0 * a.slope + b.slope);
+    c3 = h * (a.slope + b.slope) - 2.0 * rise;
+  }
+  double at(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
+  double slope(double s) const { return c1 + s * (2.0 * c2 + s * 3.0 * c3); }
+  double second(double s) const { return 2.0 * c2 + 6.0 * c3 * s; }
+};
+
+/// The root of f in [0, 1], f of different signs there, by Newton steps kept between the ends; to about 1e-6.
+template <typename F, typename D>
+double root_in_unit(F&& f, D&& derivative)
+{
+  double low = 0.0, high = 1.0, s = 0.5;
+  const bool rises = f(0.0) < f(1.0);
+  for (int k = 0; k < 30; ++k) {
+    const double value = f(s), d = derivative(s);
+    ((value < 0.0) == rises ? low : high) = s;
+    double next = d != 0.0 ? s - value / d : -1.0;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double step = std::abs(next - s);
+    s = next;
+    if (step < 1e-6) break;
+  }
+  return s;
+}
+
 /// Width, in parts of the line, to which the place is found where the barrier sets in: what is cut off is of
 /// fourth order in it, as the barrier begins with a third power.
 constexpr double onset_width = 1e-4;
 
-/// The root of `f` (LinePoint -> value) between a and b, where it has different signs, by bisection and the
-/// secant in turn; derivatives of the gap are not needed. `at` evaluates a place.
-template <typename At, typename F>
-LinePoint root_between(At&& at, F&& f, LinePoint a, LinePoint b)
+/// Where the barrier sets in between a and b, one inside and one not: by cubics through both ends, then by
+/// Newton's step from a place so close that it is off by no more than onset_width. `at` evaluates a place.
+template <typename At>
+double onset_between(At&& at, LinePoint a, LinePoint b)
 {
-  const double narrow = onset_width * std::abs(b.t - a.t);
-  LinePoint m = a;
-  for (int k = 0; std::abs(b.t - a.t) > narrow; ++k) {
-    const double fa = f(a), fb = f(b);
-    const double secant = a.t - fa * (b.t - a.t) / (fb - fa);
-    // A secant that lands close to one end is moved beyond the root, so that both ends come near.
-    const double margin = 0.25 * narrow;
-    const double low = std::min(a.t, b.t) + margin, high = std::max(a.t, b.t) - margin;
-    m = at(k % 4 == 3 ? 0.5 * (a.t + b.t) : std::clamp(secant, low, high));
-    ((f(m) < 0.0) == (fa < 0.0) ? a : b) = m;
+  constexpr double close = 1e-2;  // its square: what Newton's step leaves
+  const double width = std::abs(b.t - a.t);
+  for (;;) {
+    const LineCubic cubic(a, b);
+    const double s =
+        root_in_unit([&](double x) { return cubic.at(x); }, [&](double x) { return cubic.slope(x); });
+    const LinePoint m = at(a.t + s * (b.t - a.t));
+    const double step = m.slope != 0.0 ? -m.beyond / m.slope : width;
+    if (std::abs(step) < close * width) return std::clamp(m.t + step, std::min(a.t, b.t), std::max(a.t, b.t));
+    (m.inside() == a.inside() ? a : b) = m;
+    if (std::abs(b.t - a.t) < onset_width * width) return m.t;
   }
-  return m;
+}
+
+/// Between a and b, on the same side of the onset and with the gap turning between them: a place on the other
+/// side, if the gap gets there.
+template <typename At>
+std::optional<LinePoint> beyond_turn(At&& at, LinePoint a, LinePoint b)
+{
+  const double width = std::abs(b.t - a.t);
+  while (std::abs(b.t - a.t) > onset_width * width) {
+    const LineCubic cubic(a, b);
+    const double s =
+        root_in_unit([&](double x) { return cubic.slope(x); }, [&](double x) { return cubic.second(x); });
+    const LinePoint m = at(a.t + s * (b.t - a.t));
+    if (m.inside() != a.inside()) return m;
+    // How much further the gap may still go, from its slope there over the rest of the way.
+    if (std::abs(m.beyond) > 2.0 * std::abs(m.slope) * std::abs(b.t - a.t)) return std::nullopt;
+    ((m.slope < 0.0) == (a.slope < 0.0) ? a : b) = m;
+  }
+  return std::nullopt;
 }
 
 /// Calls piece(from, to) for the parts of a line on which the gap is below g_hat. The barrier is a power of
@@ -103,27 +158,24 @@ LinePoint root_between(At&& at, F&& f, LinePoint a, LinePoint b)
 template <typename At, typename Piece>
 void inside_pieces(At&& at, double from, double to, Piece&& piece)
 {
-  const auto beyond = [](const LinePoint& p) { return p.beyond; };
-  const auto slope = [](const LinePoint& p) { return p.slope; };
   const auto monotone = [&](const LinePoint& a, const LinePoint& b) {
     if (a.inside() == b.inside()) {
       if (a.inside()) piece(a.t, b.t);
       return;
     }
-    const LinePoint onset = root_between(at, beyond, a, b);
+    const double onset = onset_between(at, a, b);
     if (a.inside())
-      piece(a.t, onset.t);
+      piece(a.t, onset);
     else
-      piece(onset.t, b.t);
+      piece(onset, b.t);
   };
   const LinePoint a = at(from), b = at(to);
   const bool turns = a.inside() == b.inside() &&
                      (a.inside() ? a.slope > 0.0 && b.slope < 0.0 : a.slope < 0.0 && b.slope > 0.0);
   if (turns) {
-    const LinePoint m = root_between(at, slope, a, b);
-    if (m.inside() != a.inside()) {
-      monotone(a, m);
-      monotone(m, b);
+    if (const auto m = beyond_turn(at, a, b)) {
+      monotone(a, *m);
+      monotone(*m, b);
       return;
     }
   }

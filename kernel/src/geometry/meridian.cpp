@@ -10,20 +10,19 @@ constexpr double last_step = 2e-6;
 /// A first guess: exact for points on the ellipse, and to first order in their distance from it.
 void first_guess(double a, double b, double px, double py, double& c, double& s)
 {
-  const double qx = px / a, qy = py / b, q = std::sqrt(qx * qx + qy * qy);
-  if (!(q > 0.0)) {
+  const double qx = px / a, qy = py / b, qq = qx * qx + qy * qy;
+  if (!(qq > 0.0)) {
     c = b < a ? 0.0 : 1.0;
     s = b < a ? 1.0 : 0.0;
     return;
   }
   // The point is (c (a + d b), s (b + d a)), d its distance over the length w of the normal (b c, a s).
-  const double gx = b * qx / q, gy = a * qy / q;
-  const double d = std::max((q - 1.0) * a * b / (gx * gx + gy * gy), -0.5 * std::min(a / b, b / a));
-  c = px / (a + d * b);
-  s = py / (b + d * a);
-  const double n = std::sqrt(c * c + s * s);
-  c /= n;
-  s /= n;
+  const double gx = b * qx, gy = a * qy;
+  const double d =
+      std::max((std::sqrt(qq) - 1.0) * a * b * qq / (gx * gx + gy * gy), -0.5 * std::min(a / b, b / a));
+  const double x = px * (b + d * a), y = py * (a + d * b), n = 1.0 / std::sqrt(x * x + y * y);
+  c = x * n;
+  s = y * n;
 }
 
 }  // namespace
@@ -50,16 +49,16 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
       hc = c;
       hs = s;
     }
-    // Halley's step; df < 0 at the closest point, 2 forces bisection.
-    const double ddf = -f - 3.0 * bend, denominator = df * df - 0.5 * f * ddf;
-    const double step = df < 0.0 && denominator > 0.0 ? -f * df / denominator : 2.0;
-    bool inside = std::abs(step) < 1.0;
+    // Halley's step m/n; df < 0 at the closest point, where that fails the bracket is bisected.
+    const double ddf = -f - 3.0 * bend, m = -f * df, n = df * df - 0.5 * f * ddf;
+    bool inside = df < 0.0 && std::abs(m) < n;
     double nc = 0.0, ns = 0.0;
     if (inside) {
-      // Turned by 2 atan(step/2), the step to third order, without a square root.
-      const double t = 0.5 * step, r = 1.0 / (1.0 + t * t), o = 1.0 - t * t;
-      nc = (o * c - step * s) * r;
-      ns = (o * s + step * c) * r;
+      // Turned by 2 atan(m/2n), the step to third order, without a square root.
+      const double nn = 4.0 * n * n, mm = m * m, r = 1.0 / (nn + mm);
+      const double turn_c = (nn - mm) * r, turn_s = 4.0 * m * n * r;
+      nc = turn_c * c - turn_s * s;
+      ns = turn_c * s + turn_s * c;
       // Left of hi and right of lo (cross products of unit vectors).
       inside = lc * ns - ls * nc >= 0.0 && nc * hs - ns * hc >= 0.0;
     }
@@ -70,7 +69,7 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
       nc /= q;
       ns /= q;
     }
-    const bool done = inside ? std::abs(step) < last_step : std::abs(nc - c) + std::abs(ns - s) < 4e-16;
+    const bool done = inside ? std::abs(m) < last_step * n : std::abs(nc - c) + std::abs(ns - s) < 4e-16;
     c = nc;
     s = ns;
     if (done) break;
@@ -80,12 +79,11 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
   d.c = x < 0.0 ? -c : c;
   d.s = y < 0.0 ? -s : s;
   const double gx = d.c * b, gy = d.s * a;  // outward normal direction (c/a, s/b) times ab
-  const double w = gx * gx + gy * gy, g = std::sqrt(w);
-  d.nr = gx / g;
-  d.nz = gy / g;
+  const double w = gx * gx + gy * gy, g = std::sqrt(w), r = 1.0 / g;
+  d.nr = gx * r;
+  d.nz = gy * r;
   d.phi = (x - a * d.c) * d.nr + (y - b * d.s) * d.nz;
-  const double kappa = a * b / (w * g);
-  d.k = kappa / (1.0 + kappa * d.phi);
+  d.k = a * b / (w * g + a * b * d.phi);  // kappa/(1 + kappa phi), kappa = ab/g^3
   return d;
 }
 

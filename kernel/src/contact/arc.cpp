@@ -263,13 +263,14 @@ class ArcIntegral {
     return {size(s.hu, q.pu, h.uu), dim == 2 ? size(s.hv, q.pv, h.vv) : 0.0};
   }
 
-  LinePoint line_point(double u, double v, bool along_v)
+  /// A place `t` on a line, at the probe coordinates u and v of which the one that varies is t.
+  LinePoint line_point(double t, const Angle& u, const Angle& v)
   {
     const ProbePoint q = probe_.at(u, v);
     const FieldValue f = field_at(*frame_.F, q.p);
     ++out_.evaluations;
-    return {along_v ? v : u, f.m.phi - probe_.offset - settings_.clearance - settings_.g_hat,
-            f.n.dot(along_v ? q.pv : q.pu)};
+    return {t, f.m.phi - probe_.offset - settings_.clearance - settings_.g_hat,
+            f.n.dot(dim == 2 ? q.pv : q.pu)};
   }
 
   /// The part of a panel on which the gap is below g_hat; of a surface line by line, whose integrals are
@@ -278,15 +279,15 @@ class ArcIntegral {
   {
     const auto& rule = gauss_rule<n>();
     if constexpr (dim == 1) {
-      inside_pieces([this](double u) { return line_point(u, 0.0, false); }, s.u - s.hu, s.u + s.hu,
+      inside_pieces([this](double u) { return line_point(u, Angle(u), {}); }, s.u - s.hu, s.u + s.hu,
                     [this](double from, double to) {
                       integrate({0.5 * (from + to), 0.0, 0.5 * std::abs(to - from), 0.0});
                     });
     } else {
       for (std::size_t i = 0; i < n; ++i) {
-        const double u = s.u + s.hu * rule.x[i], w = weight_ * s.hu * rule.w[i];
-        const Angle at_u(u);
-        inside_pieces([this, u](double v) { return line_point(u, v, true); }, s.v - s.hv, s.v + s.hv,
+        const double w = weight_ * s.hu * rule.w[i];
+        const Angle at_u(s.u + s.hu * rule.x[i]);
+        inside_pieces([&](double v) { return line_point(v, at_u, Angle(v)); }, s.v - s.hv, s.v + s.hv,
                       [&](double from, double to) {
                         const Angle middle(0.5 * (from + to));
                         const double half = 0.5 * std::abs(to - from);

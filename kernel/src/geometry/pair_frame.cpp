@@ -38,7 +38,7 @@ Angle::Angle(double radians)
     s = std::sin(radians);
     return;
   }
-  const int nearest = static_cast<int>(radians / spacing + (radians < 0.0 ? -0.5 : 0.5));
+  const int nearest = static_cast<int>(radians * (1.0 / spacing) + (radians < 0.0 ? -0.5 : 0.5));
   const double by = (radians - spacing_high * nearest) - spacing_low * nearest, q = by * by;
   const auto k = static_cast<std::size_t>((nearest + 16 * table_size) % table_size);
   // |by| <= pi/256: what is left out is of the order of 1e-20.

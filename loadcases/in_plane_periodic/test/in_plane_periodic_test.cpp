@@ -136,8 +136,10 @@ TEST(InPlanePeriodic, TensorValue)
 {
   for (const double theta : {0.0, 0.3, 1.2, 2.5}) {
     const Vec3 n(std::cos(theta), std::sin(theta), 0);
-    EXPECT_NEAR(flat.value(theta, strain), n.dot(deformation(strain) * n) - 1.0, 1e-15);
-    EXPECT_NEAR(flat.value(theta, strain), flat.value(theta + std::numbers::pi, strain), 1e-15);
+    EXPECT_NEAR(flat.value(Direction::at_radians(theta), strain), n.dot(deformation(strain) * n) - 1.0,
+                1e-15);
+    EXPECT_NEAR(flat.value(Direction::at_radians(theta), strain),
+                flat.value(Direction::at_radians(theta + std::numbers::pi), strain), 1e-15);
   }
 }
 
@@ -147,10 +149,11 @@ TEST(InPlanePeriodic, PaperValueIsTheLeastSquaresMultiple)
     const double c = std::cos(theta);
     const double s = std::sin(theta);
     const Vec3 d(c * c, s * s, c * s);
-    EXPECT_NEAR(paper.value(theta, strain), d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
+    EXPECT_NEAR(paper.value(Direction::at_radians(theta), strain),
+                d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
     // The published strain of size e along theta is e d: its value is e.
     const Vec3 e = 0.37 * d;
-    EXPECT_NEAR(paper.value(theta, std::span<const double>(e.data(), 3)), 0.37, 1e-15);
+    EXPECT_NEAR(paper.value(Direction::at_radians(theta), std::span<const double>(e.data(), 3)), 0.37, 1e-15);
   }
 }
 
@@ -159,12 +162,16 @@ TEST(InPlanePeriodic, LoadIsTheDerivativeOfTheValue)
   for (const InPlanePeriodic* load_case : {&flat, &paper}) {
     for (const double theta : {0.0, 0.4, 1.5, 2.9}) {
       double t[3];
-      load_case->load(theta, t);
+      load_case->load(Direction::at_radians(theta), t);
       double norm = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
         std::vector<double> m = strain;
         m[k] += 0.25;
-        EXPECT_NEAR(t[k], (load_case->value(theta, m) - load_case->value(theta, strain)) / 0.25, 1e-14);
+        EXPECT_NEAR(t[k],
+                    (load_case->value(Direction::at_radians(theta), m) -
+                     load_case->value(Direction::at_radians(theta), strain)) /
+                        0.25,
+                    1e-14);
         norm += t[k] * t[k];
       }
       EXPECT_GT(norm, 0.9);
@@ -176,13 +183,13 @@ TEST(InPlanePeriodic, LineStretch)
 {
   const double theta = 0.7;
   const Vec3 n(std::cos(theta), std::sin(theta), 0);
-  const auto companions = flat.companions(theta, strain);
+  const auto companions = flat.companions(Direction::at_radians(theta), strain);
   ASSERT_EQ(companions.size(), 1U);
   EXPECT_EQ(companions[0].first, "line_stretch");
   EXPECT_NEAR(companions[0].second, (deformation(strain) * n).norm() - 1.0, 1e-15);
   // No digits are lost for small strains.
   const std::vector<double> tiny = {1e-14, 0.0, 0.0};
-  EXPECT_NEAR(flat.companions(0.0, tiny)[0].second, 1e-14, 1e-28);
+  EXPECT_NEAR(flat.companions(Direction::at_radians(0.0), tiny)[0].second, 1e-14, 1e-28);
 }
 
 TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
@@ -214,7 +221,7 @@ TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
 
 Boundedness bounded(const InPlanePeriodic& load_case, double deg, Sense sense, std::vector<Vec3> cycles)
 {
-  return load_case.boundedness(deg * degree, sense, cycles);
+  return load_case.boundedness(Direction::at_degrees(deg), sense, cycles);
 }
 
 TEST(InPlanePeriodic, BoundedWhereCyclesSpanThePlane)
@@ -275,8 +282,8 @@ TEST(InPlanePeriodic, NotAttainedChainTendsToItsInfimum)
     EXPECT_TRUE(flat.admissible(m));
     EXPECT_NEAR((deformation(m) * Vec3::UnitX()).norm(), 1.0, 1e-14);
     EXPECT_NEAR(deformation(m).determinant(), 1.0, 1e-9);
-    EXPECT_LT(flat.value(0.0, m), previous);
-    previous = flat.value(0.0, m);
+    EXPECT_LT(flat.value(Direction::at_radians(0.0), m), previous);
+    previous = flat.value(Direction::at_radians(0.0), m);
   }
   EXPECT_LT(previous, -0.999);
 }

@@ -106,7 +106,7 @@ class Plane : public LoadCase {
     return bends_ ? std::make_pair("up", "down") : std::make_pair("stretch", "compress");
   }
   void do_metric(std::span<double> m) const override { m[0] = 1.0; }
-  Boundedness do_boundedness(double, Sense, std::span<const Vec3>) const override
+  Boundedness do_boundedness(std::span<const double>, std::span<const Vec3>) const override
   {
     return Boundedness::attained;
   }

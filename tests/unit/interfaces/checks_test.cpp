@@ -121,7 +121,7 @@ class AnyLoadCase final : public LoadCase {
   int do_value_length_power() const override { return 0; }
   std::pair<std::string, std::string> do_sense_names() const override { return {"up", "down"}; }
   void do_metric(std::span<double>) const override {}
-  Boundedness do_boundedness(double, Sense, std::span<const Vec3>) const override
+  Boundedness do_boundedness(std::span<const double>, std::span<const Vec3>) const override
   {
     return Boundedness::attained;
   }

@@ -12,6 +12,7 @@ namespace hauberk::detail {
 namespace {
 
 constexpr double margin = 34.0;       ///< around the drawing, for numbers
+constexpr double least_area = 0.02;   ///< of a face, in units of the drawing
 constexpr int most_ticks = 4;         ///< on a half axis
 constexpr double least_shown = 0.15;  ///< an axis seen from nearer to its end than this has no numbers
 
@@ -39,7 +40,8 @@ class Panel {
     for (const Triangle& t : surface.triangles) {
       const Vec3 &a = point(surface, t[0]), &b = point(surface, t[1]), &c = point(surface, t[2]);
       const Vec3 normal = (b - a).cross(c - a);
-      if (!(normal.norm() > 0.0)) continue;  // corners that share a state
+      // Corners that share a state, and faces seen edge-on, leave nothing to fill.
+      if (!(0.5 * scale_ * scale_ * std::abs(view_.toward.dot(normal)) > least_area)) continue;
       const double light = std::max(0.0, normal.normalized().dot(lamp));
       list.push_back({{at(a), at(b), at(c)}, view_.toward.dot(a + b + c) / 3.0, light});
     }
@@ -64,7 +66,7 @@ class Panel {
     const double shown = std::hypot(view_.right.dot(direction), view_.up.dot(direction));
     if (shown < least_shown) return;
     svg_.line(start, end, {"#111", 0.9, "2,3"});
-    const Point2 beyond = at((reach_ + 12.0 / (scale_ * shown)) * direction);
+    const Point2 beyond = at((reach_ + 20.0 / (scale_ * shown)) * direction);
     svg_.text({beyond.x, beyond.y + 4.0}, name, 12, "middle", true, true);
     const double step = tick_step(reach_, most_ticks);
     const Point2 side{(end.y - start.y) / std::hypot(end.x - start.x, end.y - start.y),

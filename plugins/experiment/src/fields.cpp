@@ -95,7 +95,8 @@ Field directions_field()
       "directions",
       "Directions of the macroscopic unknowns instead of directions_deg, each with one sense, further "
       "along it: a list, or a sphere. The other unknowns are free. Not for designs.",
-      {std::move(list_of), object("sampling", "An even sampling.", {required(std::move(parts))})});
+      {std::move(list_of),
+       object("sampling", "An even sampling of all directions.", {required(std::move(parts))})});
 }
 
 Field load_case_field()
@@ -109,7 +110,9 @@ Field load_case_field()
                        "there, the directions of its targets are used."),
            "degree"),
        directions_field(),
-       at_least_items(list("senses", "Senses to load in, as the load case names them; absent: both.",
+       at_least_items(list("senses",
+                           "Senses to load in, as the load case names them; absent: both. Not with "
+                           "directions.",
                            string("sense", "stretch or compress, up or down.")),
                       1)}));
 }

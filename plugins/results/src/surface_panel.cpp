@@ -66,7 +66,7 @@ class Panel {
     const double shown = std::hypot(view_.right.dot(direction), view_.up.dot(direction));
     if (shown < least_shown) return;
     svg_.line(start, end, {"#111", 0.9, "2,3"});
-    const Point2 beyond = at((reach_ + 20.0 / (scale_ * shown)) * direction);
+    const Point2 beyond = at((reach_ + 17.0 / (scale_ * shown)) * direction);
     svg_.text({beyond.x, beyond.y + 4.0}, name, 12, "middle", true, true);
     const double step = tick_step(reach_, most_ticks);
     const Point2 side{(end.y - start.y) / std::hypot(end.x - start.x, end.y - start.y),
@@ -96,7 +96,7 @@ class Panel {
 
   static std::string grey(double light)
   {
-    const double level = 0.30 + 0.68 * light;
+    const double level = 0.42 + 0.56 * light;
     const auto channel = [level](double tint) {
       return static_cast<int>(std::lround(255.0 * std::min(1.0, level * tint)));
     };
@@ -138,7 +138,7 @@ void draw_surface(Svg& svg, Point2 corner, double size, const View& view, const 
                   double reach, const std::array<std::string, 3>& names)
 {
   const Panel panel(svg, corner, size, view, reach);
-  svg.text({corner.x + 0.5 * size, corner.y + 12.0}, view.title, 12, "middle");
+  svg.text({corner.x + 14.0, corner.y + 12.0}, view.title, 12);
   panel.faces(surface);
   for (int k = 0; k < 3; ++k) panel.axis(Vec3::Unit(k), names[static_cast<std::size_t>(k)]);
   panel.points(surface, surface.triangles.empty());

@@ -155,8 +155,8 @@ Field solver_field()
                "0.01"),
            with_default(
                at_least(number("neighbours",
-                               "A limit that has no other of its sense within this angle learns from limits "
-                               "at it to either side, which are not reported; 0: none.",
+                               "A limit at an angle without another of its sense within this many degrees "
+                               "learns from limits that far to either side, which are not reported; 0: none.",
                                "degree"),
                         0.0),
                "10"),

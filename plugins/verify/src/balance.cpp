@@ -51,8 +51,10 @@ Vec3 load(const Limit& limit)
   if (limit.direction) {
     if (measure != "metric") throw Malformed("the measure \"" + measure + "\" is not one of a direction");
     const Vec3 m(1.0, 1.0, limit.load == Load::strain ? 2.0 : 0.5);
-    const Vec3 dual = m.cwiseProduct(*limit.direction);
-    return dual / std::sqrt(dual.dot(*limit.direction));
+    const Vec3 d =
+        *limit.direction / limit.direction->cwiseAbs().maxCoeff();  // squares neither vanish nor overflow
+    const Vec3 dual = m.cwiseProduct(d);
+    return dual / std::sqrt(dual.dot(d));
   }
   const Vec3 d = products(limit.direction_deg);
   if (measure == "tensor") return {d.x(), d.y(), 2.0 * d.z()};

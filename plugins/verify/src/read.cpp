@@ -161,7 +161,7 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
   if (limit.is_object() && limit.get_object().contains("direction")) {
     const std::string at = where + "/direction";
     out.direction = read_vector(member(limit, "direction", where), at);
-    if (!(out.direction->norm() > 0.0)) throw Malformed(at + ": not all zeros expected");
+    if (!(out.direction->cwiseAbs().maxCoeff() > 0.0)) throw Malformed(at + ": not all zeros expected");
     out.direction_deg = std::numeric_limits<double>::quiet_NaN();
   } else {
     out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");

@@ -14,7 +14,37 @@ constexpr double parallel_sine = 1e-9;
 /// lattice vectors, not shorter than an element.
 constexpr double zero_translation = 1e-9;
 
+/// Eigenvalue, relative to the other one, that is zero up to rounding: that of a load along one line.
+constexpr double zero_eigenvalue = 1e-14;
+
 enum { exx, eyy, exy };  // order of the macroscopic unknowns
+
+/// Eigenvalues and eigenvectors of the symmetric matrix [[xx, xy], [xy, yy]]. Forms are sums over them, so
+/// that a load along a line keeps all digits of the small rate nearly across that line.
+struct Spectrum {
+  double larger = 0.0, smaller = 0.0;
+  double vx = 1.0, vy = 0.0;  ///< of the larger one; (-vy, vx) of the smaller
+
+  Spectrum(double xx, double yy, double xy)
+  {
+    const double mean = 0.5 * (xx + yy);
+    const double radius = std::hypot(0.5 * (xx - yy), xy);
+    const double angle = 0.5 * std::atan2(xy, 0.5 * (xx - yy));
+    larger = mean + radius;
+    smaller = mean - radius;
+    if (std::abs(larger) < zero_eigenvalue * std::abs(smaller)) larger = 0.0;
+    if (std::abs(smaller) < zero_eigenvalue * std::abs(larger)) smaller = 0.0;
+    vx = std::cos(angle);
+    vy = std::sin(angle);
+  }
+
+  /// (ax, ay) . M (bx, by)
+  double form(double ax, double ay, double bx, double by) const
+  {
+    return larger * (vx * ax + vy * ay) * (vx * bx + vy * by) +
+           smaller * (vx * ay - vy * ax) * (vx * by - vy * bx);
+  }
+};
 
 }  // namespace
 
@@ -133,22 +163,22 @@ std::vector<LinearInequality> InPlanePeriodic::do_inequalities(std::span<const V
   return walls;
 }
 
-double InPlanePeriodic::transverse_rate(double theta, double x, double y) const
+Boundedness InPlanePeriodic::do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const
 {
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
-  if (measure_ == StrainMeasure::tensor) return (c * x + s * y) * (c * x + s * y);
-  const double dd = c * c * c * c + s * s * s * s + c * c * s * s;
-  return (c * c * x * x + s * s * y * y + c * s * x * y) / dd;
-}
-
-Boundedness InPlanePeriodic::do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const
-{
-  // The argument stands in the README. In short: link cycles bound F T for their translations T. If those
-  // span the plane, F is bounded. Otherwise the strain along one direction a is free to grow: across the
-  // cycles, or anywhere when there are none. The value grows with it at a rate r >= 0. Stretch is unbounded
-  // where r > 0. Compression cannot use that direction where r > 0; where r = 0 the sheet can turn what is to
-  // be compressed aside while it spreads, so the value tends to its infimum without reaching it.
+  // The load is the symmetric matrix M with load . macro = M : (F - I). The proof stands in the README,
+  // "Which limits exist"; in short:
+  //
+  // Links bound F T for the translations T of their cycles, and packing bounds det F from below. If cycles
+  // span the plane, admissible F are a compact set. If all are parallel to the unit vector t, with a across
+  // it, only F : a a^T can grow for ever, at the rate M_aa: M_aa > 0 makes the load unbounded, M_aa < 0 makes
+  // such states bad ones, so that the best is among a compact set. M_aa = 0 leaves M_tt p + 2 M_ta q, with F
+  // t = (p, q), |F t| <= l and p > 0: chains turn while rows spread. The largest value is where F t is
+  // parallel to (M_tt, 2 M_ta), which p > 0 allows where M_tt > 0; otherwise 2 |M_ta| l is approached as p
+  // tends to 0. If there are no cycles, nothing holds any strain: the load is unbounded if M has a positive
+  // eigenvalue, attained if M is negative definite, and approaches 0 at det F bounded below if it is
+  // singular.
+  const double scale = std::hypot(load[exx], load[eyy], load[exy]);
+  const Spectrum M(load[exx] / scale, load[eyy] / scale, 0.5 * load[exy] / scale);
   double longest = zero_translation;
   double tx = 0.0;
   double ty = 0.0;
@@ -160,20 +190,25 @@ Boundedness InPlanePeriodic::do_boundedness(double theta, Sense sense, std::span
       ty = T.y() / length;
     }
   }
-  if (longest > zero_translation) {
-    const bool spans = std::any_of(cycles.begin(), cycles.end(), [&](const Vec3& T) {
-      const double length = std::hypot(T.x(), T.y());
-      return length > zero_translation && std::abs(tx * T.y() - ty * T.x()) > parallel_sine * length;
-    });
-    if (spans) return Boundedness::attained;
-  } else {
-    if (sense == Sense::positive) return Boundedness::unbounded;
-    tx = std::cos(theta);
-    ty = std::sin(theta);
+  if (longest <= zero_translation) {
+    if (M.larger > 0.0) return Boundedness::unbounded;
+    return M.larger < 0.0 ? Boundedness::attained : Boundedness::not_attained;
   }
-  const bool grows = transverse_rate(theta, -ty, tx) > parallel_sine * parallel_sine;
-  if (sense == Sense::positive) return grows ? Boundedness::unbounded : Boundedness::attained;
-  return grows ? Boundedness::attained : Boundedness::not_attained;
+  const bool spans = std::any_of(cycles.begin(), cycles.end(), [&](const Vec3& T) {
+    const double length = std::hypot(T.x(), T.y());
+    return length > zero_translation && std::abs(tx * T.y() - ty * T.x()) > parallel_sine * length;
+  });
+  if (spans) return Boundedness::attained;
+
+  const double along = M.form(tx, ty, tx, ty);
+  const double mixed = M.form(tx, ty, -ty, tx);
+  const double across = M.form(-ty, tx, -ty, tx);
+  // What a turn of the chains by the angle that counts as none changes the rate across by.
+  const double none =
+      2.0 * std::abs(mixed) * parallel_sine + std::abs(along - across) * parallel_sine * parallel_sine;
+  if (across > none) return Boundedness::unbounded;
+  if (across < -none) return Boundedness::attained;
+  return along > parallel_sine ? Boundedness::attained : Boundedness::not_attained;
 }
 
 }  // namespace hauberk

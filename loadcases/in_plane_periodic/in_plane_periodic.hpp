@@ -46,12 +46,9 @@ class InPlanePeriodic final : public LoadCase {
   std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
   void do_metric(std::span<double> m) const override;
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override;
-  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override;
+  Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
 
  private:
-  /// Rate of the value when only the strain along the unit vector (x, y) grows: load . (x^2, y^2, x y).
-  double transverse_rate(double theta, double x, double y) const;
-
   std::vector<MacroInfo> macros_;
   StrainMeasure measure_;
   OutOfPlane out_of_plane_;

@@ -112,7 +112,7 @@ std::vector<LinearEquality> ParaboloidBending::do_equalities(std::span<const Vec
   return {mean_x, mean_y, turn};
 }
 
-Boundedness ParaboloidBending::do_boundedness(double /*theta*/, Sense /*sense*/,
+Boundedness ParaboloidBending::do_boundedness(std::span<const double> /*load*/,
                                               std::span<const Vec3> /*cycles*/) const
 {
   return Boundedness::attained;

@@ -37,7 +37,7 @@ class ParaboloidBending final : public LoadCase {
   std::pair<std::string, std::string> do_sense_names() const override { return {"up", "down"}; }
   void do_metric(std::span<double> m) const override;
   std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override;
-  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override;
+  Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
 
  private:
   std::vector<MacroInfo> macros_;

@@ -13,7 +13,7 @@ std::vector<LimitTask> tasks(double turned_by)
   std::vector<LimitTask> list;
   for (const double direction : {0.0, 30.0, 60.0, 90.0}) {
     for (const Sense sense : {Sense::positive, Sense::negative})
-      list.push_back({direction + turned_by, sense});
+      list.push_back({Direction::at_degrees(direction + turned_by), sense});
   }
   return list;
 }
@@ -29,7 +29,7 @@ TEST(Invariance, UnitsAndTurnsLeaveTheStrains)
       ASSERT_EQ(r[k].status, LimitStatus::locked) << what << ": " << r[k].message;
       worst = std::max(worst, std::abs(*r[k].value - *base[k].value));
       EXPECT_NEAR(*r[k].value, *base[k].value, 1e-9)
-          << what << ", direction " << base[k].direction_deg << ' ' << base[k].sense;
+          << what << ", direction " << base[k].direction.text() << ' ' << base[k].sense;
     }
   };
   for (const double unit : {1e-3, 1e3}) {  // the scene is in mm: m, um

@@ -13,7 +13,7 @@ std::vector<LimitResult> limits(const SceneSpec& scene, const std::vector<LimitT
 LimitResult limit(const SceneSpec& scene, double direction, Sense sense, const LimitSettings& settings,
                   double clearance)
 {
-  return limits(scene, {{direction, sense}}, settings, clearance).front();
+  return limits(scene, {{Direction::at_degrees(direction), sense}}, settings, clearance).front();
 }
 
 LimitSettings fast_settings()

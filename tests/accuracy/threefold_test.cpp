@@ -61,7 +61,7 @@ TEST(Threefold, CompressionLeavesTheSymmetricSaddle)
   const test::Sheet sheet(2);
   const SceneSpec scene = test::threefold_round();
   const Model m = make_model(scene, sheet, 0.0);
-  const Vector load = load_vector(m, 90.0 * degree, Sense::negative);
+  const Vector load = load_vector(m, Direction::at_degrees(90.0), Sense::negative);
   Stage stage;
   stage.contact = {Formulation::arc, 0.03, 0.0};
   State symmetric = rest_state(m);

@@ -1,6 +1,7 @@
 #pragma once
 /// Interface for load cases: macroscopic unknowns, how they move elements, the load and the value reported.
 
+#include <hauberk/direction.hpp>
 #include <hauberk/linalg.hpp>
 
 #include <array>
@@ -11,8 +12,7 @@
 
 namespace hauberk {
 
-/// Most macroscopic unknowns a load case may declare (six strains), and coordinates of one element.
-inline constexpr int max_macro = 6;
+/// Most coordinates of one element.
 inline constexpr int max_coordinates = 3;
 
 /// A macroscopic unknown. Lengths inside are scaled by the scene's characteristic length L.
@@ -60,7 +60,8 @@ enum class Boundedness { attained, unbounded, not_attained };
 enum class Sense { positive, negative };  ///< stretch or up; compress or down
 
 /// A family of loads on one cell or patch. Immutable after construction, so all calls are thread safe.
-/// Angles are in radians; lengths are scaled by L.
+/// Angles are in radians; lengths are scaled by L. A load case knows angles; what a direction of components
+/// means follows from its metric and is the same for all of them.
 class LoadCase {
  public:
   virtual ~LoadCase() = default;
@@ -90,27 +91,40 @@ class LoadCase {
   /// a step is admissible when both its ends are.
   bool admissible(std::span<const double> macro) const { return do_admissible(macro); }
 
-  /// Smallest and largest factor by which macro lengthens a lattice translation; outside 1e-3 .. 1e3: runaway.
+  /// Smallest and largest factor by which macro lengthens a lattice translation; outside 1e-3 .. 1e3:
+  /// runaway.
   std::pair<double, double> stretch_range(std::span<const double> macro) const
   {
     return do_stretch_range(macro);
   }
 
   /// Load dual to the reported value: t = d value / d macro, for Sense::positive.
-  void load(double theta, std::span<double> t) const { do_load(theta, t); }
-  /// The reported value at macro.
-  double value(double theta, std::span<const double> macro) const { return do_value(theta, macro); }
+  ///
+  /// An angle's load is the load case's own. Along components d the load is t_k = m_k d_k / |d|, with the
+  /// metric m and |d|^2 = sum m_k d_k^2: the value is the inner product of macro with the unit vector along
+  /// d. `t` has macro_count() entries. Throws PluginError when d has another number of components, or when
+  /// its norm is not a positive number.
+  void load(const Direction& direction, std::span<double> t) const;
+  /// The reported value at macro: for components t . macro.
+  double value(const Direction& direction, std::span<const double> macro) const;
   /// Name of the measure ("tensor", "paper", "normal_curvature"), reported with every value.
   std::string measure() const { return do_measure(); }
+  /// The same for a direction: components have the measure "metric".
+  std::string measure(const Direction& direction) const
+  {
+    return direction.is_angle() ? do_measure() : "metric";
+  }
   /// Power of length of the value (0 strain, -1 curvature).
   int value_length_power() const { return do_value_length_power(); }
-  /// Further values reported beside the main one, e.g. {"line_stretch", |F n| - 1}.
-  std::vector<std::pair<std::string, double>> companions(double theta, std::span<const double> macro) const
-  {
-    return do_companions(theta, macro);
-  }
+  /// Further values reported beside that of an angle, e.g. {"line_stretch", |F n| - 1}; none for components.
+  std::vector<std::pair<std::string, double>> companions(const Direction& direction,
+                                                         std::span<const double> macro) const;
   /// Names of the senses in experiment files, positive first: {"stretch", "compress"}.
   std::pair<std::string, std::string> sense_names() const { return do_sense_names(); }
+  /// Name of a sense of a direction. Components have one of their own, "along"; against them is "against".
+  std::string sense_name(const Direction& direction, Sense sense) const;
+  /// Whether components make sense: all unknowns have the unit of the value.
+  bool takes_components() const;
 
   /// Weights of a frame-independent norm of the macro unknowns (1, 1, 2 for exx, eyy, exy). The kernel
   /// multiplies them by the squared displacement that a unit of such an unknown gives to elements: |X|^2 for
@@ -123,11 +137,14 @@ class LoadCase {
   /// Conditions that every motion keeps, for elements with rest positions X; linearly independent.
   std::vector<LinearEquality> equalities(std::span<const Vec3> X) const { return do_equalities(X); }
 
-  /// Whether links alone bound the load; `cycles` are rest translations of independent link cycles.
-  Boundedness boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const
+  /// Whether links alone bound load . macro for a load on the macroscopic unknowns, whatever it comes from;
+  /// `cycles` are rest translations of independent link cycles.
+  Boundedness boundedness(std::span<const double> load, std::span<const Vec3> cycles) const
   {
-    return do_boundedness(theta, sense, cycles);
+    return do_boundedness(load, cycles);
   }
+  /// The same for a direction and sense.
+  Boundedness boundedness(const Direction& direction, Sense sense, std::span<const Vec3> cycles) const;
 
  protected:
   virtual const std::vector<MacroInfo>& do_macros() const = 0;
@@ -155,7 +172,7 @@ class LoadCase {
   virtual void do_metric(std::span<double> m) const = 0;
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
   virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
-  virtual Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const = 0;
+  virtual Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const = 0;
 };
 
 }  // namespace hauberk

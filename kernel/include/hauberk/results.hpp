@@ -2,6 +2,7 @@
 /// Plain results, as written to results.json (design contract "hauberk-results/1"). Lengths, curvatures and
 /// forces are in file units here; conversion from scaled quantities happens where these are filled.
 
+#include <hauberk/direction.hpp>
 #include <hauberk/scene.hpp>
 
 #include <cstdint>
@@ -40,7 +41,7 @@ struct LockedState {
 struct LimitResult {
   bool resumed = false;  ///< read from a former run's results, without poses and contacts
   std::string load_case;
-  double direction_deg = 0.0;
+  Direction direction;
   std::string sense;
   std::string measure;
   LimitStatus status = LimitStatus::failed;
@@ -115,6 +116,21 @@ struct DesignResult {
   std::vector<LimitResult> initial_limits;
 };
 
+/// Indices of three limits, counter-clockwise seen from outside.
+using Triangle = std::array<int, 3>;
+
+/// Limits along components as one surface, file units.
+struct BoundarySurface {
+  /// A limit that is not the furthest state: that of limit `state` is further along it.
+  struct Shortfall {
+    int limit = 0, state = 0;
+    double by = 0.0;
+  };
+  std::vector<Triangle> triangles;    ///< between neighbouring directions of a sphere; empty for a list
+  double margin = 0.0;                ///< what falls short by no more is left out
+  std::vector<Shortfall> shortfalls;  ///< ascending by limit, each with the furthest of such states
+};
+
 /// Everything a run produces except the resolved experiment and provenance.
 struct RunResult {
   std::string plan_json;  ///< the plan as JSON text
@@ -122,6 +138,7 @@ struct RunResult {
   std::vector<LimitResult> limits;
   std::vector<ProfilePoint> profiles;
   std::optional<DesignResult> design;
+  std::optional<BoundarySurface> boundary;  ///< when there are limits along components
 };
 
 }  // namespace hauberk

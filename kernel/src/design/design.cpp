@@ -48,7 +48,7 @@ class Recorder final : public OptimizerObserver {
     const auto senses = p.model.load->sense_names();
     for (const int k : p.changed) {
       const LimitTask& task = tasks_[static_cast<std::size_t>(k)];
-      d.changed.push_back(fmt::format("{} degrees, {}", task.direction_deg,
+      d.changed.push_back(fmt::format("{}, {}", task.direction.text(),
                                       task.sense == Sense::positive ? senses.first : senses.second));
     }
     history.push_back(d);
@@ -107,8 +107,10 @@ std::vector<LimitTask> target_tasks(const DesignSpec& design)
 {
   std::vector<LimitTask> tasks;
   for (const DesignTarget& t : design.targets) {
-    if (design.quantity != DesignQuantity::negative) tasks.push_back({t.direction_deg, Sense::positive});
-    if (design.quantity != DesignQuantity::positive) tasks.push_back({t.direction_deg, Sense::negative});
+    if (design.quantity != DesignQuantity::negative)
+      tasks.push_back({Direction::at_degrees(t.direction_deg), Sense::positive});
+    if (design.quantity != DesignQuantity::positive)
+      tasks.push_back({Direction::at_degrees(t.direction_deg), Sense::negative});
   }
   return tasks;
 }

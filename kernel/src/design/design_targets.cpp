@@ -188,8 +188,7 @@ void DesignProblem::solve_targets(DesignPoint& p)
   std::vector<LockedTarget> targets(tasks_.size());
   std::vector<double> estimate(tasks_.size());
   std::vector<Vector> loads, gradient(tasks_.size());
-  for (const LimitTask& task : tasks_)
-    loads.push_back(load_vector(p.model, task.direction_deg * degree, task.sense));
+  for (const LimitTask& task : tasks_) loads.push_back(load_vector(p.model, task.direction, task.sense));
   const auto nv = static_cast<int>(design_.variables.size());
   const auto each = [&](const auto& compute) {
     parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
@@ -225,7 +224,7 @@ void DesignProblem::solve_targets(DesignPoint& p)
     if (targets[k].changed) p.changed.push_back(static_cast<int>(k));
     const bool locked = targets[k].locked.status == LockStatus::locked;
     if (!p.why.empty() || (locked && targets[k].problem.empty())) continue;
-    p.why = fmt::format("no {} at {} degrees: {}", locked ? "gradient" : "limit", tasks_[k].direction_deg,
+    p.why = fmt::format("no {} at {}: {}", locked ? "gradient" : "limit", tasks_[k].direction.text(),
                         has_problem(targets[k]) ? targets[k].problem : targets[k].locked.message);
   }
   if (!p.why.empty()) return;

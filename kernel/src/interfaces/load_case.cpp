@@ -1,6 +1,10 @@
 #include <hauberk/error.hpp>
 #include <hauberk/load_case.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace hauberk {
 
 void LoadCase::position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
@@ -27,6 +31,68 @@ void LoadCase::position(std::span<const double> macro, std::span<const double> e
   if (!out.x.allFinite() || !out.J.allFinite()) {
     throw PluginError("load case: the position of an element or its derivative is not finite");
   }
+}
+
+void LoadCase::load(const Direction& direction, std::span<double> t) const
+{
+  if (direction.is_angle()) return do_load(direction.theta(), t);
+  const std::span<const double> d = direction.components();
+  if (d.size() != t.size() || t.size() != static_cast<std::size_t>(macro_count())) {
+    throw PluginError("load case: expected a direction of " + std::to_string(macro_count()) +
+                      " components, found " + std::to_string(d.size()));
+  }
+  std::array<double, max_macro> metric{};
+  do_metric({metric.data(), d.size()});
+  // Scaled by the largest component, so that no square over- or underflows.
+  double largest = 0.0, norm = 0.0;
+  for (const double x : d) largest = std::max(largest, std::abs(x));
+  for (std::size_t k = 0; k < d.size(); ++k) norm += metric[k] * (d[k] / largest) * (d[k] / largest);
+  norm = std::sqrt(norm);
+  if (!std::isfinite(norm) || !(norm > 0.0))
+    throw PluginError("load case: the metric gives the direction " + direction.text() + " no length");
+  for (std::size_t k = 0; k < d.size(); ++k) t[k] = metric[k] * (d[k] / largest) / norm;
+}
+
+double LoadCase::value(const Direction& direction, std::span<const double> macro) const
+{
+  if (direction.is_angle()) return do_value(direction.theta(), macro);
+  std::array<double, max_macro> t{};
+  load(direction, {t.data(), macro.size()});
+  double sum = 0.0;
+  for (std::size_t k = 0; k < macro.size(); ++k) sum += t[k] * macro[k];
+  return sum;
+}
+
+std::vector<std::pair<std::string, double>> LoadCase::companions(const Direction& direction,
+                                                                 std::span<const double> macro) const
+{
+  return direction.is_angle() ? do_companions(direction.theta(), macro)
+                              : std::vector<std::pair<std::string, double>>{};
+}
+
+std::string LoadCase::sense_name(const Direction& direction, Sense sense) const
+{
+  if (!direction.is_angle()) return sense == Sense::positive ? "along" : "against";
+  const auto names = sense_names();
+  return sense == Sense::positive ? names.first : names.second;
+}
+
+bool LoadCase::takes_components() const
+{
+  const std::vector<MacroInfo>& unknowns = macros();
+  return std::all_of(unknowns.begin(), unknowns.end(),
+                     [power = value_length_power()](const MacroInfo& m) { return m.length_power == power; });
+}
+
+Boundedness LoadCase::boundedness(const Direction& direction, Sense sense, std::span<const Vec3> cycles) const
+{
+  std::array<double, max_macro> t{};
+  const std::span<double> pull{t.data(), static_cast<std::size_t>(macro_count())};
+  load(direction, pull);
+  if (sense == Sense::negative) {
+    for (double& x : pull) x = -x;
+  }
+  return do_boundedness(pull, cycles);
 }
 
 }  // namespace hauberk

@@ -158,7 +158,7 @@ class Computation {
     const LimitTask& limit = tasks_[task];
     const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
-    const Vector load = load_vector(model_, limit.direction_deg * degree, limit.sense);
+    const Vector load = load_vector(model_, limit.direction, limit.sense);
     try {
       for (int k = 0; k < settings_.tilts; ++k) {
         const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
@@ -239,7 +239,7 @@ class Computation {
       const int power = model_.load->macros()[static_cast<std::size_t>(k)].length_power;
       macro.push_back(r.macro[static_cast<std::size_t>(k)].second / std::pow(model_.length, power));
     }
-    const double v = model_.load->value(task.direction_deg * degree, macro);
+    const double v = model_.load->value(task.direction, macro);
     return task.sense == Sense::positive ? v : -v;
   }
 
@@ -253,15 +253,14 @@ class Computation {
     const auto t0 = std::chrono::steady_clock::now();
     std::optional<FoundState> out;
     try {
-      out = FoundState{limit_from_state(model_, tasks_[task], settings_, states[*best].locked.state,
-                                        [this] { return going(); }),
-                       fmt::format("{}{} degrees, {}", learnt_origin, results_[donor].direction_deg,
-                                   results_[donor].sense),
-                       states[*best].seed};
+      out = FoundState{
+          limit_from_state(model_, tasks_[task], settings_, states[*best].locked.state,
+                           [this] { return going(); }),
+          fmt::format("{}{}, {}", learnt_origin, results_[donor].direction.text(), results_[donor].sense),
+          states[*best].seed};
     } catch (const std::exception& failure) {
-      states_[task].remark =
-          fmt::format("from the state at {} degrees, {}: {}", results_[donor].direction_deg,
-                      results_[donor].sense, failure.what());
+      states_[task].remark = fmt::format("from the state at {}, {}: {}", results_[donor].direction.text(),
+                                         results_[donor].sense, failure.what());
     }
     states_[task].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     return out;
@@ -308,8 +307,8 @@ class Computation {
       if (!going()) {
         for (const auto& [task, donor] : lessons) {
           results_[task].status = LimitStatus::interrupted;
-          results_[task].message = fmt::format("a further state was known from {} degrees, {}",
-                                               results_[donor].direction_deg, results_[donor].sense);
+          results_[task].message = fmt::format("a further state was known from {}, {}",
+                                               results_[donor].direction.text(), results_[donor].sense);
         }
         return;
       }
@@ -320,9 +319,6 @@ class Computation {
       }
     }
   }
-
-  /// A further state must be so by more than the gaps that a schedule leaves.
-  static double further_than(const LimitSettings& s) { return std::max(1e-8, s.schedule.last); }
 
   /// Starts that were done before an interrupt are worth keeping.
   void keep_unfinished(std::size_t task)
@@ -353,20 +349,24 @@ class Computation {
 
 }  // namespace
 
+double further_than(const LimitSettings& settings) { return std::max(1e-8, settings.schedule.last); }
+
 std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart)
 {
   std::vector<LimitTask> all = tasks;
   if (apart <= 0.0) return all;
   for (const LimitTask& task : tasks) {
+    if (!task.direction.is_angle()) continue;
     const bool lone = std::none_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
-      const double to = std::abs(o.direction_deg - task.direction_deg);
-      return o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
+      const double to = std::abs(o.direction.degrees() - task.direction.degrees());
+      return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
     });
     if (!lone || decided_by_links(model, task)) continue;
     for (const double by : {-apart, apart}) {
-      const LimitTask beside{task.direction_deg + by, task.sense};
+      const LimitTask beside{Direction::at_degrees(task.direction.degrees() + by), task.sense};
       const bool there = std::any_of(all.begin(), all.end(), [&](const LimitTask& o) {
-        return o.sense == task.sense && std::abs(o.direction_deg - beside.direction_deg) < 1e-9;
+        return o.direction.is_angle() && o.sense == task.sense &&
+               std::abs(o.direction.degrees() - beside.direction.degrees()) < 1e-9;
       });
       if (!there && !decided_by_links(model, beside)) all.push_back(beside);
     }

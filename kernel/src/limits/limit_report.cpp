@@ -122,13 +122,12 @@ ContactForce reported_contact(const Model& m, const ContactEnergy::Point& p, dou
 LimitResult limit_header(const Model& m, const LimitTask& task)
 {
   LimitResult r;
-  const auto names = m.load->sense_names();
-  r.direction_deg = task.direction_deg;
-  r.sense = task.sense == Sense::positive ? names.first : names.second;
-  r.measure = m.load->measure();
+  r.direction = task.direction;
+  r.sense = m.load->sense_name(task.direction, task.sense);
+  r.measure = m.load->measure(task.direction);
   // Their names only: there is no state yet.
   const State rest = rest_state(m);
-  r.companions = m.load->companions(task.direction_deg * degree, macro_span(m, rest));
+  r.companions = m.load->companions(task.direction, macro_span(m, rest));
   for (auto& [name, value] : r.companions) value = std::numeric_limits<double>::quiet_NaN();
   return r;
 }
@@ -181,11 +180,10 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   r.evaluations = l.evaluations;
   if (l.stages.empty()) return r;
 
-  const double theta = task.direction_deg * degree;
   const double scale = power(m.length, m.load->value_length_power());
   const State& s = l.state;
-  r.value = m.load->value(theta, macro_span(m, s)) * scale;
-  r.companions = m.load->companions(theta, macro_span(m, s));
+  r.value = m.load->value(task.direction, macro_span(m, s)) * scale;
+  r.companions = m.load->companions(task.direction, macro_span(m, s));
   for (int k = 0; k < m.macro_count; ++k) {
     const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
     r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
@@ -204,7 +202,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   for (const ContactEnergy::Point& p : e.points)
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   // A finite target drives the strain less the nearer it is; imbalance is a part of the full load.
-  const Vector full_load = load_vector(m, theta, task.sense), load = driving_load(s, full_load, l.stage);
+  const Vector full_load = load_vector(m, task.direction, task.sense),
+               load = driving_load(s, full_load, l.stage);
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   const double full = full_load.norm(), driving = load.norm() / full;
   r.force_balance = force_imbalance(m, s, load, e.points, l.stage.mu) / full;
@@ -276,7 +275,7 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   const Locked& l = found.locked;
   LockedState s;
   const double scale = power(m.length, m.load->value_length_power());
-  s.value = m.load->value(task.direction_deg * degree, macro_span(m, l.state)) * scale;
+  s.value = m.load->value(task.direction, macro_span(m, l.state)) * scale;
   for (int k = 0; k < m.macro_count; ++k) {
     s.macro.push_back(l.state.macro[k] *
                       power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));

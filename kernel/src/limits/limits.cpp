@@ -24,7 +24,7 @@ bool sound(const Model& m, const Locked& l, const Schedule& schedule)
 std::optional<LimitResult> decided_by_links(const Model& m, const LimitTask& task)
 {
   const std::vector<Vec3> cycles = cycle_translations(m);
-  const Boundedness b = m.load->boundedness(task.direction_deg * degree, task.sense, cycles);
+  const Boundedness b = m.load->boundedness(task.direction, task.sense, cycles);
   if (b == Boundedness::attained) return std::nullopt;
   LimitResult r = limit_header(m, task);
   r.links_kept = true;
@@ -54,7 +54,7 @@ std::optional<std::size_t> furthest(const Model& m, const LimitTask& task, const
 
 double reached(const Model& m, const LimitTask& task, const State& state)
 {
-  const double v = m.load->value(task.direction_deg * degree, macro_span(m, state));
+  const double v = m.load->value(task.direction, macro_span(m, state));
   return task.sense == Sense::positive ? v : -v;
 }
 
@@ -100,12 +100,14 @@ std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const
     return out.back();
   };
   for (const LimitResult& l : limits) {
+    if (!l.direction.is_angle()) continue;
+    const double direction = l.direction.degrees();
     if (l.status != LimitStatus::locked) {
-      at(l.direction_deg);
+      at(direction);
       continue;
     }
-    if (l.sense == positive) at(l.direction_deg).e_s = l.value;
-    if (l.sense == negative) at(l.direction_deg).e_c = l.value;
+    if (l.sense == positive) at(direction).e_s = l.value;
+    if (l.sense == negative) at(direction).e_c = l.value;
   }
   const bool strain = load.value_length_power() == 0;
   for (ProfilePoint& p : out) {

@@ -222,10 +222,10 @@ Schedule without_widest(const Schedule& s)
   return out;
 }
 
-Vector load_vector(const Model& m, double theta, Sense sense)
+Vector load_vector(const Model& m, const Direction& direction, Sense sense)
 {
   Vector t(m.macro_count);
-  m.load->load(theta, {t.data(), static_cast<std::size_t>(m.macro_count)});
+  m.load->load(direction, {t.data(), static_cast<std::size_t>(m.macro_count)});
   return sense == Sense::positive ? t : Vector(-t);
 }
 

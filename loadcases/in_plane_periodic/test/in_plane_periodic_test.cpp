@@ -136,8 +136,10 @@ TEST(InPlanePeriodic, TensorValue)
 {
   for (const double theta : {0.0, 0.3, 1.2, 2.5}) {
     const Vec3 n(std::cos(theta), std::sin(theta), 0);
-    EXPECT_NEAR(flat.value(theta, strain), n.dot(deformation(strain) * n) - 1.0, 1e-15);
-    EXPECT_NEAR(flat.value(theta, strain), flat.value(theta + std::numbers::pi, strain), 1e-15);
+    EXPECT_NEAR(flat.value(Direction::at_radians(theta), strain), n.dot(deformation(strain) * n) - 1.0,
+                1e-15);
+    EXPECT_NEAR(flat.value(Direction::at_radians(theta), strain),
+                flat.value(Direction::at_radians(theta + std::numbers::pi), strain), 1e-15);
   }
 }
 
@@ -147,10 +149,11 @@ TEST(InPlanePeriodic, PaperValueIsTheLeastSquaresMultiple)
     const double c = std::cos(theta);
     const double s = std::sin(theta);
     const Vec3 d(c * c, s * s, c * s);
-    EXPECT_NEAR(paper.value(theta, strain), d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
+    EXPECT_NEAR(paper.value(Direction::at_radians(theta), strain),
+                d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
     // The published strain of size e along theta is e d: its value is e.
     const Vec3 e = 0.37 * d;
-    EXPECT_NEAR(paper.value(theta, std::span<const double>(e.data(), 3)), 0.37, 1e-15);
+    EXPECT_NEAR(paper.value(Direction::at_radians(theta), std::span<const double>(e.data(), 3)), 0.37, 1e-15);
   }
 }
 
@@ -159,12 +162,16 @@ TEST(InPlanePeriodic, LoadIsTheDerivativeOfTheValue)
   for (const InPlanePeriodic* load_case : {&flat, &paper}) {
     for (const double theta : {0.0, 0.4, 1.5, 2.9}) {
       double t[3];
-      load_case->load(theta, t);
+      load_case->load(Direction::at_radians(theta), t);
       double norm = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
         std::vector<double> m = strain;
         m[k] += 0.25;
-        EXPECT_NEAR(t[k], (load_case->value(theta, m) - load_case->value(theta, strain)) / 0.25, 1e-14);
+        EXPECT_NEAR(t[k],
+                    (load_case->value(Direction::at_radians(theta), m) -
+                     load_case->value(Direction::at_radians(theta), strain)) /
+                        0.25,
+                    1e-14);
         norm += t[k] * t[k];
       }
       EXPECT_GT(norm, 0.9);
@@ -176,13 +183,13 @@ TEST(InPlanePeriodic, LineStretch)
 {
   const double theta = 0.7;
   const Vec3 n(std::cos(theta), std::sin(theta), 0);
-  const auto companions = flat.companions(theta, strain);
+  const auto companions = flat.companions(Direction::at_radians(theta), strain);
   ASSERT_EQ(companions.size(), 1U);
   EXPECT_EQ(companions[0].first, "line_stretch");
   EXPECT_NEAR(companions[0].second, (deformation(strain) * n).norm() - 1.0, 1e-15);
   // No digits are lost for small strains.
   const std::vector<double> tiny = {1e-14, 0.0, 0.0};
-  EXPECT_NEAR(flat.companions(0.0, tiny)[0].second, 1e-14, 1e-28);
+  EXPECT_NEAR(flat.companions(Direction::at_radians(0.0), tiny)[0].second, 1e-14, 1e-28);
 }
 
 TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
@@ -214,7 +221,7 @@ TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
 
 Boundedness bounded(const InPlanePeriodic& load_case, double deg, Sense sense, std::vector<Vec3> cycles)
 {
-  return load_case.boundedness(deg * degree, sense, cycles);
+  return load_case.boundedness(Direction::at_degrees(deg), sense, cycles);
 }
 
 TEST(InPlanePeriodic, BoundedWhereCyclesSpanThePlane)
@@ -275,10 +282,100 @@ TEST(InPlanePeriodic, NotAttainedChainTendsToItsInfimum)
     EXPECT_TRUE(flat.admissible(m));
     EXPECT_NEAR((deformation(m) * Vec3::UnitX()).norm(), 1.0, 1e-14);
     EXPECT_NEAR(deformation(m).determinant(), 1.0, 1e-9);
-    EXPECT_LT(flat.value(0.0, m), previous);
-    previous = flat.value(0.0, m);
+    EXPECT_LT(flat.value(Direction::at_radians(0.0), m), previous);
+    previous = flat.value(Direction::at_radians(0.0), m);
   }
   EXPECT_LT(previous, -0.999);
+}
+
+/// Of a load on (exx, eyy, exy).
+Boundedness bounded(std::array<double, 3> load, const std::vector<Vec3>& cycles)
+{
+  return flat.boundedness(load, cycles);
+}
+
+TEST(InPlanePeriodic, AnyLoadIsBoundedWhereCyclesSpan)
+{
+  const std::vector<Vec3> square = {Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  for (const auto& load : {std::array{1.0, 1.0, 0.0}, std::array{-1.0, 2.0, 0.5}, std::array{0.0, 0.0, 1.0}})
+    EXPECT_EQ(bounded(load, square), Boundedness::attained);
+}
+
+TEST(InPlanePeriodic, LoadsOnChains)
+{
+  const std::vector<Vec3> chain = {Vec3(2, 0, 0)};  // along x, so that eyy is free to grow
+  EXPECT_EQ(bounded({1, 1, 0}, chain), Boundedness::unbounded);
+  EXPECT_EQ(bounded({-1, 1, 0}, chain), Boundedness::unbounded);
+  EXPECT_EQ(bounded({1, -1, 0}, chain), Boundedness::attained);
+  EXPECT_EQ(bounded({-1, -1, 0}, chain), Boundedness::attained) << "rows pressed together";
+  EXPECT_EQ(bounded({-1, -1e-6, 5}, chain), Boundedness::attained);
+  EXPECT_EQ(bounded({1, 0, 0}, chain), Boundedness::attained);
+  EXPECT_EQ(bounded({1, 0, 2}, chain), Boundedness::attained) << "the chain turns by 45 degrees";
+  EXPECT_EQ(bounded({1, 0, -2}, chain), Boundedness::attained);
+  EXPECT_EQ(bounded({0, 0, 1}, chain), Boundedness::not_attained);
+  EXPECT_EQ(bounded({-1, 0, 3}, chain), Boundedness::not_attained);
+  EXPECT_EQ(bounded({-1, 0, 0}, chain), Boundedness::not_attained);
+}
+
+TEST(InPlanePeriodic, LoadsOnNothingLinked)
+{
+  EXPECT_EQ(bounded({1, 1, 0}, {}), Boundedness::unbounded);
+  EXPECT_EQ(bounded({1, -5, 0}, {}), Boundedness::unbounded);
+  EXPECT_EQ(bounded({0, 0, 1}, {}), Boundedness::unbounded);
+  EXPECT_EQ(bounded({-1, -1, 0}, {}), Boundedness::attained);
+  EXPECT_EQ(bounded({-1, -1, 1.9}, {}), Boundedness::attained);
+  EXPECT_EQ(bounded({-1, -1, 2}, {}), Boundedness::not_attained) << "a line: singular";
+  EXPECT_EQ(bounded({-1, -1, 2.1}, {}), Boundedness::unbounded);
+}
+
+/// What is decided does not depend on the frame, nor on the size of the load.
+TEST(InPlanePeriodic, LoadsOnChainsTurnWithTheFrame)
+{
+  for (const double deg : {17.0, 90.0, 133.0}) {
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(deg * degree).toRotationMatrix();
+    const Vec3 T(12.0 * R(0, 0), 12.0 * R(1, 0), 0.0);
+    for (const auto& load :
+         {std::array{1.0, 0.0, 0.0}, std::array{0.0, 0.0, 1.0}, std::array{1.0, 0.0, 2.0},
+          std::array{-1.0, 0.0, 3.0}, std::array{-1.0, 1e-7, 0.0}, std::array{1.0, -1e-7, 0.3},
+          std::array{-1.0, 0.0, 0.0}, std::array{-2.0, -1.0, 1.0}}) {
+      Eigen::Matrix2d M;
+      M << load[0], 0.5 * load[2], 0.5 * load[2], load[1];
+      M = 1e-3 * R * M * R.transpose();
+      EXPECT_EQ(bounded({M(0, 0), M(1, 1), 2.0 * M(0, 1)}, {T}), bounded(load, {Vec3::UnitX()}))
+          << deg << ": " << load[0] << ' ' << load[1] << ' ' << load[2];
+    }
+  }
+}
+
+/// The paths behind the answers for a load M with M_aa = 0 on chains along x of length 1: the value is
+/// M_tt p + 2 M_ta q with (p, q) = F t. Turned chains with rows far apart are admissible, and along them the
+/// values tend to 2 |M_ta| without reaching it where M_tt <= 0, and have an inner maximum |(M_tt, 2 M_ta)|
+/// where M_tt > 0.
+TEST(InPlanePeriodic, ChainsTurnTowardsTheirBestState)
+{
+  const auto turned = [](double phi) {
+    const double p = std::cos(phi);
+    const double q = std::sin(phi);
+    return std::array{p - 1.0, (2.0 + q * q) / p - 1.0, q};
+  };
+  const auto value = [&turned](const std::array<double, 3>& load, double phi) {
+    const std::array<double, 3> m = turned(phi);
+    EXPECT_TRUE(flat.admissible(m));
+    EXPECT_NEAR((deformation({m[0], m[1], m[2]}) * Vec3::UnitX()).norm(), 1.0, 1e-14);
+    EXPECT_GT(deformation({m[0], m[1], m[2]}).determinant(), 1.9);
+    return load[0] * (m[0] + 1.0) + load[1] * m[1] + load[2] * m[2];
+  };
+  double previous = -2.0;
+  for (const double phi : {0.5, 1.0, 1.4, 1.5, 1.57, 1.5707}) {
+    const double v = value({-1.0, 0.0, 3.0}, phi);
+    EXPECT_GT(v, previous);
+    EXPECT_LT(v, 3.0);
+    previous = v;
+  }
+  EXPECT_GT(previous, 2.999);
+  const double best = value({1.0, 0.0, 2.0}, std::atan2(2.0, 1.0));
+  EXPECT_NEAR(best, std::sqrt(5.0), 1e-14);
+  for (const double phi : {0.0, 0.9, 1.2, 1.57}) EXPECT_LT(value({1.0, 0.0, 2.0}, phi), best);
 }
 
 TEST(InPlanePeriodic, SettingsAreRead)

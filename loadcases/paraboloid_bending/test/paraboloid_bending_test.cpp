@@ -120,9 +120,9 @@ TEST(ParaboloidBending, ValueIsTheCurvatureOfTheSection)
           .x.z();
     };
     const double curvature = (z(h) - 2.0 * z(0.0) + z(-h)) / (h * h);
-    EXPECT_NEAR(load.value(theta, macro), curvature, 1e-9);
+    EXPECT_NEAR(load.value(Direction::at_radians(theta), macro), curvature, 1e-9);
     std::array<double, 3> t{};
-    load.load(theta, t);
+    load.load(Direction::at_radians(theta), t);
     EXPECT_NEAR(t[0] * macro[0] + t[1] * macro[1] + t[2] * macro[2], curvature, 1e-9);
   }
 }

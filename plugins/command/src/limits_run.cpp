@@ -1,7 +1,20 @@
 #include "limits_run.hpp"
 #include "interrupt.hpp"
 
+#include <hauberk/limits/boundary.hpp>
+
+#include <cmath>
+
 namespace hauberk::command {
+
+std::optional<BoundarySurface> boundary_of(const Experiment& experiment, const LimitSettings& settings,
+                                           double length, const std::vector<LimitResult>& limits)
+{
+  if (experiment.directions.empty()) return std::nullopt;
+  const double scale = std::pow(length, experiment.load_case->value_length_power());
+  return boundary_surface(limits, experiment.triangles, *experiment.load_case,
+                          further_than(settings) * scale);
+}
 
 std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink)
 {

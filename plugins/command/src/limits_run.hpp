@@ -26,6 +26,10 @@ struct LimitsJob {
   std::vector<std::optional<LimitResult>> known;
 };
 
+/// The surface of an experiment's limits along components; null when it has none. `length` is L.
+std::optional<BoundarySurface> boundary_of(const Experiment& experiment, const LimitSettings& settings,
+                                           double length, const std::vector<LimitResult>& limits);
+
 /// All limits so far; those not finished have status interrupted.
 using LimitsSink = std::function<void(const std::vector<LimitResult>&)>;
 

@@ -122,15 +122,16 @@ bool prepare_scene(Loaded& loaded, Diagnostics& diagnostics)
 void check_targets(const Loaded& loaded, Diagnostics& diagnostics)
 {
   const std::size_t per = loaded.design->quantity == DesignQuantity::eta ? 2 : 1;
-  const auto names = loaded.experiment.load_case->sense_names();
   for (std::size_t k = 0; k < per * loaded.design->targets.size(); ++k) {
     const auto& [task, bounded] = loaded.plan.bounded[k];
     if (bounded == "attained") continue;
     const std::string pointer = fmt::format("/design/targets/{}", k / per);
     diagnostics.problems.add(
         nearest_node(loaded.experiment.resolved, pointer),
-        fmt::format("{} at {:g} degrees is {}: links set no limit that a design could change",
-                    task.sense == Sense::positive ? names.first : names.second, task.direction_deg, bounded));
+        fmt::format(
+            "{} is {}: links set no limit that a design could change",
+            limit_name(loaded.experiment.load_case->sense_name(task.direction, task.sense), task.direction),
+            bounded));
   }
 }
 

@@ -82,8 +82,10 @@ Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned t
   names_.macro.clear();
   for (const MacroInfo& macro : e.load_case->macros()) names_.macro.push_back(macro.name);
   labels_.title = e.name;
-  labels_.subtitle = fmt::format("{}, measure {}, clearance {:g} {}", e.load_case_plugin,
-                                 e.load_case->measure(), e.solver.clearance, e.length_unit);
+  labels_.subtitle =
+      fmt::format("{}, measure {}, clearance {:g} {}", e.load_case_plugin,
+                  e.directions.empty() ? e.load_case->measure() : e.load_case->measure(e.directions.front()),
+                  e.solver.clearance, e.length_unit);
   std::tie(labels_.positive, labels_.negative) = e.load_case->sense_names();
   labels_.unit = unit_of(loaded);
 }

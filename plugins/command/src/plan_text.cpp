@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 #include <boost/json/array.hpp>
 
+#include <hauberk/results/direction_json.hpp>
+
 #include <map>
 
 namespace hauberk::command {
@@ -11,10 +13,9 @@ namespace {
 
 namespace json = boost::json;
 
-std::string sense_name(const Loaded& loaded, Sense sense)
+std::string sense_name(const Loaded& loaded, const LimitTask& task)
 {
-  const auto names = loaded.experiment.load_case->sense_names();
-  return sense == Sense::positive ? names.first : names.second;
+  return loaded.experiment.load_case->sense_name(task.direction, task.sense);
 }
 
 /// "4 each", or "0: 4, 1: 2, ...".
@@ -28,15 +29,27 @@ std::string links_text(const std::vector<int>& links)
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// "0, 30 degrees"; "(1, 0, 0), (0, 1, 0)", or how many there are.
+std::string directions_text(const std::vector<Direction>& directions)
+{
+  constexpr std::size_t most_listed = 12;
+  std::vector<std::string> parts;
+  for (const Direction& d : directions)
+    parts.push_back(d.is_angle() ? fmt::format("{}", d.degrees()) : d.text());
+  const bool angles = directions.front().is_angle();
+  if (!angles && parts.size() > most_listed) return fmt::format("{} directions", parts.size());
+  return fmt::format("{}{}", fmt::join(parts, ", "), angles ? " degrees" : "");
+}
+
 /// Directions by sense and by what the links say about them.
 std::string bounded_text(const Loaded& loaded)
 {
-  std::map<std::pair<std::string, std::string>, std::vector<double>> groups;
+  std::map<std::pair<std::string, std::string>, std::vector<Direction>> groups;
   for (const auto& [task, what] : loaded.plan.bounded)
-    groups[{sense_name(loaded, task.sense), what}].push_back(task.direction_deg);
+    groups[{sense_name(loaded, task), what}].push_back(task.direction);
   std::string text;
   for (const auto& [key, directions] : groups)
-    text += fmt::format("  {} {}: {} degrees\n", key.first, key.second, fmt::join(directions, ", "));
+    text += fmt::format("  {} {}: {}\n", key.first, key.second, directions_text(directions));
   return text;
 }
 
@@ -68,10 +81,13 @@ json::object plan_json(const Loaded& loaded)
   json::array& decisions = out["decisions"].emplace_array();
   for (const std::string& d : p.decisions) decisions.push_back(json::string(d));
   json::array& bounded = out["bounded"].emplace_array();
-  for (const auto& [task, what] : p.bounded)
-    bounded.push_back({{"direction_deg", task.direction_deg},
-                       {"sense", sense_name(loaded, task.sense)},
-                       {"bounded", what}});
+  for (const auto& [task, what] : p.bounded) {
+    json::object entry;
+    enter_direction(entry, task.direction);
+    entry["sense"] = sense_name(loaded, task);
+    entry["bounded"] = what;
+    bounded.push_back(std::move(entry));
+  }
   out["rest_moved"] = loaded.moved;
   return out;
 }

@@ -4,6 +4,7 @@
 #include "sweep_run.hpp"
 
 #include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/results/direction_json.hpp>
 #include <hauberk/results/json_text.hpp>
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   r.resumed = true;
   r.status = *status;
   r.load_case = text(entry.at("load_case"));
-  r.direction_deg = number(entry.at("direction_deg"));
+  r.direction = entered_direction(entry);
   r.sense = text(entry.at("sense"));
   r.measure = text(entry.at("measure"));
   r.message = text(entry.at("message"));
@@ -77,16 +78,15 @@ void read_limits(const json::value& document, const Loaded& loaded, Resumed& out
   const LoadCase& load = *loaded.experiment.load_case;
   const std::vector<double> rest(static_cast<std::size_t>(load.macro_count()), 0.0);
   std::vector<std::string> companions;
-  for (const auto& [name, value] : load.companions(0.0, rest)) companions.push_back(name);
-  const auto names = load.sense_names();
+  for (const auto& [name, value] : load.companions(Direction(), rest)) companions.push_back(name);
   out.complete = true;
   for (const LimitTask& task : loaded.tasks) {
     out.limits.emplace_back();
     out.entries.emplace_back(nullptr);
     for (const json::value& entry : document.at("limits").as_array()) {
       const json::object& o = entry.as_object();
-      const std::string& sense = task.sense == Sense::positive ? names.first : names.second;
-      if (number(o.at("direction_deg")) != task.direction_deg || text(o.at("sense")) != sense) continue;
+      const std::string sense = load.sense_name(task.direction, task.sense);
+      if (entered_direction(o) != task.direction || text(o.at("sense")) != sense) continue;
       out.limits.back() = read_limit(o, companions);
       if (out.limits.back()) out.entries.back() = entry;
     }
@@ -107,9 +107,8 @@ bool same_case(const json::object& entry, const StabilityMap& map, const Stabili
   return text(entry.at("family")) == map.families[c.family].name &&
          text(entry.at("member")) == map.families[c.family].labels[c.member] &&
          text(entry.at("method")) == map.methods[c.method] &&
-         (c.sense.empty()
-              ? entry.at("sense").is_null()
-              : text(entry.at("sense")) == c.sense && number(entry.at("direction_deg")) == c.direction_deg);
+         (c.sense.empty() ? entry.at("sense").is_null()
+                          : text(entry.at("sense")) == c.sense && entered_direction(entry) == c.direction);
 }
 
 void take_case(const json::object& entry, StabilityCase& c)

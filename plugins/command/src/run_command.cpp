@@ -70,12 +70,15 @@ void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resu
   const LimitsJob job{&model,  &loaded.scene, loaded.tasks,  loaded.settings, e.load_case_plugin,
                       threads, "limits",      resumed.limits};
   output.keep(resumed.entries);
-  run.limits = run_limits(job, progress, [&](const std::vector<LimitResult>& so_far) {
-    run.limits = so_far;
+  const auto enter = [&](std::vector<LimitResult> limits) {
+    run.limits = std::move(limits);
     run.profiles = profiles(run.limits, *e.load_case);
+    run.boundary = boundary_of(e, loaded.settings, model.length, run.limits);
+  };
+  enter(run_limits(job, progress, [&](const std::vector<LimitResult>& so_far) {
+    enter(so_far);
     output.write_sometimes(run);
-  });
-  run.profiles = profiles(run.limits, *e.load_case);
+  }));
 }
 
 /// Prints expectations that fail; true if there are any.

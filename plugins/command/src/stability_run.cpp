@@ -76,11 +76,10 @@ StabilityMap empty_map(const Loaded& loaded)
       map.cases.push_back(c);
       continue;
     }
-    const auto names = item.experiment->load_case->sense_names();
     for (const LimitTask& task : profile_tasks(*item.experiment)) {
-      c.direction_deg = task.direction_deg;
+      c.direction = task.direction;
       c.upward = task.sense == Sense::positive;
-      c.sense = c.upward ? names.first : names.second;
+      c.sense = item.experiment->load_case->sense_name(task.direction, task.sense);
       map.cases.push_back(c);
     }
   }

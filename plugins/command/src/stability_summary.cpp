@@ -27,7 +27,9 @@ std::string remark(const StabilityMap& map, const StabilityCase& c)
   const StabilityFamilyResult& family = map.families[c.family];
   std::string reason = c.reason;
   if (reason.size() > longest_reason) reason = reason.substr(0, longest_reason) + "...";
-  const std::string limit = c.sense.empty() ? "" : fmt::format(", {} at {:g}", c.sense, c.direction_deg);
+  const std::string at =
+      c.direction.is_angle() ? fmt::format("at {:g}", c.direction.degrees()) : c.direction.text();
+  const std::string limit = c.sense.empty() ? "" : fmt::format(", {} {}", c.sense, at);
   return fmt::format("{}, {}, {}{}: {}: {}\n", family.name, family.labels[c.member], map.methods[c.method],
                      limit, to_string(c.outcome), reason);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hauberk::command {
 namespace {
@@ -20,7 +21,7 @@ std::string cell(const std::optional<double>& value) { return value ? fmt::forma
 std::string limit_cell(const std::vector<LimitResult>& limits, double direction, const std::string& sense)
 {
   for (const LimitResult& l : limits) {
-    if (l.direction_deg != direction || l.sense != sense) continue;
+    if (!l.direction.is_angle() || l.direction.degrees() != direction || l.sense != sense) continue;
     if (l.status == LimitStatus::locked && l.value)
       return fmt::format("{:.8f}", *l.value) + (l.better_state ? "*" : "");
     return to_string(l.status);
@@ -43,6 +44,41 @@ std::string limits_table(const Loaded& loaded, const RunResult& run)
   }
   for (const LimitResult& l : run.limits) better = better || l.better_state;
   if (better) text += "* further than where the first start from rest led\n";
+  return text;
+}
+
+/// Limits along components: all of a few, the extremes of many, and what shows that some are not the
+/// furthest.
+std::string boundary_table(const Loaded& loaded, const RunResult& run)
+{
+  constexpr std::size_t most_listed = 24;
+  std::string text, names;
+  for (const MacroInfo& m : loaded.experiment.load_case->macros())
+    names += (names.empty() ? "" : ", ") + m.name;
+  if (run.limits.size() <= most_listed) {
+    text += fmt::format("{:>34} {:>15}\n", "direction (" + names + ")", "along");
+    for (const LimitResult& l : run.limits) {
+      const bool locked = l.status == LimitStatus::locked && l.value;
+      text += fmt::format("{:>34} {:>15}\n", l.direction.text(),
+                          locked ? fmt::format("{:.8f}", *l.value) : to_string(l.status));
+    }
+  } else {
+    std::size_t locked = 0;
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const LimitResult& l : run.limits) {
+      if (l.status != LimitStatus::locked || !l.value) continue;
+      ++locked;
+      least = std::min(least, *l.value);
+      most = std::max(most, *l.value);
+    }
+    text += fmt::format("{} directions of ({}), {} locked", run.limits.size(), names, locked);
+    text += locked > 0 ? fmt::format(", from {:.8f} to {:.8f}\n", least, most) : "\n";
+  }
+  for (const BoundarySurface::Shortfall& s : run.boundary->shortfalls) {
+    const auto text_of = [&run](int k) { return run.limits[static_cast<std::size_t>(k)].direction.text(); };
+    text += fmt::format("{}: not the furthest, the state of {} is further by {:.3g}\n", text_of(s.limit),
+                        text_of(s.state), s.by);
+  }
   return text;
 }
 
@@ -88,7 +124,7 @@ std::string remarks(const RunResult& run)
   std::string text;
   for (const LimitResult& l : run.limits) {
     if (answered(l) && (l.status != LimitStatus::locked || l.message.empty())) continue;
-    text += fmt::format("{} at {:g} degrees: {}{}{}\n", l.sense, l.direction_deg, to_string(l.status),
+    text += fmt::format("{}: {}{}{}\n", limit_name(l.sense, l.direction), to_string(l.status),
                         l.message.empty() ? "" : ": ", l.message);
   }
   return text;
@@ -111,6 +147,7 @@ std::string summary(const Loaded& loaded, const RunResult& run)
     text += design_table(*run.design, loaded.design->starts) + "\n";
     text += variables_table(*run.design, loaded.experiment.length_unit) + "\n";
   }
+  if (run.boundary) text += boundary_table(loaded, run);
   if (!run.profiles.empty()) text += limits_table(loaded, run);
   return text + remarks(run);
 }

@@ -11,8 +11,8 @@ constexpr double same_direction = 1e-9;  ///< degrees
 
 bool same(const LimitTask& a, const LimitTask& b)
 {
-  return a.sense == b.sense &&
-         std::abs(std::remainder(a.direction_deg - b.direction_deg, 180.0)) < same_direction;
+  return a.sense == b.sense && a.direction.is_angle() && b.direction.is_angle() &&
+         std::abs(std::remainder(a.direction.degrees() - b.direction.degrees(), 180.0)) < same_direction;
 }
 
 DesignQuantity quantity_of(const std::string& name)
@@ -26,9 +26,11 @@ DesignQuantity quantity_of(const std::string& name)
 std::vector<LimitTask> profile_tasks(const Experiment& experiment)
 {
   std::vector<LimitTask> tasks;
+  tasks.reserve(experiment.directions_deg.size() * experiment.senses.size() + experiment.directions.size());
   for (const double direction : experiment.directions_deg) {
-    for (const Sense sense : experiment.senses) tasks.push_back({direction, sense});
+    for (const Sense sense : experiment.senses) tasks.push_back({Direction::at_degrees(direction), sense});
   }
+  for (const Direction& direction : experiment.directions) tasks.push_back({direction, Sense::positive});
   return tasks;
 }
 

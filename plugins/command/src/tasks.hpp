@@ -8,7 +8,7 @@
 
 namespace hauberk::command {
 
-/// directions x senses of the load case, direction by direction.
+/// Angles x senses of the load case, angle by angle; then directions along components.
 std::vector<LimitTask> profile_tasks(const Experiment& experiment);
 
 /// The design as the kernel takes it. The experiment must have the section.

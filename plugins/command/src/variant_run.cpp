@@ -1,5 +1,6 @@
 #include "variant_run.hpp"
 #include "interrupt.hpp"
+#include "limits_run.hpp"
 #include "presets.hpp"
 #include "tasks.hpp"
 
@@ -38,6 +39,7 @@ RunResult run_variant(const Experiment& e)
   settings.start = std::move(prepared.start);
   run.limits = compute_limits(model, run.scene, profile_tasks(e), settings, 1, observer);
   run.profiles = profiles(run.limits, *e.load_case);
+  run.boundary = boundary_of(e, settings, model.length, run.limits);
   return run;
 }
 

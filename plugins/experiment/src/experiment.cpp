@@ -60,13 +60,18 @@ double scene_length(const Node& root, const SceneSpec& scene, bool scene_complet
 void complete_directions(Node& root, Problems& problems, Experiment& experiment)
 {
   Node* section = find_mutable(root, "load_case");
-  if (section == nullptr || section->find("directions_deg") != nullptr) return;
-  const std::string pointer = section->pointer + "/directions_deg";
-  for (const Problem& problem : problems.list()) {
-    if (pointer_within(problem.pointer, pointer)) return;  // given, but wrong
+  if (section == nullptr) return;
+  for (const char* key : {"directions_deg", "directions"}) {
+    if (section->find(key) != nullptr) return;
+    const std::string pointer = section->pointer + "/" + key;
+    for (const Problem& problem : problems.list()) {
+      if (pointer_within(problem.pointer, pointer)) return;  // given, but wrong
+    }
   }
   if (experiment.task != Task::design) {
-    problems.add(*section, "missing key 'directions_deg': expected an array of at least 1 numbers");
+    problems.add(
+        *section,
+        "missing key 'directions_deg': expected an array of at least 1 numbers, or key 'directions'");
   } else if (experiment.design) {
     for (const ExperimentTarget& target : experiment.design->targets) {
       experiment.directions_deg.push_back(target.direction_deg);

@@ -77,6 +77,28 @@ Field cell_field()
            "false")}));
 }
 
+Field directions_field()
+{
+  Field list_of = at_least_items(
+      list("list",
+           "Triples in the load case's unknowns: (exx, eyy, exy), or (A, B, C). Their lengths do not count.",
+           numbers("direction", "Components.", 3)),
+      1);
+  Field parts = at_least(
+      integer(
+          "sphere",
+          "Parts into which the edges of an icosahedron are divided: 10 n^2 + 2 directions, evenly over the "
+          "sphere in the load case's metric, and the triangles between them."),
+      1);
+  parts.maximum = 32;
+  return any_of(
+      "directions",
+      "Directions of the macroscopic unknowns instead of directions_deg, each with one sense, further "
+      "along it: a list, or a sphere. The other unknowns are free. Not for designs.",
+      {std::move(list_of),
+       object("sampling", "An even sampling of all directions.", {required(std::move(parts))})});
+}
+
 Field load_case_field()
 {
   return required(object(
@@ -87,7 +109,10 @@ Field load_case_field()
                        "Directions of loading, modulo 180. A design uses them for its final profile; absent "
                        "there, the directions of its targets are used."),
            "degree"),
-       at_least_items(list("senses", "Senses to load in, as the load case names them; absent: both.",
+       directions_field(),
+       at_least_items(list("senses",
+                           "Senses to load in, as the load case names them; absent: both. Not with "
+                           "directions.",
                            string("sense", "stretch or compress, up or down.")),
                       1)}));
 }
@@ -130,8 +155,8 @@ Field solver_field()
                "0.01"),
            with_default(
                at_least(number("neighbours",
-                               "A limit that has no other of its sense within this angle learns from limits "
-                               "at it to either side, which are not reported; 0: none.",
+                               "A limit at an angle without another of its sense within this many degrees "
+                               "learns from limits that far to either side, which are not reported; 0: none.",
                                "degree"),
                         0.0),
                "10"),

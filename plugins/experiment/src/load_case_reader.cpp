@@ -89,8 +89,10 @@ void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Exp
   experiment.load_case = plugins.load_case(*section, experiment.scene.length, problems);
   if (experiment.load_case) {
     check_extent(root, *section, *experiment.load_case, problems);
-    read_senses(*section, *experiment.load_case, problems, experiment.senses);
+    if (section->find("directions") == nullptr)
+      read_senses(*section, *experiment.load_case, problems, experiment.senses);
   }
+  read_directions(*section, problems, experiment);
 
   if (const Node* list = find_typed(*section, "directions_deg", Node::Type::array)) {
     std::vector<std::pair<const Node*, double>> directions;

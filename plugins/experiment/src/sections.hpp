@@ -21,6 +21,10 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed);
 /// load_case: plugin, directions, senses, into `experiment`, whose scene.length must be set.
 void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Experiment& experiment);
 
+/// load_case.directions; the load case and the task must have been read. The file's other ways to say what is
+/// asked for (directions_deg, senses) are refused beside it.
+void read_directions(const Node& section, Problems& problems, Experiment& experiment);
+
 /// design; needs scene, load case and solver of `experiment`. `tile_of`: see ReadScene. `scene_complete`:
 /// nothing was wrong with it.
 ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& problems,

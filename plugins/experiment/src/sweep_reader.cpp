@@ -119,6 +119,11 @@ std::vector<SweepMeasure> all_limits(const ExperimentSweep& sweep, const Experim
       out.push_back({std::move(name), "/limits/" + std::to_string(out.size()) + "/value"});
     }
   }
+  for (std::size_t d = 0; d < experiment.directions.size(); ++d) {
+    const bool same = !varies(sweep, "/load_case/directions") && !varies(sweep, "/load_case/plugin");
+    out.push_back({same ? "along " + experiment.directions[d].text() : "limit " + std::to_string(d + 1),
+                   "/limits/" + std::to_string(d) + "/value"});
+  }
   return out;
 }
 

@@ -42,11 +42,11 @@ class GuardedLoadCase final : public LoadCase {
   }
   void do_load(double theta, std::span<double> t) const override
   {
-    guard_("load", [&] { inner_->load(theta, t); });
+    guard_("load", [&] { inner_->load(Direction::at_radians(theta), t); });
   }
   double do_value(double theta, Values macro) const override
   {
-    return guard_("value", [&] { return inner_->value(theta, macro); });
+    return guard_("value", [&] { return inner_->value(Direction::at_radians(theta), macro); });
   }
   std::string do_measure() const override
   {
@@ -58,7 +58,7 @@ class GuardedLoadCase final : public LoadCase {
   }
   std::vector<std::pair<std::string, double>> do_companions(double theta, Values macro) const override
   {
-    return guard_("companions", [&] { return inner_->companions(theta, macro); });
+    return guard_("companions", [&] { return inner_->companions(Direction::at_radians(theta), macro); });
   }
   std::pair<std::string, std::string> do_sense_names() const override
   {
@@ -76,9 +76,9 @@ class GuardedLoadCase final : public LoadCase {
   {
     return guard_("equalities", [&] { return inner_->equalities(X); });
   }
-  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override
+  Boundedness do_boundedness(Values load, std::span<const Vec3> cycles) const override
   {
-    return guard_("boundedness", [&] { return inner_->boundedness(theta, sense, cycles); });
+    return guard_("boundedness", [&] { return inner_->boundedness(load, cycles); });
   }
 
  private:

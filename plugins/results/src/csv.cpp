@@ -35,7 +35,13 @@ std::string limits_csv(std::span<const LimitResult> limits, const std::vector<st
     collect(limit.companions, companions);
     collect(limit.macro, macros);
   }
-  std::vector<std::string> header{"load_case", "direction_deg", "sense", "measure", "value"};
+  const bool components =
+      std::any_of(limits.begin(), limits.end(), [](const LimitResult& l) { return !l.direction.is_angle(); });
+  std::vector<std::string> header{"load_case", "direction_deg"};
+  if (components) {
+    for (const std::string& name : macro_names) header.push_back(text_cell("direction_" + name));
+  }
+  header.insert(header.end(), {"sense", "measure", "value"});
   for (const auto* names : {&companions, &macros})
     for (const std::string& name : *names) header.push_back(text_cell(name));
   for (const char* name : {"status", "iterations", "evaluations", "seconds", "min_gap", "error_estimate",
@@ -44,8 +50,13 @@ std::string limits_csv(std::span<const LimitResult> limits, const std::vector<st
 
   std::string out = csv_line(header);
   for (const LimitResult& limit : limits) {
-    std::vector<std::string> row{text_cell(limit.load_case), number_cell(limit.direction_deg),
-                                 text_cell(limit.sense), text_cell(limit.measure), number_cell(limit.value)};
+    std::vector<std::string> row{text_cell(limit.load_case),
+                                 limit.direction.is_angle() ? number_cell(limit.direction.degrees()) : ""};
+    for (std::size_t k = 0; components && k < macro_names.size(); ++k) {
+      const std::span<const double> d = limit.direction.components();
+      row.push_back(k < d.size() ? number_cell(d[k]) : "");
+    }
+    row.insert(row.end(), {text_cell(limit.sense), text_cell(limit.measure), number_cell(limit.value)});
     for (const std::string& name : companions) row.push_back(named_cell(limit.companions, name));
     for (const std::string& name : macros) row.push_back(named_cell(limit.macro, name));
     row.insert(row.end(),

@@ -19,6 +19,14 @@ std::string number_cell(const std::optional<double>& x)
   return text == "null" ? std::string() : text;
 }
 
+std::string direction_cell(const Direction& direction)
+{
+  if (direction.is_angle()) return number_cell(direction.degrees());
+  std::string out;
+  for (const double x : direction.components()) out += (out.empty() ? "(" : " ") + number_text(x);
+  return out + ')';
+}
+
 std::string csv_line(const std::vector<std::string>& cells)
 {
   std::string out;

@@ -39,6 +39,18 @@ json::array profiles_json(const std::vector<ProfilePoint>& profiles)
   return out;
 }
 
+json::object boundary_json(const BoundarySurface& boundary)
+{
+  json::object out;
+  json::array& triangles = out["triangles"].emplace_array();
+  for (const Triangle& t : boundary.triangles) triangles.push_back({t[0], t[1], t[2]});
+  out["margin"] = number(boundary.margin);
+  json::array& shortfalls = out["shortfalls"].emplace_array();
+  for (const BoundarySurface::Shortfall& s : boundary.shortfalls)
+    shortfalls.push_back({{"limit", s.limit}, {"state", s.state}, {"by", number(s.by)}});
+  return out;
+}
+
 json::array variables_json(const std::vector<DesignVariableResult>& variables)
 {
   json::array out;
@@ -125,6 +137,7 @@ json::object results_document(const RunResult& run, const std::string& experimen
   out["limits"] = detail::limits_json(run.limits, names.macro);
   out["profiles"] = profiles_json(run.profiles);
   out["design"] = run.design ? json::value(design_json(*run.design, names.macro)) : json::value(nullptr);
+  if (run.boundary) out["boundary"] = boundary_json(*run.boundary);
   json::object& files = out["files"].emplace_object();
   for (const auto& [what, file] : names.files) files[what] = file;
   return out;

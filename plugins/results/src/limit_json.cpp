@@ -1,5 +1,7 @@
 #include "json_parts.hpp"
 
+#include <hauberk/results/direction_json.hpp>
+
 namespace hauberk::detail {
 namespace {
 
@@ -45,7 +47,7 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
 {
   json::object out;
   out["load_case"] = limit.load_case;
-  out["direction_deg"] = number(limit.direction_deg);
+  enter_direction(out, limit.direction);
   out["sense"] = limit.sense;
   out["measure"] = limit.measure;
   out["value"] = number(limit.value);

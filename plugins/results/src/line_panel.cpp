@@ -20,16 +20,6 @@ struct Range {
 /// Where a value stands on the axis.
 double scaled(const LinePanel& panel, double y) { return panel.decades ? std::asinh(y) : y; }
 
-/// 1, 2 or 5 times a power of ten, so that `span` has at most `most_ticks` of it.
-double tick_step(double span)
-{
-  const double power = std::pow(10.0, std::floor(std::log10(span / most_ticks)));
-  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-    if (span / (factor * power) <= most_ticks) return factor * power;
-  }
-  return 10.0 * power;
-}
-
 Range values_of(const LinePanel& panel)
 {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -112,7 +102,7 @@ class Plot {
   static std::vector<double> ticks(double from, double to)
   {
     std::vector<double> out;
-    const double step = tick_step(to - from);
+    const double step = tick_step(to - from, most_ticks);
     for (double k = std::ceil(from / step - 1e-9); k * step <= to + 1e-9 * step; k += 1.0)
       out.push_back(k == 0.0 ? 0.0 : k * step);
     return out;
@@ -137,6 +127,15 @@ class Plot {
 };
 
 }  // namespace
+
+double tick_step(double span, int most)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(span / most)));
+  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+    if (span / (factor * power) <= most) return factor * power;
+  }
+  return 10.0 * power;
+}
 
 void draw_line_panel(Svg& svg, Point2 corner, const LineFrame& frame, const LinePanel& panel, bool numbered)
 {

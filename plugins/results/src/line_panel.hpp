@@ -41,6 +41,9 @@ struct LineFrame {
 /// title above; those of the x axis below it if `numbered`.
 void draw_line_panel(Svg& svg, Point2 corner, const LineFrame& frame, const LinePanel& panel, bool numbered);
 
+/// 1, 2 or 5 times a power of ten, so that `span` > 0 has at most `most` of it.
+double tick_step(double span, int most);
+
 /// A legend in one row from `corner` on; returns where it ends.
 double draw_line_legend(Svg& svg, Point2 corner, const std::vector<Line>& lines);
 

@@ -24,12 +24,13 @@ std::vector<ProfilePoint> profile_of(const std::vector<LimitResult>& limits)
   std::vector<ProfilePoint> out;
   bool strain = true;
   for (const LimitResult& limit : limits) {
+    if (!limit.direction.is_angle()) continue;
     strain = strain && limit.sense != "up" && limit.sense != "down";
     const auto same = [&](const ProfilePoint& p) {
-      return std::abs(reduced(p.direction_deg) - reduced(limit.direction_deg)) < 1e-9;
+      return std::abs(reduced(p.direction_deg) - reduced(limit.direction.degrees())) < 1e-9;
     };
     auto it = std::find_if(out.begin(), out.end(), same);
-    if (it == out.end()) it = out.insert(out.end(), ProfilePoint{limit.direction_deg, {}, {}, {}});
+    if (it == out.end()) it = out.insert(out.end(), ProfilePoint{limit.direction.degrees(), {}, {}, {}});
     auto& slot = limit.sense == "stretch" || limit.sense == "up" ? it->e_s : it->e_c;
     if (!slot && limit.status == LimitStatus::locked) slot = limit.value;
   }
@@ -60,7 +61,7 @@ std::vector<double> endless(const std::vector<LimitResult>& limits, Quantity qua
   for (const LimitResult& limit : limits) {
     const bool part = quantity == &ProfilePoint::eta ||
                       limit.sense == (quantity == &ProfilePoint::e_s ? labels.positive : labels.negative);
-    const double degrees = reduced(limit.direction_deg);
+    const double degrees = reduced(limit.direction.degrees());
     if (part && limit.status == LimitStatus::unbounded &&
         std::find(out.begin(), out.end(), degrees) == out.end())
       out.push_back(degrees);

@@ -1,3 +1,4 @@
+#include <hauberk/results/direction_json.hpp>
 #include <hauberk/results/stability.hpp>
 
 #include "csv_cells.hpp"
@@ -25,7 +26,10 @@ json::object case_json(const StabilityMap& map, const StabilityCase& c)
   out["family"] = family.name;
   out["member"] = family.labels[c.member];
   out["method"] = map.methods[c.method];
-  out["direction_deg"] = c.sense.empty() ? json::value(nullptr) : number(c.direction_deg);
+  if (c.sense.empty())
+    out["direction_deg"] = nullptr;
+  else
+    enter_direction(out, c.direction);
   out["sense"] = c.sense.empty() ? json::value(nullptr) : json::value(c.sense);
   out["outcome"] = to_string(c.outcome);
   out["reason"] = c.reason;
@@ -130,7 +134,7 @@ std::string stability_csv(const StabilityMap& map)
     const StabilityFamilyResult& family = map.families[c.family];
     out += detail::csv_line(
         {text_cell(family.name), text_cell(family.labels[c.member]), text_cell(map.methods[c.method]),
-         c.sense.empty() ? "" : number_cell(c.direction_deg), c.sense, to_string(c.outcome),
+         c.sense.empty() ? "" : detail::direction_cell(c.direction), c.sense, to_string(c.outcome),
          text_cell(c.reason), c.status, number_cell(c.value), number_cell(c.best_known), number_cell(c.exact),
          number_cell(c.slack), c.contact, number_cell(c.min_gap), number_cell(c.error_estimate),
          number_cell(c.force_balance), std::to_string(c.iterations), std::to_string(c.evaluations),

@@ -69,6 +69,15 @@ void Svg::square(Point2 centre, double half, const std::string& fill, const Stro
            '\n';
 }
 
+void Svg::polygon(std::span<const Point2> points, const std::string& fill, const Stroke& stroke)
+{
+  std::string list;
+  for (const Point2& p : points) list += fmt::format("{}{:.2f},{:.2f}", list.empty() ? "" : " ", p.x, p.y);
+  body_ += fmt::format(R"(<polygon points="{}" fill="{}" stroke-linejoin="round"{}/>)", list, fill,
+                       attributes(stroke)) +
+           '\n';
+}
+
 void Svg::path(std::span<const Point2> points, bool closed, const Stroke& stroke)
 {
   std::string d;

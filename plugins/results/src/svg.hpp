@@ -25,6 +25,7 @@ class Svg {
   void line(Point2 a, Point2 b, const Stroke& stroke);
   void circle(Point2 centre, double radius, const std::string& fill, const Stroke& stroke);
   void square(Point2 centre, double half, const std::string& fill, const Stroke& stroke);
+  void polygon(std::span<const Point2> points, const std::string& fill, const Stroke& stroke);
   void path(std::span<const Point2> points, bool closed, const Stroke& stroke);
   /// `anchor`: start, middle or end. With `halo`, a white rim keeps the text readable on top of lines.
   void text(Point2 at, std::string_view content, double size, const std::string& anchor = "start",

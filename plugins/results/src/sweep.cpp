@@ -88,8 +88,8 @@ void enter_result(const SweepTable& table, SweepRow& row, const RunResult& run,
     if (limit.status != LimitStatus::stalled && limit.status != LimitStatus::failed) continue;
     row.status = RowStatus::failed;
     if (!row.message.empty()) row.message += "; ";
-    row.message += fmt::format("{} at {:g} degrees {}: {}", limit.sense, limit.direction_deg,
-                               to_string(limit.status), limit.message);
+    row.message += fmt::format("{} {}: {}", limit_name(limit.sense, limit.direction), to_string(limit.status),
+                               limit.message);
   }
   row.result = std::move(document);
   row.measured.clear();

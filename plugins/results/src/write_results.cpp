@@ -1,3 +1,4 @@
+#include <hauberk/results/boundary.hpp>
 #include <hauberk/results/csv.hpp>
 #include <hauberk/results/designed_experiment.hpp>
 #include <hauberk/results/json_text.hpp>
@@ -6,6 +7,8 @@
 namespace hauberk {
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run)
 {
+  if (run.boundary)
+    return {{"limits", limits_file}, {"boundary", boundary_file}, {"picture", boundary_picture_file}};
   std::vector<std::pair<std::string, std::string>> out{{"limits", limits_file}, {"profile", profile_file}};
   if (run.design) out.emplace_back("designed", designed_file);
   return out;
@@ -15,8 +18,13 @@ std::vector<NamedContent> results_content(const boost::json::object& document, c
                                           const std::string& experiment_json, const ResultNames& names,
                                           const PlotLabels& labels)
 {
-  std::vector<NamedContent> files{{limits_file, limits_csv(run.limits, names.macro)},
-                                  {profile_file, polar_svg(run, labels)}};
+  std::vector<NamedContent> files{{limits_file, limits_csv(run.limits, names.macro)}};
+  if (run.boundary) {
+    files.push_back({boundary_file, boundary_ply(run, labels.unit, names.macro)});
+    files.push_back({boundary_picture_file, boundary_svg(run, labels, names.macro)});
+  } else {
+    files.push_back({profile_file, polar_svg(run, labels)});
+  }
   if (run.design)
     files.push_back({designed_file, write_json(designed_experiment(experiment_json, run.scene))});
   files.push_back({results_file, write_json(document)});

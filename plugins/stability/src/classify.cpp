@@ -13,9 +13,9 @@ namespace {
 constexpr double slack_factor = 3.0;
 
 /// The same question: scene, direction, sense.
-using Question = std::tuple<std::size_t, double, std::string>;
+using Question = std::tuple<std::size_t, Direction, std::string>;
 
-Question question(const StabilityCase& c) { return {c.scene, c.direction_deg, c.sense}; }
+Question question(const StabilityCase& c) { return {c.scene, c.direction, c.sense}; }
 
 /// Further is larger.
 double further(const StabilityCase& c, double value) { return c.upward ? value : -value; }

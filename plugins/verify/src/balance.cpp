@@ -45,19 +45,25 @@ void add_contact(Vector& residual, const Scene& scene, const Setting& setting, c
 
 }  // namespace
 
-Vec3 load(const std::string& measure, double direction_deg)
+Vec3 load(const Limit& limit)
 {
-  const Vec3 d = products(direction_deg);
+  const std::string& measure = limit.measure;
+  if (limit.direction) {
+    if (measure != "metric") throw Malformed("the measure \"" + measure + "\" is not one of a direction");
+    const Vec3 m(1.0, 1.0, limit.load == Load::strain ? 2.0 : 0.5);
+    const Vec3 d =
+        *limit.direction / limit.direction->cwiseAbs().maxCoeff();  // squares neither vanish nor overflow
+    const Vec3 dual = m.cwiseProduct(d);
+    return dual / std::sqrt(dual.dot(d));
+  }
+  const Vec3 d = products(limit.direction_deg);
   if (measure == "tensor") return {d.x(), d.y(), 2.0 * d.z()};
   if (measure == "paper") return d / d.squaredNorm();
   if (measure == "normal_curvature") return 2.0 * d;
   throw Malformed("the measure \"" + measure + "\" is not known to this check");
 }
 
-double value(const std::string& measure, double direction_deg, const Macro& macro)
-{
-  return load(measure, direction_deg).dot(macro.values);
-}
+double value(const Limit& limit, const Macro& macro) { return load(limit).dot(macro.values); }
 
 double line_stretch(double direction_deg, const Macro& macro)
 {
@@ -65,11 +71,14 @@ double line_stretch(double direction_deg, const Macro& macro)
   return (macro.deformation() * Vec3(std::cos(theta), std::sin(theta), 0.0)).norm() - 1.0;
 }
 
-bool is_positive(const Limit& limit) { return limit.sense == "stretch" || limit.sense == "up"; }
+bool is_positive(const Limit& limit)
+{
+  return limit.sense == "stretch" || limit.sense == "up" || limit.sense == "along";
+}
 
 Vec3 driving_load(const Limit& limit, double length)
 {
-  const Vec3 t = load(limit.measure, limit.direction_deg);
+  const Vec3 t = load(limit);
   Vec3 out = is_positive(limit) ? t : Vec3(-t);
   if (limit.finite_target) out -= scaled(*limit.macro, length) / *limit.finite_target;
   return out;
@@ -86,8 +95,7 @@ double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
     else
       add_wall(residual, scene, contact);
   }
-  return free_part(held(scene, setting), residual).cwiseAbs().maxCoeff() /
-         load(limit.measure, limit.direction_deg).norm();
+  return free_part(held(scene, setting), residual).cwiseAbs().maxCoeff() / load(limit).norm();
 }
 
 }  // namespace hauberk::verification

@@ -3,10 +3,12 @@
 
 namespace hauberk::verification {
 
-/// Load t = d value / d macroscopic unknowns of a measure; throws Malformed when the measure is not known.
-Vec3 load(const std::string& measure, double direction_deg);
-/// Value of a measure.
-double value(const std::string& measure, double direction_deg, const Macro& macro);
+/// Load t = d value / d macroscopic unknowns of a limit's measure and direction; throws Malformed when the
+/// measure is not known. Along components d it is m d / |d| (component by component), |d|^2 = sum m_k d_k^2,
+/// with m = (1, 1, 2) for strains, (1, 1, 1/2) for curvatures: those of the Frobenius norm.
+Vec3 load(const Limit& limit);
+/// Value of a limit's measure at any state.
+double value(const Limit& limit, const Macro& macro);
 /// |F n| - 1.
 double line_stretch(double direction_deg, const Macro& macro);
 

@@ -70,8 +70,7 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
   }
   if (limit.status == "locked" && !(found <= allowed))
     problems.push_back(fmt::format("forces miss the load by {:.3g}, {:.3g} allowed", found, allowed));
-  const double driven =
-      driving_load(limit, scene.length).norm() / load(limit.measure, limit.direction_deg).norm();
+  const double driven = driving_load(limit, scene.length).norm() / load(limit).norm();
   if (limit.status == "locked" && !(driven > least_drive))
     problems.push_back(fmt::format("the finite target is reached: {:.3g} of the load is left", driven));
   if (!limit.force_balance)

@@ -45,16 +45,16 @@ void check_values(const Scene& scene, const Setting& setting, const Limit& limit
                   const VerifyTolerances& tolerances, Sentences& problems)
 {
   const Macro& macro = *limit.macro;
-  const double expected = value(limit.measure, limit.direction_deg, macro);
+  const double expected = value(limit, macro);
   if (!equal(limit.value, expected, tolerances.value))
     problems.push_back(fmt::format("value {} reported, {:.10g} from macro", show(limit.value), expected));
   const bool strain = macro.load == Load::strain;
-  const double stretched = line_stretch(limit.direction_deg, macro);
-  if (strain && !equal(limit.line_stretch, stretched, tolerances.value))
+  const double stretched = limit.direction ? 0.0 : line_stretch(limit.direction_deg, macro);
+  if (strain && !limit.direction && !equal(limit.line_stretch, stretched, tolerances.value))
     problems.push_back(
         fmt::format("line_stretch {} reported, {:.10g} from macro", show(limit.line_stretch), stretched));
   for (std::size_t i = 0; i < limit.starts.size(); ++i) {
-    const double reached = value(limit.measure, limit.direction_deg, limit.starts[i].macro);
+    const double reached = value(limit, limit.starts[i].macro);
     if (!equal(limit.starts[i].value, reached, tolerances.value))
       problems.push_back(fmt::format("starts/{}: value {:.10g} reported, {:.10g} from macro", i,
                                      limit.starts[i].value, reached));

@@ -31,6 +31,12 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
 VerifyLine check_profiles(const boost::json::value& results, Load load, const std::vector<Limit>& limits,
                           const VerifyTolerances& tolerances);
 
+/// The surface of limits along components: its triangles join limits, and the limits that it says are not the
+/// furthest are those, each by what the state it names says. `complete`: all limits could be read. Throws
+/// Malformed.
+VerifyLine check_boundary(const boost::json::value& boundary, const std::vector<Limit>& limits, bool complete,
+                          const VerifyTolerances& tolerances);
+
 /// Targets, objectives and variables of a design follow from limits and scenes. Throws Malformed.
 VerifyLine check_design(const boost::json::value& results, const std::vector<Limit>& initial,
                         const std::vector<Limit>& final, const VerifyTolerances& tolerances);

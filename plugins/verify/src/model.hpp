@@ -84,8 +84,10 @@ struct Start {
 };
 
 struct Limit {
-  std::string label;  ///< "limits/3 (30 deg, stretch)"
-  double direction_deg = 0.0;
+  std::string label;           ///< "limits/3 (30 deg, stretch)"
+  double direction_deg = 0.0;  ///< not a number when the direction is one of components
+  std::optional<Vec3> direction;
+  Load load = Load::strain;
   std::string sense, measure, status, contact;
   std::optional<double> value, line_stretch, min_gap, force_balance;
   /// T of the objective 1/2 |macro - T load|^2; none: the load is constant.

@@ -157,7 +157,15 @@ Scene read_scene(const json::value& scene, const std::string& where)
 Limit read_limit(const json::value& limit, Load load, const std::string& where)
 {
   Limit out;
-  out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");
+  out.load = load;
+  if (limit.is_object() && limit.get_object().contains("direction")) {
+    const std::string at = where + "/direction";
+    out.direction = read_vector(member(limit, "direction", where), at);
+    if (!(out.direction->cwiseAbs().maxCoeff() > 0.0)) throw Malformed(at + ": not all zeros expected");
+    out.direction_deg = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");
+  }
   out.sense = text(member(limit, "sense", where), where + "/sense");
   out.measure = text(member(limit, "measure", where), where + "/measure");
   out.status = text(member(limit, "status", where), where + "/status");

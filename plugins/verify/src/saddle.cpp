@@ -144,7 +144,7 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
 
 std::optional<Further> further_nearby(const Scene& scene, const Setting& setting, const Limit& limit)
 {
-  const Vec3 t = load(limit.measure, limit.direction_deg);
+  const Vec3 t = load(limit);
   const Objective objective{is_positive(limit) ? t : Vec3(-t), scene.length,
                             limit.finite_target ? 1.0 / *limit.finite_target : 0.0};
   const MovedState here{*limit.macro, limit.poses};

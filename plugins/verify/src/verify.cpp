@@ -28,7 +28,11 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
     const std::string where = fmt::format("{}/limits/{}", prefix, i++);
     try {
       Limit limit = read_limit(item, setting.load, where);
-      limit.label = fmt::format("{} ({:g} deg, {})", where, limit.direction_deg, limit.sense);
+      const std::string direction = limit.direction
+                                        ? fmt::format("({:.6g}, {:.6g}, {:.6g})", limit.direction->x(),
+                                                      limit.direction->y(), limit.direction->z())
+                                        : fmt::format("{:g} deg", limit.direction_deg);
+      limit.label = fmt::format("{} ({}, {})", where, direction, limit.sense);
       lines.push_back(check_limit(scene, setting, limit, tolerances));
       out.push_back(std::move(limit));
     } catch (const Malformed& error) {
@@ -49,9 +53,15 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
   check_length(scene, scene.length, prefix + "/scene");
   const auto limits =
       check_limits(scene, member(results, "limits", prefix), prefix, setting, tolerances, lines);
-  VerifyLine line = check_profiles(results, setting.load, limits, tolerances);
-  if (!prefix.empty()) line.text = prefix + ": " + line.text;
-  lines.push_back(std::move(line));
+  const auto add = [&](VerifyLine line) {
+    if (!prefix.empty()) line.text = prefix + ": " + line.text;
+    lines.push_back(std::move(line));
+  };
+  add(check_profiles(results, setting.load, limits, tolerances));
+  if (const json::value* boundary = results.as_object().if_contains("boundary")) {
+    const bool complete = limits.size() == member(results, "limits", prefix).as_array().size();
+    add(check_boundary(*boundary, limits, complete, tolerances));
+  }
 }
 
 /// A swept number stands in the row's experiment, where its pointer leads there (those of a weave do not: it

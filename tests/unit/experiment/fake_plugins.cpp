@@ -106,7 +106,7 @@ class Plane : public LoadCase {
     return bends_ ? std::make_pair("up", "down") : std::make_pair("stretch", "compress");
   }
   void do_metric(std::span<double> m) const override { m[0] = 1.0; }
-  Boundedness do_boundedness(double, Sense, std::span<const Vec3>) const override
+  Boundedness do_boundedness(std::span<const double>, std::span<const Vec3>) const override
   {
     return Boundedness::attained;
   }
@@ -130,6 +130,25 @@ std::unique_ptr<LoadCase> make_plane(const Node& section, double length, Problem
   if (!(length > 0.0)) throw std::runtime_error("no length");
   return std::make_unique<Plane>(section.at("measure").string, false);
 }
+
+/// A plane with the three unknowns of a strain.
+class Strains final : public Plane {
+ public:
+  Strains() : Plane("tensor", false) {}
+
+ protected:
+  const std::vector<MacroInfo>& do_macros() const override { return macros_; }
+  void do_metric(std::span<double> m) const override
+  {
+    m[0] = m[1] = 1.0;
+    m[2] = 2.0;
+  }
+
+ private:
+  std::vector<MacroInfo> macros_{{"exx", 0}, {"eyy", 0}, {"exy", 0}};
+};
+
+std::unique_ptr<LoadCase> make_strains(const Node&, double, Problems&) { return std::make_unique<Strains>(); }
 
 std::unique_ptr<LoadCase> make_bend(const Node&, double, Problems&)
 {
@@ -176,6 +195,9 @@ const PluginTable bend = {HAUBERK_HANDSHAKE,
                           nullptr,
                           make_bend,
                           nullptr};
+const PluginTable strains = {
+    HAUBERK_HANDSHAKE, PluginKind::load_case, "strains", "1", "Three strains.", "none", no_fields,
+    nullptr,           make_strains,          nullptr};
 const PluginTable search = {HAUBERK_HANDSHAKE, PluginKind::optimizer,
                             "search",          "1",
                             "A search.",       "none",
@@ -186,7 +208,7 @@ const PluginTable search = {HAUBERK_HANDSHAKE, PluginKind::optimizer,
 
 const PluginTable* fake_lookup(PluginKind kind, const std::string& id, std::string& error)
 {
-  for (const PluginTable* table : {&rings, &plane, &bend, &search}) {
+  for (const PluginTable* table : {&rings, &plane, &strains, &bend, &search}) {
     if (table->kind == kind && id == table->id) return table;
   }
   error = "no plugin '" + id + "' here";

@@ -9,7 +9,8 @@
 namespace hauberk::test {
 
 /// Finds "rings" (shape; list of rings, parameters <name>.R and <name>.r, .r below .R, no default for R),
-/// "plane" (load case; measure), "bend" (load case) and "search" (optimizer; steps).
+/// "plane" (load case; measure), "strains" (load case with exx, eyy, exy), "bend" (load case) and "search"
+/// (optimizer; steps).
 const PluginTable* fake_lookup(PluginKind kind, const std::string& id, std::string& error);
 
 /// A correct experiment: task limits, two rings, plane.

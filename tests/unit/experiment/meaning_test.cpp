@@ -110,7 +110,8 @@ TEST(Meaning, TaskAndLoadCase)
             "t.json:2: /task: task 'chart' is not supported yet by this version; use limits, design, sweep, "
             "stability or transition");
   EXPECT_EQ(after(", \"directions_deg\": [0, 30]", ""),
-            "t.json:13: /load_case: missing key 'directions_deg': expected an array of at least 1 numbers");
+            "t.json:13: /load_case: missing key 'directions_deg': expected an array of at least 1 numbers, "
+            "or key 'directions'");
   EXPECT_EQ(after("[0, 30]", "[0, 30, 0]"),
             "t.json:13: /load_case/directions_deg/2: direction 0 is given twice");
   EXPECT_EQ(after("[0, 30]", "[170, -10]"),

@@ -88,11 +88,10 @@ class Odd final : public LoadCase {
     maybe_fail();
     return {{"held", {{0, 1, static_cast<double>(X.size())}}}};
   }
-  Boundedness do_boundedness(double theta, Sense sense, std::span<const Vec3> cycles) const override
+  Boundedness do_boundedness(Values load, std::span<const Vec3> cycles) const override
   {
     maybe_fail();
-    return theta > 0 && sense == Sense::negative && cycles.size() == 2 ? Boundedness::not_attained
-                                                                       : Boundedness::attained;
+    return load[0] < 0 && cycles.size() == 2 ? Boundedness::not_attained : Boundedness::attained;
   }
 
  private:
@@ -116,6 +115,7 @@ constexpr std::array<double, 2> e{3.0, 4.0};
 constexpr std::array<double, 2> de{6.0, 7.0};
 const Vec3 X(1, 2, 3), T(10, 20, 30);
 const std::array<Vec3, 2> both{X, T};
+const Direction turned = Direction::at_radians(0.75);
 
 TEST(GuardedLoadCase, AnswersComeThrough)
 {
@@ -133,12 +133,12 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   EXPECT_FALSE(load_case->admissible(std::array{-1.0}));
   EXPECT_EQ(load_case->stretch_range(macro), std::pair(0.5, 1.5));
   std::array<double, 1> out{};
-  load_case->load(0.75, out);
+  load_case->load(turned, out);
   EXPECT_EQ(out[0], 0.75);
-  EXPECT_EQ(load_case->value(0.75, macro), 5.75);
+  EXPECT_EQ(load_case->value(turned, macro), 5.75);
   EXPECT_EQ(load_case->measure(), "odd");
   EXPECT_EQ(load_case->value_length_power(), -3);
-  EXPECT_EQ(load_case->companions(0.75, macro), (std::vector<std::pair<std::string, double>>{{"c", 0.25}}));
+  EXPECT_EQ(load_case->companions(turned, macro), (std::vector<std::pair<std::string, double>>{{"c", 0.25}}));
   EXPECT_EQ(load_case->sense_names(), (std::pair<std::string, std::string>{"push", "pull"}));
   load_case->metric(out);
   EXPECT_EQ(out[0], 8.0);
@@ -149,8 +149,8 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   const std::vector<LinearEquality> held = load_case->equalities(both);
   ASSERT_EQ(held.size(), 1u);
   EXPECT_EQ(held[0].terms[0].coefficient, 2.0);
-  EXPECT_EQ(load_case->boundedness(1.0, Sense::negative, both), Boundedness::not_attained);
-  EXPECT_EQ(load_case->boundedness(1.0, Sense::positive, both), Boundedness::attained);
+  EXPECT_EQ(load_case->boundedness(turned, Sense::negative, both), Boundedness::not_attained);
+  EXPECT_EQ(load_case->boundedness(turned, Sense::positive, both), Boundedness::attained);
 }
 
 TEST(GuardedLoadCase, EveryCallIsGuarded)
@@ -165,16 +165,16 @@ TEST(GuardedLoadCase, EveryCallIsGuarded)
   expect("acceleration_bound", [&] { load_case->acceleration_bound(macro, dmacro, e, de, X, T); });
   expect("admissible", [&] { load_case->admissible(macro); });
   expect("stretch_range", [&] { load_case->stretch_range(macro); });
-  expect("load", [&] { load_case->load(0.0, out); });
-  expect("value", [&] { load_case->value(0.0, macro); });
+  expect("load", [&] { load_case->load(Direction(), out); });
+  expect("value", [&] { load_case->value(Direction(), macro); });
   expect("measure", [&] { load_case->measure(); });
   expect("value_length_power", [&] { load_case->value_length_power(); });
-  expect("companions", [&] { load_case->companions(0.0, macro); });
+  expect("companions", [&] { load_case->companions(Direction(), macro); });
   expect("sense_names", [&] { load_case->sense_names(); });
   expect("metric", [&] { load_case->metric(out); });
   expect("inequalities", [&] { load_case->inequalities(both); });
   expect("equalities", [&] { load_case->equalities(both); });
-  expect("boundedness", [&] { load_case->boundedness(0.0, Sense::positive, both); });
+  expect("boundedness", [&] { load_case->boundedness(std::array{1.0}, both); });
 }
 
 }  // namespace

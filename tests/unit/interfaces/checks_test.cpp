@@ -121,7 +121,7 @@ class AnyLoadCase final : public LoadCase {
   int do_value_length_power() const override { return 0; }
   std::pair<std::string, std::string> do_sense_names() const override { return {"up", "down"}; }
   void do_metric(std::span<double>) const override {}
-  Boundedness do_boundedness(double, Sense, std::span<const Vec3>) const override
+  Boundedness do_boundedness(std::span<const double>, std::span<const Vec3>) const override
   {
     return Boundedness::attained;
   }
@@ -153,6 +153,27 @@ TEST(LoadCaseChecks, Position)
   EXPECT_EQ(
       position(one, two),
       "load case: declares 1 macroscopic unknowns (at most 6) and 4 coordinates of an element (1 to 3)");
+}
+
+TEST(LoadCaseChecks, Components)
+{
+  AnyLoadCase load_case;  // its metric is all zeros
+  std::array<double, 1> t{};
+  EXPECT_EQ(message<PluginError>([&] { load_case.load(Direction::along(std::array{2.0}), t); }),
+            "load case: the metric gives the direction (2) no length");
+  EXPECT_EQ(message<PluginError>([&] {
+              load_case.load(Direction::along(std::array{2.0, 1.0}), t);
+            }),
+            "load case: expected a direction of 1 components, found 2");
+  EXPECT_TRUE(load_case.takes_components());
+  load_case.infos[0].length_power = -1;
+  EXPECT_FALSE(load_case.takes_components()) << "another unit than the value";
+  EXPECT_EQ(load_case.sense_name(Direction(), Sense::negative), "down");
+  EXPECT_EQ(load_case.sense_name(Direction::along(std::array{2.0}), Sense::positive), "along");
+  EXPECT_EQ(message<InputError>([] {
+              Direction::along(std::array{0.0, 0.0});
+            }),
+            "a direction needs 1 to 6 finite components that are not all zero, found 2, all zero");
 }
 
 class AnyProblem final : public OptimizationProblem {

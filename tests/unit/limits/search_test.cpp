@@ -35,7 +35,7 @@ struct Sheet4in1 {
   {
     std::vector<LimitTask> tasks;
     tasks.reserve(directions.size());
-    for (const double d : directions) tasks.push_back({d, Sense::negative});
+    for (const double d : directions) tasks.push_back({Direction::at_degrees(d), Sense::negative});
     return compute_limits(model, scene, tasks, settings, 2, observer, known);
   }
 };
@@ -79,7 +79,7 @@ TEST(Search, LimitsAreConsistent)
     for (std::size_t j = 0; j < r.size(); ++j) {
       std::vector<double> macro;
       for (const auto& [name, x] : r[j].macro) macro.push_back(x);
-      EXPECT_GT(s.load.value(directions[i] * degree, macro), *r[i].value - 1.1e-4);
+      EXPECT_GT(s.load.value(Direction::at_degrees(directions[i]), macro), *r[i].value - 1.1e-4);
     }
   }
 }
@@ -116,7 +116,7 @@ TEST(Search, TiltedLoadsLeadOutOfAPoorState)
 TEST(Search, TiltsKeepSizeAndAngle)
 {
   Sheet4in1 s;
-  const Vector load = load_vector(s.model, 0.3, Sense::negative);
+  const Vector load = load_vector(s.model, Direction::at_radians(0.3), Sense::negative);
   const auto dot = [&](const Vector& a, const Vector& b) {
     return (a.array() * b.array() / s.model.metric.head(3).array()).sum();
   };
@@ -163,7 +163,7 @@ TEST(Search, InterruptedStartsSaySo)
   bool attempts = false;  // with arc, after nearest did not balance
   for (const double r : {0.5, 0.6, 0.7}) {
     const Model m = make_model(chain({5.0, r, r}, {5.0, r, r}, 12.0), load, 0.0);
-    const LimitTask task{0.0, Sense::positive};
+    const LimitTask task{Direction(), Sense::positive};
     int calls = 0;
     const Locked whole = limit_from_start(m, task, settings, 0, [&calls] { return ++calls > 0; });
     ASSERT_EQ(whole.status, LockStatus::locked);

@@ -45,7 +45,7 @@ struct Solved {
 Solved solve(const SceneSpec& scene, const Sheet& sheet, double last, const Locked* from = nullptr)
 {
   Solved s{make_model(scene, sheet, 0.0), {}, {}};
-  s.load = load_vector(s.model, 70.0 * degree, Sense::positive);
+  s.load = load_vector(s.model, Direction::at_degrees(70.0), Sense::positive);
   if (from == nullptr) {
     const State start = perturbed(s.model, rest_state(s.model), 1e-3, 1, Copies::apart);
     s.locked = lock(s.model, start, s.load, ContactChoice::arc, to(last), always);

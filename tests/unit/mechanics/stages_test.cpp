@@ -53,7 +53,7 @@ TEST(Stages, EndWhereContactsAreLessCurvedThanTheyMay)
     stage.least_curvature = part * curvature;
     State s = rest_state(m);
     const StageResult r_ =
-        solve_stage(m, s, load_vector(m, 0.0, Sense::positive), stage, [] { return true; });
+        solve_stage(m, s, load_vector(m, Direction(), Sense::positive), stage, [] { return true; });
     EXPECT_EQ(r_.status, part < 1.0 ? StageStatus::minimum : StageStatus::merging) << r_.message;
   }
 }

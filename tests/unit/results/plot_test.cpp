@@ -59,7 +59,7 @@ TEST(PolarPlot, UnboundedDirectionsAreMarked)
   labels.negative = "compress";
   EXPECT_EQ(count(polar_svg(run, labels), "\u221e"), 0u);
   run.limits[0].sense = "stretch";
-  run.limits[0].direction_deg = 200.0;  // the same as 20
+  run.limits[0].direction = Direction::at_degrees(200.0);  // the same as 20
   run.limits[0].status = LimitStatus::unbounded;
   const std::string svg = polar_svg(run, labels);
   EXPECT_EQ(count(svg, "fill=\"#1f4e79\">\u221e</text>"), 2u) << "stretch, at 20 and 200 degrees";

@@ -39,7 +39,7 @@ LimitResult limit(double degrees, const char* sense, double value)
 {
   LimitResult out;
   out.load_case = "in_plane_periodic";
-  out.direction_deg = degrees;
+  out.direction = Direction::at_degrees(degrees);
   out.sense = sense;
   out.measure = "tensor";
   out.status = LimitStatus::locked;
@@ -74,7 +74,7 @@ std::vector<ProfilePoint> profile(const std::vector<LimitResult>& limits)
   std::vector<ProfilePoint> out;
   for (std::size_t i = 0; i < limits.size(); i += 2) {
     const double s = *limits[i].value, c = *limits[i + 1].value;
-    out.push_back({limits[i].direction_deg, s, c, (s - c) / (1.0 + c)});
+    out.push_back({limits[i].direction.degrees(), s, c, (s - c) / (1.0 + c)});
   }
   return out;
 }

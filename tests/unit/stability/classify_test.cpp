@@ -75,7 +75,7 @@ TEST(Classify, StatesOfOtherScenesDirectionsAndSensesDoNotCount)
 {
   StabilityCase scene = locked(0.9), direction = locked(0.9), sense = locked(0.9);
   scene.scene = 1;
-  direction.direction_deg = 30.0;
+  direction.direction = Direction::at_degrees(30.0);
   sense.sense = "compress";
   EXPECT_EQ(classified({locked(0.4), scene, direction, sense})[0].outcome, Outcome::verified);
 }

@@ -28,7 +28,7 @@ struct LimitSettings {
 
 /// One limit to be found.
 struct LimitTask {
-  double direction_deg = 0.0;
+  Direction direction;
   Sense sense = Sense::positive;
 };
 
@@ -89,8 +89,13 @@ struct LimitsObserver {
   std::function<void(const std::vector<LimitResult>&)> on_limit;
 };
 
+/// By how much one state must be further than another, as scaled value, to count as further: more than the
+/// gaps that the schedule leaves.
+double further_than(const LimitSettings& settings);
+
 /// The tasks, then those `apart` degrees to either side of every one that has no other of its sense within
-/// that angle; only tasks that links do not decide have neighbours and are neighbours.
+/// that angle; only tasks that links do not decide have neighbours and are neighbours. Directions along
+/// components have none.
 std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart);
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.

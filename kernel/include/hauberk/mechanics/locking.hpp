@@ -80,7 +80,7 @@ struct Locked {
 };
 
 /// The load on the macroscopic unknowns for a direction and sense.
-Vector load_vector(const Model& model, double theta, Sense sense);
+Vector load_vector(const Model& model, const Direction& direction, Sense sense);
 
 /// Runs all stages from `start`. Later stages start from the extrapolation of the last two, along which
 /// positions are linear in g_hat. Thread safe; deterministic.

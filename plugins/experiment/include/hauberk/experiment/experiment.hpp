@@ -4,6 +4,7 @@
 #include <hauberk/experiment/diagnostics.hpp>
 #include <hauberk/experiment/expect.hpp>
 #include <hauberk/plugin.hpp>
+#include <hauberk/results.hpp>
 #include <hauberk/scene.hpp>
 
 #include <cstdint>
@@ -170,7 +171,9 @@ struct Experiment {
   std::string load_case_plugin;
   std::shared_ptr<const LoadCase> load_case;
   std::vector<double> directions_deg;  ///< as given; of the final profile for a design
-  std::vector<Sense> senses;           ///< as given; both when absent
+  std::vector<Sense> senses;           ///< as given; both when absent; none for `directions`
+  std::vector<Direction> directions;   ///< along components, instead of directions_deg and senses
+  std::vector<Triangle> triangles;     ///< of indices into `directions`, where these sample a sphere
   ExperimentSolver solver;
   std::optional<ExperimentDesign> design;          ///< set whenever the file has the section
   std::optional<ExperimentStability> stability;    ///< likewise

@@ -1,6 +1,8 @@
 #pragma once
 /// What a stability experiment found: families of scenes times methods, every case with its outcome.
 
+#include <hauberk/direction.hpp>
+
 #include <boost/json/object.hpp>
 
 #include <array>
@@ -27,7 +29,7 @@ std::string to_string(Outcome outcome);
 /// One limit of one member by one method. An input that is refused is a case without direction and sense.
 struct StabilityCase {
   std::size_t family = 0, member = 0, method = 0;
-  double direction_deg = 0.0;
+  Direction direction;
   std::string sense;
   bool upward = true;   ///< a larger value is further
   std::string status;   ///< of the limit, or "refused"

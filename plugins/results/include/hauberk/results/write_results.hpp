@@ -21,6 +21,8 @@ inline constexpr const char* results_file = "results.json";
 inline constexpr const char* limits_file = "limits.csv";
 inline constexpr const char* profile_file = "profile.svg";
 inline constexpr const char* designed_file = "designed.json";
+inline constexpr const char* boundary_file = "boundary.ply";
+inline constexpr const char* boundary_picture_file = "boundary.svg";
 
 inline constexpr const char* stability_file = "stability.csv";
 inline constexpr const char* stability_picture_file = "stability.svg";
@@ -35,15 +37,15 @@ inline constexpr const char* sweep_picture_file = "sweep.svg";
 inline constexpr std::array result_names{
     results_file,           limits_file,     profile_file,           designed_file,           stability_file,
     stability_picture_file, transition_file, transition_minima_file, transition_picture_file, sweep_file,
-    sweep_picture_file};
+    sweep_picture_file,     boundary_file,   boundary_picture_file};
 
 /// The files of `results_content` for `run`, for ResultNames::files: limits, profile and, for a design
-/// of a periodic cell, designed.
+/// of a periodic cell, designed; for limits along components limits, boundary and picture.
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run);
 
-/// limits.csv, profile.svg, designed.json (for a design of a periodic cell) and, last, results.json, so that
-/// a results.json on the disk means that the files it names are complete. `document` is that of
-/// `results_document`.
+/// limits.csv, profile.svg (or boundary.ply and boundary.svg), designed.json (for a design) and, last,
+/// results.json, so that a results.json on the disk means that the files it names are complete. `document` is
+/// that of `results_document`.
 std::vector<NamedContent> results_content(const boost::json::object& document, const RunResult& run,
                                           const std::string& experiment_json, const ResultNames& names,
                                           const PlotLabels& labels);

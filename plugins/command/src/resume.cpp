@@ -214,6 +214,8 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
   try {
     json::value document = read_json_file(file.string());
     check_origin(document, loaded);
+    if (const json::value* peak = document.at("provenance").as_object().if_contains("peak_memory_bytes"))
+      out.peak_memory_bytes = peak->to_number<std::int64_t>();
     if (loaded.experiment.task == Task::stability)
       read_stability(document, loaded, out);
     else if (loaded.experiment.task == Task::sweep)

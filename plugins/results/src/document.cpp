@@ -25,6 +25,7 @@ json::object provenance_json(const Provenance& provenance)
   }
   out["seed"] = provenance.seed;
   out["threads"] = provenance.threads;
+  out["peak_memory_bytes"] = provenance.peak_memory_bytes;
   return out;
 }
 

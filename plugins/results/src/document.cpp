@@ -114,6 +114,15 @@ json::object design_json(const DesignResult& design, const std::vector<std::stri
 
 }  // namespace
 
+std::optional<LimitStatus> limit_status(const std::string& name)
+{
+  for (const LimitStatus status : {LimitStatus::locked, LimitStatus::unbounded, LimitStatus::not_attained,
+                                   LimitStatus::stalled, LimitStatus::failed, LimitStatus::interrupted}) {
+    if (to_string(status) == name) return status;
+  }
+  return std::nullopt;
+}
+
 json::object results_document(const RunResult& run, const std::string& experiment_json,
                               const Provenance& provenance, const ResultNames& names)
 {

@@ -6,6 +6,7 @@
 #include <boost/json/object.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,5 +47,8 @@ struct ResultNames {
 /// Thread safe.
 boost::json::object results_document(const RunResult& run, const std::string& experiment_json,
                                      const Provenance& provenance, const ResultNames& names = {});
+
+/// The status of that name, as `to_string` gives it; none where there is none. Thread safe.
+std::optional<LimitStatus> limit_status(const std::string& name);
 
 }  // namespace hauberk

@@ -42,13 +42,22 @@ fs::path file_of(const std::string& result)
   return fs::is_directory(result, unknown) ? fs::path(result) / results_file : fs::path(result);
 }
 
+/// Reads a file; where that fails, also says what would do.
+boost::json::value read_result(const fs::path& file)
+try {
+  return read_json_file(file.string());
+} catch (const InputError& error) {
+  throw InputError(
+      fmt::format("{}; give the {} that `hauberk run` wrote, or its folder", error.what(), results_file));
+}
+
 /// Enters what the folder beside the results holds; false where there is none.
 bool recheck(ReportEntry& entry, const std::string& folder)
 {
   const fs::path file = fs::path(entry.file).parent_path() / folder / results_file;
   std::error_code unknown;
   if (!entry.design || !fs::exists(file, unknown)) return false;
-  enter_recheck(entry, read_json_file(file.string()), file.string());
+  enter_recheck(entry, read_result(file), file.string());
   return true;
 }
 
@@ -70,7 +79,7 @@ int report_command(const std::vector<std::string>& words)
   entries.reserve(options.positionals().size());
   for (const std::string& result : options.positionals()) {
     const std::string file = file_of(result).string();
-    entries.push_back(read_report_entry(read_json_file(file), file));
+    entries.push_back(read_report_entry(read_result(file), file));
   }
   if (options.has("recheck")) {
     const std::string beside = required_folder(options, "recheck");

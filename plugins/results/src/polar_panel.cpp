@@ -91,9 +91,10 @@ class Diagram {
         svg.circle(p, 5.0, curve.stroke.colour, {"#fff", 1.2, ""});
         break;
       case Curve::Marker::cross:
-        for (const Stroke& stroke : {Stroke{"#fff", 4.0, ""}, Stroke{curve.stroke.colour, 1.8, ""}}) {
-          svg.line({p.x - 5.0, p.y - 5.0}, {p.x + 5.0, p.y + 5.0}, stroke);
-          svg.line({p.x - 5.0, p.y + 5.0}, {p.x + 5.0, p.y - 5.0}, stroke);
+        for (const Stroke& stroke : {Stroke{"#fff", 2.8, ""}, Stroke{curve.stroke.colour, 1.6, ""}}) {
+          constexpr double half = 4.6;
+          svg.line({p.x - half, p.y - half}, {p.x + half, p.y + half}, stroke);
+          svg.line({p.x - half, p.y + half}, {p.x + half, p.y - half}, stroke);
         }
         break;
     }

@@ -3,6 +3,7 @@
 
 #include "minimizer.hpp"
 
+#include <common/run_optimizer.hpp>
 #include <hauberk/optimizer.hpp>
 #include <hauberk/settings.hpp>
 
@@ -12,20 +13,7 @@
 namespace hauberk {
 
 /// Projected BFGS with an augmented Lagrangian; see the README for the method. Immutable, thread safe.
-class Bfgs final : public Optimizer {
- public:
-  explicit Bfgs(const BfgsSettings& settings) : settings_(settings) {}
-
- protected:
-  OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
-                              OptimizerObserver& observer) const override
-  {
-    return BfgsMinimizer(problem, settings_, observer, start).run();
-  }
-
- private:
-  BfgsSettings settings_;
-};
+using Bfgs = RunOptimizer<BfgsMinimizer, BfgsSettings>;
 
 /// The fields of the optimizer's section of an experiment.
 void bfgs_fields(std::vector<Field>& out);

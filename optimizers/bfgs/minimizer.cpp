@@ -99,19 +99,10 @@ OptimizerResult BfgsMinimizer::run()
 
 bool BfgsMinimizer::begin(std::string& why)
 {
-  const Trial trial = problem_.evaluate(x_);
+  const Trial trial = problem_.begin(x_, at_);
   value_ = first_value_ = trial.value;
-  if (!trial.ok) {
-    why = trial.why;
-    return false;
-  }
-  problem_.accept(x_);
-  at_.gradient = trial.gradient;
-  problem_.linearise(x_, at_);
-  if (!at_.c.allFinite() || !at_.J.allFinite()) {
-    why = "the constraints or their derivatives are not finite";
-    return false;
-  }
+  why = trial.why;
+  if (!trial.ok) return false;
   best_.offer(x_, value_, largest_violation(at_.c));
   reset_hessian(settings_.initial_step);
   begin_multipliers();

@@ -6,6 +6,7 @@
 #include <common/best_point.hpp>
 #include <common/criticality.hpp>
 #include <common/scaled_problem.hpp>
+#include <common/search_settings.hpp>
 #include <hauberk/optimizer.hpp>
 
 #include <span>
@@ -13,16 +14,9 @@
 
 namespace hauberk {
 
-/// Steps and optimality are measured in variables scaled by their ranges.
-struct BfgsSettings {
-  int max_iterations = 200;
-  int max_evaluations = 100000;
-  std::size_t memory = 20;             ///< latest steps that shape the Hessian; 0: all
-  double tolerance = 1e-6;             ///< of decrease and optimality, relative to the objective
-  double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
-  double initial_step = 0.05;          ///< longest first step, part of a variable's range
-  double max_step = 0.5;               ///< longest step, part of a variable's range
-  double min_step = 1e-7;              ///< shortest step worth an evaluation, part of a variable's range
+struct BfgsSettings : SearchSettings {
+  BfgsSettings() { max_iterations = 200; }
+  std::size_t memory = 20;  ///< latest steps that shape the Hessian; 0: all
 };
 
 /// Minimises one problem once. Not thread safe; runs on different problems do not share anything.

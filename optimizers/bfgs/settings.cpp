@@ -6,39 +6,17 @@ namespace hauberk {
 
 void bfgs_fields(std::vector<Field>& out)
 {
-  out.push_back(count_field("max_iterations", "200", 1e6,
-                            "Accepted steps after which to stop; 0 only evaluates the start."));
-  out.push_back(max_evaluations_field());
-  out.push_back(count_field("memory", "20", 1e4,
-                            "Latest steps whose curvature is remembered (limited-memory BFGS); 0: all."));
-  out.push_back(tolerance_field());
-  out.push_back(constraint_tolerance_field());
-  out.push_back(fraction_field("initial_step", "0.05", "Longest first step, as part of a variable's range."));
-  out.push_back(fraction_field("max_step", "0.5", "Longest step, as part of a variable's range."));
-  out.push_back(min_step_field());
+  const std::vector<Field> fields = search_fields(
+      "200", {count_field("memory", "20", 1e4,
+                          "Latest steps whose curvature is remembered (limited-memory BFGS); 0: all.")});
+  out.insert(out.end(), fields.begin(), fields.end());
 }
 
 std::unique_ptr<Optimizer> make_bfgs(const Node& section, Problems& problems)
 {
   BfgsSettings settings;
-  settings.max_iterations = integer(section, "max_iterations");
-  settings.max_evaluations = integer(section, "max_evaluations");
   settings.memory = static_cast<std::size_t>(integer(section, "memory"));
-  settings.tolerance = section.at("tolerance").number;
-  settings.constraint_tolerance = section.at("constraint_tolerance").number;
-  settings.initial_step = section.at("initial_step").number;
-  settings.max_step = section.at("max_step").number;
-  settings.min_step = section.at("min_step").number;
-  bool sound = true;
-  if (settings.initial_step > settings.max_step) {
-    problems.add(section.at("initial_step"), "initial_step must not be larger than max_step");
-    sound = false;
-  }
-  if (settings.min_step * 10.0 > settings.initial_step) {
-    problems.add(section.at("min_step"), "min_step must be at most a tenth of initial_step");
-    sound = false;
-  }
-  if (!sound) return nullptr;
+  if (!read_search_settings(section, settings, problems)) return nullptr;
   return std::make_unique<Bfgs>(settings);
 }
 

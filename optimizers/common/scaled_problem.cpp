@@ -74,6 +74,20 @@ void ScaledProblem::linearise(const VectorXd& x, Linearisation& at)
   at.J = J * scale_.asDiagonal();
 }
 
+Trial ScaledProblem::begin(const VectorXd& start, Linearisation& at, bool want_gradient)
+{
+  Trial trial = evaluate(start, want_gradient);
+  if (!trial.ok) return trial;
+  accept(start);
+  at.gradient = trial.gradient;
+  linearise(start, at);
+  if (!at.c.allFinite() || !at.J.allFinite()) {
+    trial.ok = false;
+    trial.why = "the constraints or their derivatives are not finite";
+  }
+  return trial;
+}
+
 Residuals ScaledProblem::residuals(const VectorXd& x)
 {
   Residuals out;

@@ -30,6 +30,9 @@ class ScaledProblem {
   Eigen::VectorXd constraints(const Eigen::VectorXd& x);
   /// Fills c and J.
   void linearise(const Eigen::VectorXd& x, Linearisation& at);
+  /// Evaluates and accepts the start and fills `at`. Where something cannot be had, the trial is not ok and
+  /// says why.
+  Trial begin(const Eigen::VectorXd& start, Linearisation& at, bool want_gradient = true);
   /// Residuals at the point evaluated last; empty when the problem has none.
   Residuals residuals(const Eigen::VectorXd& x);
   /// x in scaled variables: differences of these are scaled steps.

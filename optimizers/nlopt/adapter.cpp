@@ -29,22 +29,13 @@ NloptAdapter::NloptAdapter(OptimizationProblem& problem, const NloptSettings& se
 bool NloptAdapter::begin(std::string& why)
 {
   const bool gradients = settings_.algorithm != NloptAlgorithm::cobyla;
-  const Trial trial = problem_.evaluate(accepted_.x, gradients);
+  const Trial trial = problem_.begin(accepted_.x, accepted_.at, gradients);
   accepted_.value = first_value_ = worst_ = trial.value;
-  if (!trial.ok) {
-    why = trial.why;
-    return false;
-  }
-  problem_.accept(accepted_.x);
+  why = trial.why;
+  if (!trial.ok) return false;
   unit_ = objective_scale(first_value_, first_value_);
   accepted_.ok = true;
   accepted_.derivatives = gradients;
-  accepted_.at.gradient = trial.gradient;
-  problem_.linearise(accepted_.x, accepted_.at);
-  if (!accepted_.at.c.allFinite() || !accepted_.at.J.allFinite()) {
-    why = "the constraints or their derivatives are not finite";
-    return false;
-  }
   best_.offer(accepted_.x, accepted_.value, largest_violation(accepted_.at.c));
   best_point_ = last_ = accepted_;
   if (!report(accepted_, 0.0)) stop(Stop::observer);

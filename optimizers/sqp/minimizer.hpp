@@ -7,6 +7,7 @@
 #include <common/criticality.hpp>
 #include <common/damped_bfgs.hpp>
 #include <common/scaled_problem.hpp>
+#include <common/search_settings.hpp>
 #include <hauberk/optimizer.hpp>
 
 #include <span>
@@ -15,16 +16,8 @@
 
 namespace hauberk {
 
-/// Steps and optimality are measured in variables scaled by their ranges.
-struct SqpSettings {
-  int max_iterations = 100;
-  int max_evaluations = 100000;
-  double tolerance = 1e-6;             ///< of decrease and optimality, relative to the objective
-  double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
-  double initial_step = 0.05;          ///< longest first step, part of a variable's range
-  double max_step = 0.5;               ///< longest step, part of a variable's range
-  bool gauss_newton = true;            ///< model residuals one by one where the problem has them
-  double min_step = 1e-7;              ///< shortest step worth an evaluation, part of a variable's range
+struct SqpSettings : SearchSettings {
+  bool gauss_newton = true;  ///< model residuals one by one where the problem has them
 };
 
 /// Minimises one problem once. Not thread safe; runs on different problems do not share anything.

@@ -3,6 +3,7 @@
 
 #include "minimizer.hpp"
 
+#include <common/run_optimizer.hpp>
 #include <hauberk/optimizer.hpp>
 #include <hauberk/settings.hpp>
 
@@ -13,20 +14,7 @@ namespace hauberk {
 
 /// SQP with a bundle of residuals or a damped BFGS Hessian; see the README for the method. Immutable, thread
 /// safe.
-class Sqp final : public Optimizer {
- public:
-  explicit Sqp(const SqpSettings& settings) : settings_(settings) {}
-
- protected:
-  OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
-                              OptimizerObserver& observer) const override
-  {
-    return Minimizer(problem, settings_, observer, start).run();
-  }
-
- private:
-  SqpSettings settings_;
-};
+using Sqp = RunOptimizer<Minimizer, SqpSettings>;
 
 /// The fields of the optimizer's section of an experiment.
 void sqp_fields(std::vector<Field>& out);

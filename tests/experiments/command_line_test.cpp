@@ -48,7 +48,7 @@ TEST(CommandLine, WrongOptions)
 
 TEST(CommandLine, HelpAndVersion)
 {
-  for (const char* command : {"run", "check", "plan", "verify", "plugins"}) {
+  for (const char* command : {"run", "check", "plan", "verify", "report", "plugins"}) {
     const Outcome o = run_program({command, "--help"});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.out.find(std::string("Usage: hauberk ") + command), 0U) << o.out;

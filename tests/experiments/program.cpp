@@ -103,7 +103,7 @@ json::value timeless(const json::value& document)
   if (const json::object* o = document.if_object()) {
     json::object out;
     for (const auto& [key, value] : *o) {
-      if (key != "seconds" && key != "threads") out[key] = timeless(value);
+      if (key != "seconds" && key != "threads" && key != "peak_memory_bytes") out[key] = timeless(value);
     }
     return out;
   }

@@ -55,7 +55,8 @@ boost::json::value read_results(const std::filesystem::path& folder);
 /// The number at a JSON pointer.
 double number_at(const boost::json::value& document, const std::string& pointer);
 
-/// The document without `seconds` and `threads` at any depth: what must not depend on how it was computed.
+/// The document without `seconds`, `threads` and `peak_memory_bytes` at any depth: what must not depend on
+/// how it was computed.
 boost::json::value timeless(const boost::json::value& document);
 
 /// `text` with the only occurrence of `from` replaced.

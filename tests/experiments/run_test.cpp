@@ -143,6 +143,9 @@ TEST(Run, SameResultsForAnyNumberOfThreads)
     ASSERT_EQ(run_program({"run", file, "-o", out, "--threads", n}).code, 0);
     const json::value r = read_results(out);
     EXPECT_EQ(number_at(r, "/provenance/threads"), std::stod(n));
+    // Bytes, not pages or kibibytes: a program with these libraries needs some MB, such a cell not many more.
+    EXPECT_GT(number_at(r, "/provenance/peak_memory_bytes"), 4e6);
+    EXPECT_LT(number_at(r, "/provenance/peak_memory_bytes"), 200e6);
     results.push_back(timeless(r));
   }
   ASSERT_EQ(results[0].at("limits").as_array().size(), 6U);

@@ -12,7 +12,9 @@
 #include <boost/json/object.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <thread>
 
@@ -85,6 +87,8 @@ TEST(Resuming, GivesTheSameResultsAsOneRun)
   }
   // Marks a limit that must not be computed again.
   partial.at_pointer("/limits/0/message") = "kept";
+  // The largest part of a run that was done in parts: more than the other ones need.
+  partial.at_pointer("/provenance/peak_memory_bytes") = std::int64_t{1} << 40;
   std::ofstream(out + "/results.json") << write_json(partial);
 
   const Outcome o = run_program({"run", file, "-o", out, "--resume"});
@@ -92,6 +96,7 @@ TEST(Resuming, GivesTheSameResultsAsOneRun)
   EXPECT_NE(o.err.find("resuming: finished limits are kept\n"), std::string::npos) << o.err;
   json::value resumed = read_results(out);
   EXPECT_EQ(resumed.at_pointer("/limits/0/message").as_string(), "kept");
+  EXPECT_EQ(number_at(resumed, "/provenance/peak_memory_bytes"), std::ldexp(1.0, 40));
   resumed.at_pointer("/limits/0/message") = whole.at_pointer("/limits/0/message");
   EXPECT_EQ(write_json(timeless(resumed)), write_json(timeless(whole)));
 

@@ -67,12 +67,7 @@ TEST(Bfgs, CostsOfRosenbrock)
 TEST(Bfgs, ScaleOfVariablesDoesNotMatter)
 {
   FunctionProblem metres = rosenbrock(-2.0, 2.0);
-  FunctionProblem micrometres = rosenbrock(-2e6, 2e6);
-  micrometres.objective = [&metres](const VectorXd& x, VectorXd& g) {
-    const double value = metres.objective(1e-6 * x, g);
-    g *= 1e-6;
-    return value;
-  };
+  FunctionProblem micrometres = rosenbrock_in_units(1e-6);
   Recorder first, second;
   const OptimizerResult a = minimise(metres, {-1.2, 1.0}, first);
   const OptimizerResult b = minimise(micrometres, {-1.2e6, 1.0e6}, second);
@@ -101,16 +96,7 @@ TEST(Bfgs, ScaleOfTheObjectiveDoesNotMatter)
 TEST(Bfgs, ConstraintsThatRuleATrialOutCostNoEvaluation)
 {
   // A full step from the start runs far out of the disk; only its shortened part is evaluated.
-  FunctionProblem problem = box(2, -20.0, 20.0);
-  problem.objective = [](const VectorXd& x, VectorXd& g) {
-    g << -3.0, -4.0;
-    return g.dot(x);
-  };
-  problem.constraint_number = 1;
-  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
-    c << 1.0 - x.squaredNorm();
-    J.row(0) = -2.0 * x;
-  };
+  FunctionProblem problem = farthest_in_disk(20.0);
   Recorder recorder;
   const OptimizerResult r = minimise(problem, {0.1, -0.3}, recorder);
   EXPECT_EQ(r.status, "converged") << r.message;

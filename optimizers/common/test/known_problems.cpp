@@ -51,39 +51,6 @@ KnownProblem rosenbrock_on_its_bound()
   return known("rosenbrock_bound", std::move(p), {-1.2, 1.0}, 0.25, {0.5, 0.25});
 }
 
-KnownProblem hs76()
-{
-  FunctionProblem p = box(4, 0.0, 10.0);
-  p.objective = [](const VectorXd& x, VectorXd& g) {
-    g << 2 * x[0] - x[2] - 1, x[1] - 3, 2 * x[2] - x[0] + x[3] + 1, x[3] + x[2] - 1;
-    return x[0] * x[0] + 0.5 * x[1] * x[1] + x[2] * x[2] + 0.5 * x[3] * x[3] - x[0] * x[2] + x[2] * x[3] -
-           x[0] - 3 * x[1] + x[2] - x[3];
-  };
-  p.constraint_number = 3;
-  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
-    J << -1, -2, -1, -1, -3, -1, -2, 1, 0, 1, 4, 0;
-    c = J * x + Eigen::Vector3d(5.0, 4.0, -1.5);
-  };
-  return known("hs76", std::move(p), {0.5, 0.5, 0.5, 0.5}, -103.0 / 22.0,
-               {3.0 / 11.0, 23.0 / 11.0, 0.0, 6.0 / 11.0});
-}
-
-/// Farthest along (3, 4) in the unit disk.
-KnownProblem circle()
-{
-  FunctionProblem p = box(2, -2.0, 2.0);
-  p.objective = [](const VectorXd& x, VectorXd& g) {
-    g << -3.0, -4.0;
-    return g.dot(x);
-  };
-  p.constraint_number = 1;
-  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
-    c << 1.0 - x.squaredNorm();
-    J.row(0) = -2.0 * x;
-  };
-  return known("circle", std::move(p), {0.1, -0.3}, -5.0, {0.6, 0.8});
-}
-
 KnownProblem degenerate()
 {
   FunctionProblem p = box(2, 0.0, 4.0);
@@ -195,6 +162,18 @@ FunctionProblem rosenbrock(double lower, double upper)
   return p;
 }
 
+FunctionProblem rosenbrock_in_units(double unit)
+{
+  FunctionProblem p = rosenbrock(-2.0 / unit, 2.0 / unit);
+  const auto plain = p.objective;
+  p.objective = [plain, unit](const VectorXd& x, VectorXd& g) {
+    const double value = plain(unit * x, g);
+    g *= unit;
+    return value;
+  };
+  return p;
+}
+
 FunctionProblem hs71()
 {
   FunctionProblem p = box(4, 1.0, 5.0);
@@ -209,6 +188,37 @@ FunctionProblem hs71()
     J.row(0) = x.prod() * x.cwiseInverse();
     J.row(1) = 2.0 * x;
     J.row(2) = -2.0 * x;
+  };
+  return p;
+}
+
+FunctionProblem hs76()
+{
+  FunctionProblem p = box(4, 0.0, 10.0);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g << 2 * x[0] - x[2] - 1, x[1] - 3, 2 * x[2] - x[0] + x[3] + 1, x[3] + x[2] - 1;
+    return x[0] * x[0] + 0.5 * x[1] * x[1] + x[2] * x[2] + 0.5 * x[3] * x[3] - x[0] * x[2] + x[2] * x[3] -
+           x[0] - 3 * x[1] + x[2] - x[3];
+  };
+  p.constraint_number = 3;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    J << -1, -2, -1, -1, -3, -1, -2, 1, 0, 1, 4, 0;
+    c = J * x + Eigen::Vector3d(5.0, 4.0, -1.5);
+  };
+  return p;
+}
+
+FunctionProblem farthest_in_disk(double half_range)
+{
+  FunctionProblem p = box(2, -half_range, half_range);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g << -3.0, -4.0;
+    return g.dot(x);
+  };
+  p.constraint_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << 1.0 - x.squaredNorm();
+    J.row(0) = -2.0 * x;
   };
   return p;
 }
@@ -257,8 +267,9 @@ std::vector<KnownProblem> known_problems()
   // The optimum to ten digits, from Newton's method on its equations.
   all.push_back(known("hs71", hs71(), {1.0, 5.0, 5.0, 1.0}, 17.0140172891,
                       {1.0, 4.7429996372, 3.8211499843, 1.3794082932}));
-  all.push_back(hs76());
-  all.push_back(circle());
+  all.push_back(
+      known("hs76", hs76(), {0.5, 0.5, 0.5, 0.5}, -103.0 / 22.0, {3.0 / 11.0, 23.0 / 11.0, 0.0, 6.0 / 11.0}));
+  all.push_back(known("circle", farthest_in_disk(2.0), {0.1, -0.3}, -5.0, {0.6, 0.8}));
   all.push_back(degenerate());
   all.push_back(contradiction());
   all.push_back(no_ball());

@@ -16,8 +16,17 @@ FunctionProblem box(std::size_t n, double lower, double upper);
 /// (1 - x0)^2 + 100 (x1 - x0^2)^2 within the same bounds for both.
 FunctionProblem rosenbrock(double lower, double upper);
 
+/// rosenbrock(-2, 2) with variables in multiples of `unit`: x = 1/unit is what x = 1 is there.
+FunctionProblem rosenbrock_in_units(double unit);
+
 /// Hock and Schittkowski 71, its equation as two inequalities. Optimum 17.0140172891.
 FunctionProblem hs71();
+
+/// Hock and Schittkowski 76: three linear inequalities. Optimum -103/22.
+FunctionProblem hs76();
+
+/// -3 x0 - 4 x1 within the unit disk, variables within +-half_range. Optimum -5 at (0.6, 0.8).
+FunctionProblem farthest_in_disk(double half_range);
 
 /// Half the sum of squares of residuals, which the optimizer sees only if `shown`.
 FunctionProblem sum_of_squares(FunctionProblem problem, int count,

@@ -161,16 +161,7 @@ TEST(Nlopt, AMethodThatGivesUpAtAKinkHasNotFailed)
 TEST(Nlopt, ResultIsFeasibleAlsoWhereTheMethodComesFromOutside)
 {
   // The augmented Lagrangian ends slightly beyond the disk.
-  FunctionProblem problem = box(2, -2.0, 2.0);
-  problem.objective = [](const VectorXd& x, VectorXd& g) {
-    g << -3.0, -4.0;
-    return g.dot(x);
-  };
-  problem.constraint_number = 1;
-  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
-    c << 1.0 - x.squaredNorm();
-    J.row(0) = -2.0 * x;
-  };
+  FunctionProblem problem = farthest_in_disk(2.0);
   NloptSettings settings;
   settings.algorithm = NloptAlgorithm::lbfgs;
   Recorder recorder;

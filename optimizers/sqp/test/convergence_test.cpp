@@ -88,17 +88,7 @@ TEST(SqpConvergence, HockSchittkowski71)
 
 TEST(SqpConvergence, HockSchittkowski76)
 {
-  FunctionProblem problem = box(4, 0.0, 10.0);
-  problem.objective = [](const VectorXd& x, VectorXd& g) {
-    g << 2 * x[0] - x[2] - 1, x[1] - 3, 2 * x[2] - x[0] + x[3] + 1, x[3] + x[2] - 1;
-    return x[0] * x[0] + 0.5 * x[1] * x[1] + x[2] * x[2] + 0.5 * x[3] * x[3] - x[0] * x[2] + x[2] * x[3] -
-           x[0] - 3 * x[1] + x[2] - x[3];
-  };
-  problem.constraint_number = 3;
-  problem.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
-    J << -1, -2, -1, -1, -3, -1, -2, 1, 0, 1, 4, 0;
-    c = J * x + Eigen::Vector3d(5.0, 4.0, -1.5);
-  };
+  FunctionProblem problem = hs76();
   Recorder recorder;
   const OptimizerResult r = minimise(problem, {0.5, 0.5, 0.5, 0.5}, recorder);
   EXPECT_EQ(r.status, "converged") << r.message;
@@ -177,12 +167,7 @@ TEST(SqpConvergence, ScaleOfVariablesDoesNotMatter)
 {
   // The same problem in other units takes the same iterates.
   FunctionProblem metres = rosenbrock(-2.0, 2.0);
-  FunctionProblem micrometres = rosenbrock(-2e6, 2e6);
-  micrometres.objective = [&metres](const VectorXd& x, VectorXd& g) {
-    const double value = metres.objective(1e-6 * x, g);
-    g *= 1e-6;
-    return value;
-  };
+  FunctionProblem micrometres = rosenbrock_in_units(1e-6);
   Recorder first, second;
   const OptimizerResult a = minimise(metres, {-1.2, 1.0}, first);
   const OptimizerResult b = minimise(micrometres, {-1.2e6, 1.0e6}, second);

@@ -30,6 +30,8 @@ constexpr std::array sub_commands{
     SubCommand{"room", "EXPERIMENT.json [--starts N] [-o FILE]", "the thickest rings that leave a rest state",
                room_command},
     SubCommand{"verify", "RESULTS.json", "recheck a result from its file alone", verify_command},
+    SubCommand{"report", "RESULT... -o DIR [--force] [--recheck FOLDER]",
+               "a table and a page of plots of many results", report_command},
     SubCommand{"plugins", "[list | describe ID]", "shapes, load cases and optimizers that are found",
                plugins_command},
 };

@@ -22,6 +22,7 @@ int check_command(const std::vector<std::string>& words);
 int plan_command(const std::vector<std::string>& words);
 int room_command(const std::vector<std::string>& words);
 int verify_command(const std::vector<std::string>& words);
+int report_command(const std::vector<std::string>& words);
 int plugins_command(const std::vector<std::string>& words);
 
 }  // namespace hauberk::command

@@ -51,12 +51,12 @@ void Options::parse(const std::vector<std::string>& words)
     throw UsageError(error.what(), usage());
   }
   if (has("help")) throw ShowHelp(usage());
-  const std::vector<std::string> given = list("positional");
   if (name_.empty()) return;
+  const std::vector<std::string> given = list("positional");
   if (given.empty()) throw UsageError(fmt::format("{} is missing", name_), usage());
-  if (given.size() > 1)
+  if (given.size() > 1 && !several_)
     throw UsageError(fmt::format("one {} expected, found also '{}'", name_, given[1]), usage());
-  value_ = given.front();
+  given_ = given;
 }
 
 std::vector<std::string> Options::list(const char* name) const

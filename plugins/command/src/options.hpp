@@ -37,7 +37,7 @@ class ShowHelp {
   std::string text_;
 };
 
-/// Parser of one sub-command's words: one positional argument and options.
+/// Parser of one sub-command's words: positional arguments, usually one, and options.
 class Options {
  public:
   /// `positional` is its name in messages ("EXPERIMENT.json"), `synopsis` follows "Usage: hauberk ".
@@ -49,10 +49,14 @@ class Options {
   /// --plugin-path, --set: for every command that reads experiments.
   void add_experiment_options();
 
+  /// The positional argument may be given several times.
+  void take_several() { several_ = true; }
+
   /// Throws UsageError, or ShowHelp.
   void parse(const std::vector<std::string>& words);
 
-  const std::string& positional() const { return value_; }
+  const std::string& positional() const { return given_.front(); }
+  const std::vector<std::string>& positionals() const { return given_; }
   bool has(const char* name) const { return values_.count(name) > 0; }
   template <class T>
   const T& get(const char* name) const
@@ -64,7 +68,9 @@ class Options {
   std::string usage() const;
 
  private:
-  std::string synopsis_, summary_, name_, value_;
+  std::string synopsis_, summary_, name_;
+  bool several_ = false;
+  std::vector<std::string> given_;
   boost::program_options::options_description shown_;
   boost::program_options::variables_map values_;
 };

@@ -1,5 +1,6 @@
 #include "output.hpp"
 #include "evaluation_log.hpp"
+#include "memory.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
@@ -11,6 +12,7 @@
 #include <boost/json/serialize.hpp>
 #include <boost/version.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace hauberk::command {
@@ -90,10 +92,16 @@ Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned t
   labels_.unit = unit_of(loaded);
 }
 
+boost::json::object Output::document(const RunResult& run)
+{
+  provenance_.peak_memory_bytes = std::max(provenance_.peak_memory_bytes, peak_memory_bytes());
+  return results_document(run, experiment_json_, provenance_, names_);
+}
+
 Output::Files Output::content(const RunResult& run)
 {
   names_.files = result_files(run);
-  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_ = document(run);
   boost::json::array& limits = document_["limits"].as_array();
   for (std::size_t k = 0; k < kept_.size() && k < limits.size(); ++k) {
     // A limit that was there may have learnt from one that was not: then it is a new one.
@@ -105,7 +113,7 @@ Output::Files Output::content(const RunResult& run)
 Output::Files Output::content(const RunResult& run, const StabilityMap& map)
 {
   names_.files = stability_files();
-  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_ = document(run);
   document_["stability"] = stability_json(map);
   return stability_content(document_, map, labels_.title);
 }
@@ -113,7 +121,7 @@ Output::Files Output::content(const RunResult& run, const StabilityMap& map)
 Output::Files Output::content(const RunResult& run, const SweepTable& table)
 {
   names_.files = sweep_files();
-  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_ = document(run);
   document_["sweep"] = sweep_json(table);
   return sweep_content(document_, table, labels_);
 }
@@ -121,7 +129,7 @@ Output::Files Output::content(const RunResult& run, const SweepTable& table)
 Output::Files Output::content(const RunResult& run, const TransitionResult& transition)
 {
   names_.files = transition_files();
-  document_ = results_document(run, experiment_json_, provenance_, names_);
+  document_ = document(run);
   document_["transition"] = transition_json(transition);
   return transition_content(document_, transition, labels_.title);
 }
@@ -179,7 +187,7 @@ void Output::done()
 std::string Output::identity() const
 {
   boost::json::object provenance = document_.at("provenance").as_object();
-  provenance.erase("threads");  // results do not depend on them
+  for (const char* varies : {"threads", "peak_memory_bytes"}) provenance.erase(varies);
   return boost::json::serialize(
       boost::json::object{{"experiment", document_.at("experiment")}, {"provenance", provenance}});
 }

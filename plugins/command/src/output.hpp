@@ -7,6 +7,7 @@
 #include <hauberk/results/write_results.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ class Output {
 
   /// Entries of `limits` to be written exactly as they are in results read before (null: as computed).
   void keep(std::vector<boost::json::value> limits) { kept_ = std::move(limits); }
+
+  /// The largest resident size of the runs that this one goes on from.
+  void keep_peak_memory(std::int64_t bytes) { provenance_.peak_memory_bytes = bytes; }
 
   /// Writes everything. Where the folder cannot be written, writes to a new folder for temporary files
   /// instead. Throws ComputationError naming the file that cannot be written, and the place or the way out.
@@ -55,6 +59,7 @@ class Output {
   using Files = std::vector<NamedContent>;
 
   bool is_time() const;
+  boost::json::object document(const RunResult& run);
   Files content(const RunResult& run);
   Files content(const RunResult& run, const StabilityMap& map);
   Files content(const RunResult& run, const SweepTable& table);

@@ -26,21 +26,12 @@ std::optional<double> optional_number(const json::value& v)
 
 std::string text(const json::value& v) { return std::string(v.as_string()); }
 
-std::optional<LimitStatus> status_of(const std::string& name)
-{
-  for (const LimitStatus s : {LimitStatus::locked, LimitStatus::unbounded, LimitStatus::not_attained,
-                              LimitStatus::stalled, LimitStatus::failed}) {
-    if (to_string(s) == name) return s;
-  }
-  return std::nullopt;
-}
-
 /// What tables, plots and profiles need; poses and forces stay in the entry, which is kept as it is.
 std::optional<LimitResult> read_limit(const json::object& entry, const std::vector<std::string>& companions)
 {
   LimitResult r;
-  const auto status = status_of(text(entry.at("status")));
-  if (!status) return std::nullopt;
+  const auto status = limit_status(text(entry.at("status")));
+  if (!status || *status == LimitStatus::interrupted) return std::nullopt;
   r.resumed = true;
   r.status = *status;
   r.load_case = text(entry.at("load_case"));
@@ -213,6 +204,8 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
   try {
     json::value document = read_json_file(file.string());
     check_origin(document, loaded);
+    if (const json::value* peak = document.at("provenance").as_object().if_contains("peak_memory_bytes"))
+      out.peak_memory_bytes = peak->to_number<std::int64_t>();
     if (loaded.experiment.task == Task::stability)
       read_stability(document, loaded, out);
     else if (loaded.experiment.task == Task::sweep)

@@ -8,6 +8,7 @@
 
 #include <boost/json/value.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -20,6 +21,7 @@ struct Resumed {
   std::vector<boost::json::value> entries;
   std::optional<StabilityMap> stability;  ///< with the finished cases; task stability only
   std::optional<SweepTable> sweep;        ///< with the finished rows; task sweep only
+  std::int64_t peak_memory_bytes = 0;     ///< of the runs so far
   bool complete = false;                  ///< nothing is left to be done
   boost::json::value document;            ///< of a complete run
 };

@@ -251,6 +251,7 @@ int run_command(const std::vector<std::string>& words)
                                       : "resuming: finished limits are kept");
   }
   Output output(folder, loaded, threads, resuming, progress);
+  output.keep_peak_memory(resumed.peak_memory_bytes);
   RunResult run;
   run.plan_json = write_json(boost::json::value(plan_json(loaded)));
   run.scene = loaded.scene;

@@ -64,6 +64,22 @@ double read_clearance(Node& section, const std::string& key, double least, Probl
   return value.number;
 }
 
+/// A range that a publication reports has both ends, in order.
+void check_published(const Node& section, Problems& problems)
+{
+  const Node* published = find_typed(section, "published", Node::Type::object);
+  if (published == nullptr) return;
+  const std::optional<double> lowest = optional_number(*published, "lowest");
+  const std::optional<double> highest = optional_number(*published, "highest");
+  if (lowest.has_value() != highest.has_value()) {
+    problems.add(*published, std::string("'lowest' and 'highest' belong together; '") +
+                                 (lowest ? "highest" : "lowest") + "' is missing");
+  } else if (lowest && *lowest > *highest) {
+    problems.add(published->at("highest"), "expected at least 'lowest', which is " + format_number(*lowest) +
+                                               ", found " + format_number(*highest));
+  }
+}
+
 }  // namespace
 
 ExperimentSolver read_solver(Node& section, std::uint64_t seed)
@@ -103,6 +119,7 @@ ExperimentDesign read_design(Node& section, PluginResolver& plugins, Problems& p
     design.variables = read_variables(*variables, experiment.scene, tile_of, scene_complete, problems);
   }
   design.targets = read_targets(section, problems);
+  check_published(section, problems);
   design.hole_clearance = read_clearance(section, "hole_clearance", experiment.solver.clearance, problems);
   design.rest_clearance = read_clearance(section, "rest_clearance", experiment.solver.clearance, problems);
   design.plain_value = string_or(section, "value", "") == "plain";

@@ -184,6 +184,18 @@ Field solver_field()
       "{}");
 }
 
+/// What `hauberk report` prints beside a design; no computation reads it.
+Field published_field()
+{
+  return object(
+      "published", "What a publication reports of this design, for `hauberk report`; it is never used.",
+      {required(string("source", "Where it stands.")),
+       number("lowest", "Smallest value reached, where only a range is published.", "as the quantity"),
+       number("highest", "Largest value reached, where only a range is published.", "as the quantity"),
+       at_least(integer("iterations", "Iterations that were needed."), 1),
+       at_least(number("seconds_per_iteration", "Time of an iteration.", "s"), 0.0, true)});
+}
+
 Field design_field()
 {
   Field optimizer = object("optimizer", "What searches the design space.",
@@ -206,7 +218,11 @@ Field design_field()
       "target", "A value to reach in one direction.",
       {required(number("direction_deg", "Direction, modulo 180.", "degree")),
        required(number("value", "Value of the quantity to reach.", "as the quantity")),
-       with_default(at_least(number("weight", "Weight of the squared residual.", "1"), 0.0, true), "1")});
+       with_default(at_least(number("weight", "Weight of the squared residual.", "1"), 0.0, true), "1"),
+       number("published",
+              "Value that a publication reached here. `hauberk report` prints it beside the result; it is "
+              "never used.",
+              "as the quantity")});
   return object(
       "design", "What is designed, and for which limits. Needed by task design.",
       {with_default(std::move(optimizer), "{\"plugin\": \"sqp\"}"),
@@ -250,7 +266,8 @@ Field design_field()
                        "Stop once every target is met to within this fraction of it; absent: go on until "
                        "the optimizer stops.",
                        "1"),
-                0.0, true)});
+                0.0, true),
+       published_field()});
 }
 
 Field expect_field()

@@ -1,5 +1,6 @@
 #include <hauberk/error.hpp>
 #include <hauberk/results/atomic_file.hpp>
+#include <hauberk/results/report.hpp>
 #include <hauberk/results/write_results.hpp>
 
 #include <fcntl.h>
@@ -98,18 +99,21 @@ bool is_abandoned(const std::string& name)
   };
   constexpr std::string_view probe = ".hauberk-write-test.", mark = ".tmp-";
   if (name.starts_with(probe)) return belongs_to_none(probe.size());
-  return std::any_of(result_names.begin(), result_names.end(), [&](const char* result) {
-    const std::string start = std::string(".") + result + std::string(mark);
+  const auto temporary_of = [&](const char* file) {
+    const std::string start = std::string(".") + file + std::string(mark);
     return name.starts_with(start) && belongs_to_none(start.size());
-  });
+  };
+  return std::any_of(result_names.begin(), result_names.end(), temporary_of) ||
+         std::any_of(report_names.begin(), report_names.end(), temporary_of);
 }
 
-/// Removes results other than those named.
-void remove_others(const fs::path& directory, const std::vector<std::string>& names)
+/// Removes those of `names` that are not to stay.
+void remove_others(const fs::path& directory, std::span<const char* const> names,
+                   const std::vector<std::string>& stay)
 {
   std::error_code ignored;
-  for (const char* name : result_names) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) fs::remove(directory / name, ignored);
+  for (const char* name : names) {
+    if (std::find(stay.begin(), stay.end(), name) == stay.end()) fs::remove(directory / name, ignored);
   }
 }
 
@@ -143,7 +147,7 @@ void keep_previous(const fs::path& directory)
 }  // namespace
 
 void write_files_atomically(const fs::path& directory, const std::vector<NamedContent>& files,
-                            FormerResults former)
+                            std::span<const char* const> names, FormerResults former)
 {
   const auto temporary = [&](std::size_t k) { return temporary_for(directory / files[k].name); };
   const auto remove_from = [&](std::size_t first) {
@@ -164,11 +168,17 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
     remove_from(named);
     throw;
   }
-  std::vector<std::string> names;
-  names.reserve(files.size());
-  for (const NamedContent& file : files) names.push_back(file.name);
-  remove_others(directory, names);
+  std::vector<std::string> written;
+  written.reserve(files.size());
+  for (const NamedContent& file : files) written.push_back(file.name);
+  remove_others(directory, names, written);
   flush_folder(directory);
+}
+
+void write_files_atomically(const fs::path& directory, const std::vector<NamedContent>& files,
+                            FormerResults former)
+{
+  write_files_atomically(directory, files, result_names, former);
 }
 
 void refuse_existing_file(const fs::path& file)
@@ -205,8 +215,13 @@ void remove_abandoned(const fs::path& directory)
 
 void prepare_output_directory(const fs::path& directory, bool force)
 {
+  prepare_output_directory(directory, force, result_names);
+}
+
+void prepare_output_directory(const fs::path& directory, bool force, std::span<const char* const> names)
+{
   std::error_code error;
-  for (const char* name : result_names) {
+  for (const char* name : names) {
     if (!force && fs::exists(directory / name, error))
       throw InputError(fmt::format("{}: holds results already ({}); give another folder with -o, or --force",
                                    directory.string(), name));
@@ -227,7 +242,7 @@ void prepare_output_directory(const fs::path& directory, bool force)
 
 void drop_previous(const fs::path& directory)
 {
-  remove_others(previous_folder(directory), {});
+  remove_others(previous_folder(directory), result_names, {});
   std::error_code ignored;
   fs::remove(previous_folder(directory), ignored);  // unless somebody put more into it
 }

@@ -25,6 +25,7 @@ json::object provenance_json(const Provenance& provenance)
   }
   out["seed"] = provenance.seed;
   out["threads"] = provenance.threads;
+  out["peak_memory_bytes"] = provenance.peak_memory_bytes;
   return out;
 }
 
@@ -124,6 +125,15 @@ json::object design_json(const DesignResult& design, const std::vector<std::stri
 }
 
 }  // namespace
+
+std::optional<LimitStatus> limit_status(const std::string& name)
+{
+  for (const LimitStatus status : {LimitStatus::locked, LimitStatus::unbounded, LimitStatus::not_attained,
+                                   LimitStatus::stalled, LimitStatus::failed, LimitStatus::interrupted}) {
+    if (to_string(status) == name) return status;
+  }
+  return std::nullopt;
+}
 
 json::object results_document(const RunResult& run, const std::string& experiment_json,
                               const Provenance& provenance, const ResultNames& names)

@@ -90,6 +90,13 @@ class Diagram {
       case Curve::Marker::target:
         svg.circle(p, 5.0, curve.stroke.colour, {"#fff", 1.2, ""});
         break;
+      case Curve::Marker::cross:
+        for (const Stroke& stroke : {Stroke{"#fff", 2.8, ""}, Stroke{curve.stroke.colour, 1.6, ""}}) {
+          constexpr double half = 4.6;
+          svg.line({p.x - half, p.y - half}, {p.x + half, p.y + half}, stroke);
+          svg.line({p.x - half, p.y + half}, {p.x + half, p.y - half}, stroke);
+        }
+        break;
     }
   }
 
@@ -166,6 +173,7 @@ void draw_panel(Svg& svg, Point2 corner, const Panel& panel)
     for (const auto& [degrees, value] : curve.points) largest = std::max(largest, value);
   const Point2 centre{corner.x + panel_width / 2.0, corner.y + title_height + label_margin + radius};
   svg.text({centre.x, corner.y + 14.0}, panel.title, 14, "middle");
+  if (!panel.subtitle.empty()) svg.text({centre.x, corner.y + 30.0}, panel.subtitle, 12, "middle");
   const Diagram diagram(svg, centre, largest);
   diagram.grid();
   for (const Curve& curve : panel.curves) diagram.curve(curve);

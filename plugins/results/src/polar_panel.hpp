@@ -11,7 +11,7 @@ namespace hauberk::detail {
 
 /// Values (>= 0) against direction in degrees; only finite ones.
 struct Curve {
-  enum class Marker { none, dot, square, target };
+  enum class Marker { none, dot, square, target, cross };
   std::string label;
   Stroke stroke;
   Marker marker = Marker::none;
@@ -25,6 +25,7 @@ struct Curve {
 
 struct Panel {
   std::string title;
+  std::string subtitle;  ///< below the title, smaller; may be empty
   std::vector<Curve> curves;
 };
 

@@ -47,10 +47,29 @@ TEST(Structure, RangesAndChoices)
             "t.json:14: /solver/starts: expected an integer >= 1, found 1e+300");
   EXPECT_EQ(after("\"value\": 0.05", "\"value\": 0.05, \"weight\": 0"),
             "t.json:18: /design/targets/0/weight: expected a number > 0, found 0");
+  EXPECT_EQ(after("\"value\": 0.05", "\"value\": 0.05, \"published\": \"5 %\""),
+            "t.json:18: /design/targets/0/published: expected a number, found \"5 %\"");
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [2, 0], \"place\": ["),
             "t.json:9: /cell/repeat/1: expected an integer >= 1, found 0");
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [2], \"place\": ["),
             "t.json:9: /cell/repeat: expected an array of 2 integers >= 1, found an array of 1 value");
+}
+
+TEST(Structure, PublishedResultsOfADesign)
+{
+  const auto published = [](const std::string& text) {
+    return after("\"quantity\": \"eta\",", "\"quantity\": \"eta\", \"published\": {" + text + "},");
+  };
+  EXPECT_EQ(published(R"("source": "a book", "lowest": 0.1, "highest": 0.1, "iterations": 3)"), "");
+  EXPECT_EQ(published(""), "t.json:16: /design/published: missing key 'source': expected a string");
+  EXPECT_EQ(published(R"("source": "a book", "iterations": 0)"),
+            "t.json:16: /design/published/iterations: expected an integer >= 1, found 0");
+  EXPECT_EQ(published(R"("source": "a book", "lowest": 0.1)"),
+            "t.json:16: /design/published: 'lowest' and 'highest' belong together; 'highest' is missing");
+  EXPECT_EQ(published(R"("source": "a book", "highest": 0.1)"),
+            "t.json:16: /design/published: 'lowest' and 'highest' belong together; 'lowest' is missing");
+  EXPECT_EQ(published(R"("source": "a book", "lowest": 0.1, "highest": 0.05)"),
+            "t.json:16: /design/published/highest: expected at least 'lowest', which is 0.1, found 0.05");
 }
 
 TEST(Structure, UnknownKeysNameTheNearest)

@@ -2,6 +2,7 @@
 /// Files that are either wholly written or not touched.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,15 @@ enum class FormerResults {
         ///< older and stays
 };
 
-/// Replaces files of `directory` together, and removes results of other names: all are written and flushed
-/// under temporary names before the first is renamed, in the order given. Throws ComputationError naming the
-/// file and the cause (disk full, read-only); if that is before the first rename, as a full disk is,
-/// everything is as it was. A kill between the renames leaves new files beside former ones, each whole.
-/// Thread safe for different folders.
+/// Replaces files of `directory` together, and removes those of `names` that are not among them: all are
+/// written and flushed under temporary names before the first is renamed, in the order given. Throws
+/// ComputationError naming the file and the cause (disk full, read-only); if that is before the first rename,
+/// as a full disk is, everything is as it was. A kill between the renames leaves new files beside former
+/// ones, each whole. Thread safe for different folders.
+void write_files_atomically(const std::filesystem::path& directory, const std::vector<NamedContent>& files,
+                            std::span<const char* const> names,
+                            FormerResults former = FormerResults::replaced);
+/// The same for what runs leave (`result_names`).
 void write_files_atomically(const std::filesystem::path& directory, const std::vector<NamedContent>& files,
                             FormerResults former = FormerResults::replaced);
 
@@ -38,9 +43,12 @@ void refuse_existing_file(const std::filesystem::path& file);
 /// Removes temporary files that a killed process left. What cannot be removed stays.
 void remove_abandoned(const std::filesystem::path& directory);
 
-/// Makes sure that results can be written to `directory` before anything is computed: creates it when
-/// missing, refuses one that holds results unless `force`, and tries a file. Removes what is abandoned.
-/// Throws InputError naming the folder; a folder that was made is then removed.
+/// Makes sure that files can be written to `directory` before anything is computed: creates it when
+/// missing, refuses one that holds any of `names` unless `force`, and tries a file. Removes what is
+/// abandoned. Throws InputError naming the folder; a folder that was made is then removed.
+void prepare_output_directory(const std::filesystem::path& directory, bool force,
+                              std::span<const char* const> names);
+/// The same for what runs leave (`result_names`).
 void prepare_output_directory(const std::filesystem::path& directory, bool force);
 
 /// Removes former results that were kept: to be called once a run is done. Files that cannot be removed stay.

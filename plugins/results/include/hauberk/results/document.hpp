@@ -6,6 +6,7 @@
 #include <boost/json/object.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,8 +15,8 @@ namespace hauberk {
 
 inline constexpr const char* results_format = "hauberk-results/1";
 
-/// Where a result comes from. Everything but `threads` must be the same for repeated runs of one build on one
-/// machine, so there is no date, host or path in it.
+/// Where a result comes from. Everything but `threads` and `peak_memory_bytes` must be the same for repeated
+/// runs of one build on one machine, so there is no date, host or path in it.
 struct Provenance {
   struct Plugin {
     std::string id, kind, version;
@@ -29,6 +30,7 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> weaves;
   std::uint64_t seed = 0;
   int threads = 1;
+  std::int64_t peak_memory_bytes = 0;  ///< largest resident size, of all runs that went on from each other
 };
 
 /// Names the document needs beyond what the results carry.
@@ -45,5 +47,8 @@ struct ResultNames {
 /// Thread safe.
 boost::json::object results_document(const RunResult& run, const std::string& experiment_json,
                                      const Provenance& provenance, const ResultNames& names = {});
+
+/// The status of that name, as `to_string` gives it; none where there is none. Thread safe.
+std::optional<LimitStatus> limit_status(const std::string& name);
 
 }  // namespace hauberk

@@ -13,7 +13,8 @@ struct PlotLabels {
   std::string subtitle;              ///< e.g. measure and clearance; may be empty
   std::string positive = "stretch";  ///< name of the positive sense
   std::string negative = "compression";
-  std::string unit = "strain";  ///< of limits: "strain", or "1/mm" for curvatures
+  std::string unit = "strain";                     ///< of limits: "strain", or "1/mm" for curvatures
+  std::string before = "before", after = "after";  ///< a design's two states
 };
 
 /// Draws the limits against direction, 0 to 360 degrees (directions count modulo 180), as an SVG file that

@@ -1,0 +1,102 @@
+#include "dispatch.hpp"
+#include "options.hpp"
+
+#include <hauberk/results/json_text.hpp>
+#include <hauberk/results/report.hpp>
+#include <hauberk/results/write_results.hpp>
+
+#include <fmt/format.h>
+#include <boost/program_options/value_semantic.hpp>
+
+#include <filesystem>
+#include <system_error>
+
+namespace hauberk::command {
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+Options report_options()
+{
+  Options options(
+      "report RESULT... -o DIR [options]",
+      "Writes report.md, report.csv and report.svg from results of designs and limits: how far designs are "
+      "from their targets, what they cost, every direction, and a page of polar plots. A folder "
+      "stands for the results.json in it.",
+      "RESULT");
+  options.take_several();
+  auto add = options.add().add_options();
+  add("output,o", po::value<std::string>()->value_name("DIR"), "folder for the report");
+  add("force", "replace a report that the folder holds");
+  add("recheck", po::value<std::string>()->value_name("FOLDER"),
+      "in the folder of each design's results, a folder with limits of its designed.json computed apart; "
+      "designs without it are shown without");
+  return options;
+}
+
+/// A folder stands for the results in it.
+fs::path file_of(const std::string& result)
+{
+  std::error_code unknown;  // then reading tells
+  return fs::is_directory(result, unknown) ? fs::path(result) / results_file : fs::path(result);
+}
+
+/// Reads a file; where that fails, also says what would do.
+boost::json::value read_result(const fs::path& file)
+try {
+  return read_json_file(file.string());
+} catch (const InputError& error) {
+  throw InputError(
+      fmt::format("{}; give the {} that `hauberk run` wrote, or its folder", error.what(), results_file));
+}
+
+/// Enters what the folder beside the results holds; false where there is none.
+bool recheck(ReportEntry& entry, const std::string& folder)
+{
+  const fs::path file = fs::path(entry.file).parent_path() / folder / results_file;
+  std::error_code unknown;
+  if (!entry.design || !fs::exists(file, unknown)) return false;
+  enter_recheck(entry, read_result(file), file.string());
+  return true;
+}
+
+std::string required_folder(const Options& options, const char* name)
+{
+  if (!options.has(name) || options.get<std::string>(name).empty())
+    throw UsageError(fmt::format("--{}: expected a folder", name), options.usage());
+  return options.get<std::string>(name);
+}
+
+}  // namespace
+
+int report_command(const std::vector<std::string>& words)
+{
+  Options options = report_options();
+  options.parse(words);
+  const fs::path folder = required_folder(options, "output");
+  std::vector<ReportEntry> entries;
+  entries.reserve(options.positionals().size());
+  for (const std::string& result : options.positionals()) {
+    const std::string file = file_of(result).string();
+    entries.push_back(read_report_entry(read_result(file), file));
+  }
+  if (options.has("recheck")) {
+    const std::string beside = required_folder(options, "recheck");
+    std::size_t found = 0;
+    for (ReportEntry& entry : entries) found += recheck(entry, beside) ? 1 : 0;
+    if (found == 0)
+      throw InputError(
+          fmt::format("--recheck {}: no design has a folder of that name with {} beside its results; run its "
+                      "{} into it, or leave the option out",
+                      beside, results_file, designed_file));
+  }
+  const std::vector<NamedContent> files = report_content(entries);
+  prepare_output_directory(folder, options.has("force"), report_names);
+  write_files_atomically(folder, files, report_names);
+  fmt::print("{} results in {}: {}, {}, {}\n", entries.size(), folder.string(), report_text_file,
+             report_table_file, report_picture_file);
+  return exit_done;
+}
+
+}  // namespace hauberk::command

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <boost/json/array.hpp>
-
 #include <hauberk/results/direction_json.hpp>
 
 #include <map>
@@ -34,6 +33,7 @@ std::string directions_text(const std::vector<Direction>& directions)
 {
   constexpr std::size_t most_listed = 12;
   std::vector<std::string> parts;
+  parts.reserve(directions.size());
   for (const Direction& d : directions)
     parts.push_back(d.is_angle() ? fmt::format("{}", d.degrees()) : d.text());
   const bool angles = directions.front().is_angle();

@@ -128,8 +128,8 @@ void keep_previous(const fs::path& directory)
   const fs::path folder = previous_folder(directory);
   if (fs::exists(folder / results_file, error)) return;
   static_assert(result_names.front() == results_file);
-  for (auto it = result_names.rbegin(); it != result_names.rend(); ++it) {
-    const char* name = *it;
+  for (std::size_t k = result_names.size(); k-- > 0;) {
+    const char* name = result_names[k];
     if (!fs::exists(directory / name, error)) continue;
     fs::create_directory(folder, error);
     if (error) cannot_write(folder, error.value());

@@ -48,7 +48,9 @@ std::string MarkdownTable::text() const
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const std::string& cell = rows_[r][k];
       const std::string room(widths[k] - width(cell), ' ');
-      out += k == 0 ? "| " + cell + room : " | " + room + cell;
+      out += k == 0 ? "| " : " | ";
+      out += k == 0 ? cell : room;
+      out += k == 0 ? room : cell;
     }
     out += " |\n";
     if (r > 0) continue;

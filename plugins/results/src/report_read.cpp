@@ -24,7 +24,7 @@ std::string check_kind(const JsonPlace& document)
   const JsonPlace format = document.at("format");
   if (format.text() != results_format)
     format.fail(std::string("expected ") + results_format + ", found " + format.text() + "; " + way_out);
-  const std::string task = document.at("experiment").at("task").text();
+  std::string task = document.at("experiment").at("task").text();
   if (task != "design" && task != "limits")
     document.fail("a report shows designs and limits, and these are results of task " + task +
                   "; leave them out: their folder has a table and a picture of their own");

@@ -10,6 +10,7 @@
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -45,7 +46,8 @@ json::value made_up()
                                "made up");
   const std::vector<std::array<double, 3>> reached{
       {0, 0.02, 0.021}, {45, 0.02, 0.02}, {90, 0.04, 0.037}, {135, 0.04, 0}};
-  for (const auto& [degrees, target, value] : reached) {
+  for (const std::array<double, 3>& row : reached) {
+    const double degrees = row[0], target = row[1], value = row[2];
     const json::value number = value > 0.0 ? json::value(value) : json::value(nullptr);
     out.at("design").at("targets").as_array().push_back({{"direction_deg", degrees},
                                                          {"target", target},

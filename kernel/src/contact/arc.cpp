@@ -114,19 +114,22 @@ double root_in_unit(F&& f, D&& derivative)
 constexpr double onset_width = 1e-4;
 
 /// Where the barrier sets in between a and b, one inside and one not: by cubics through both ends, then by
-/// Newton's step from a place so close that it is off by no more than onset_width. `at` evaluates a place.
+/// Newton's step from a place so close that what the step leaves is within onset_width. `at` evaluates a
+/// place.
 template <typename At>
 double onset_between(At&& at, LinePoint a, LinePoint b)
 {
-  constexpr double close = 1e-2;  // its square: what Newton's step leaves
   const double width = std::abs(b.t - a.t);
   for (;;) {
+    const double h = b.t - a.t;
     const LineCubic cubic(a, b);
     const double s =
         root_in_unit([&](double x) { return cubic.at(x); }, [&](double x) { return cubic.slope(x); });
-    const LinePoint m = at(a.t + s * (b.t - a.t));
+    const LinePoint m = at(a.t + s * h);
     const double step = m.slope != 0.0 ? -m.beyond / m.slope : width;
-    if (std::abs(step) < close * width) return std::clamp(m.t + step, std::min(a.t, b.t), std::max(a.t, b.t));
+    // The step leaves g'' step^2/(2 g').
+    const double left = std::abs(0.5 * cubic.second(s) / (h * h) * step * step / m.slope);
+    if (left < onset_width * width) return std::clamp(m.t + step, std::min(a.t, b.t), std::max(a.t, b.t));
     (m.inside() == a.inside() ? a : b) = m;
     if (std::abs(b.t - a.t) < onset_width * width) return m.t;
   }

@@ -143,8 +143,9 @@ class Path {
 
   /// A force is as exact as its gap: rounding of coordinates over g. Where many contacts share the load along
   /// surfaces that conform, the last stage's gaps can be too small for their forces to balance. Then the last
-  /// stage is a wider one, as little as it takes; what that costs the value is in the error estimate. Where
-  /// none balances the best of them stays, and its forces tell.
+  /// stage is a wider one, as little as it takes. The value is then off by a multiple of that g_hat, and as
+  /// a rule without an error estimate, since the last widths are not in the ratio of the others. Where none
+  /// balances the best of them stays, and its forces tell.
   void balance()
   {
     const bool rounding_matters = rounding > 0.1 * unbalanced * smallest_gap_of_stage * schedule_.last;

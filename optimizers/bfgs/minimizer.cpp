@@ -249,9 +249,10 @@ bool BfgsMinimizer::restore()
   return true;
 }
 
-void BfgsMinimizer::move_to(const VectorXd& x, const Trial& trial, const VectorXd& s)
+void BfgsMinimizer::move_to(const VectorXd& x, const Trial& tried, const VectorXd& s)
 {
-  problem_.accept(x);
+  const Trial trial = problem_.accept(x, tried);
+  if (trial.value > tried.value + surprise * std::abs(tried.value)) best_.forget();
   Linearisation next;
   next.gradient = trial.gradient;
   problem_.linearise(x, next);

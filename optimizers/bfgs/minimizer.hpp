@@ -52,7 +52,7 @@ class BfgsMinimizer {
   bool report(const Step& conditions);
   /// One step that lowers A.
   Search search();
-  void move_to(const Eigen::VectorXd& x, const Trial& trial, const Eigen::VectorXd& s);
+  void move_to(const Eigen::VectorXd& x, const Trial& tried, const Eigen::VectorXd& s);
   /// One step onto the linearised constraints, as A is least slightly beyond them. Costs an evaluation; false
   /// where it does not reduce the violation.
   bool restore();

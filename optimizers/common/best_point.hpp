@@ -8,6 +8,9 @@
 
 namespace hauberk {
 
+/// A closer look at an iterate that raises its value by this part: former values may be as wrong.
+constexpr double surprise = 1e-3;
+
 /// Best point so far: feasible before infeasible, then by value or by violation. Not thread safe.
 class BestPoint {
  public:
@@ -18,6 +21,9 @@ class BestPoint {
   bool improved_by(double value, double violation) const;
   /// Takes the point if it is the best so far; returns whether it is.
   bool offer(const Eigen::VectorXd& x, double value, double violation);
+
+  /// What was offered until now no longer counts.
+  void forget() { any_ = false; }
 
   bool any() const { return any_; }
   const Eigen::VectorXd& x() const { return x_; }

@@ -113,4 +113,12 @@ double ScaledProblem::largest_safe_step(const VectorXd& x, const VectorXd& d)
 
 void ScaledProblem::accept(const VectorXd& x) { problem_.accept(view(x)); }
 
+Trial ScaledProblem::accept(const VectorXd& x, const Trial& trial)
+{
+  accept(x);
+  const Trial closer = evaluate(x, trial.gradient.size() > 0);
+  --evaluations_;  // the problem knows its iterate
+  return closer.ok ? closer : trial;
+}
+
 }  // namespace hauberk

@@ -53,6 +53,8 @@ class ScaledProblem {
   /// In [0, 1].
   double largest_safe_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d);
   void accept(const Eigen::VectorXd& x);
+  /// The same; returns what is known of x then, which a closer look may have changed.
+  Trial accept(const Eigen::VectorXd& x, const Trial& trial);
 
   int evaluations() const { return evaluations_; }
 

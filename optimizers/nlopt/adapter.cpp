@@ -82,11 +82,17 @@ void NloptAdapter::consider(const Point& p)
   const bool best = best_.improved_by(p.value, violation);
   if (!best && !(merit(p) < merit(accepted_))) return;
   const VectorXd step = problem_.step_between(accepted_.x, p.x);
-  problem_.accept(p.x);
+  Trial known;
+  known.value = p.value;
+  if (p.derivatives) known.gradient = p.at.gradient;
+  known = problem_.accept(p.x, known);
+  if (known.value > p.value + surprise * std::abs(p.value)) best_.forget();
   accepted_ = p;
-  if (best_.offer(p.x, p.value, violation)) best_point_ = p;
+  accepted_.value = known.value;
+  if (p.derivatives) accepted_.at.gradient = known.gradient;
+  if (best_.offer(p.x, accepted_.value, violation)) best_point_ = accepted_;
   ++iteration_;
-  if (!report(p, step.size() == 0 ? 0.0 : step.cwiseAbs().maxCoeff()))
+  if (!report(accepted_, step.size() == 0 ? 0.0 : step.cwiseAbs().maxCoeff()))
     stop(Stop::observer);
   else if (iteration_ >= settings_.max_iterations)
     stop(Stop::iterations);

@@ -157,9 +157,10 @@ bool Minimizer::restart()
   return true;
 }
 
-void Minimizer::move_to(const VectorXd& x, const Trial& trial, const VectorXd& s, const Step& step)
+void Minimizer::move_to(const VectorXd& x, const Trial& tried, const VectorXd& s, const Step& step)
 {
-  problem_.accept(x);
+  const Trial trial = problem_.accept(x, tried);
+  if (trial.value > tried.value + surprise * std::abs(tried.value)) best_.forget();
   Linearisation next;
   next.gradient = trial.gradient;
   problem_.linearise(x, next);

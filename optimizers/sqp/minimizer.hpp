@@ -50,7 +50,7 @@ class Minimizer {
   bool bundle_search(Step step);
   /// Second-order correction of a full step that ended at constraint values c; false when it does not help.
   bool correct(const Step& step, Eigen::VectorXd& d, Eigen::VectorXd& c);
-  void move_to(const Eigen::VectorXd& x, const Trial& trial, const Eigen::VectorXd& s, const Step& step);
+  void move_to(const Eigen::VectorXd& x, const Trial& tried, const Eigen::VectorXd& s, const Step& step);
   void remember() { best_.offer(x_, value_, largest_violation(at_.c)); }
   /// No evaluation is left.
   bool spent() const { return problem_.evaluations() >= settings_.max_evaluations; }

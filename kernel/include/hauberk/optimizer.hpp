@@ -44,7 +44,9 @@ class OptimizationProblem {
   /// is the last accepted point.
   virtual double largest_safe_step(std::span<const double> x, std::span<const double> d) = 0;
 
-  /// Makes x, just evaluated, the new iterate: warm starts continue from its states.
+  /// Makes x, just evaluated, the new iterate: warm starts continue from its states. A problem may look at an
+  /// iterate more closely than at a trial, so its value, gradient and residuals can change here: evaluating x
+  /// again costs nothing and tells.
   virtual void accept(std::span<const double> x) = 0;
 };
 

@@ -1,4 +1,5 @@
 #include <hauberk/design/design_point.hpp>
+#include <hauberk/error.hpp>
 #include <hauberk/geometry/separation.hpp>
 
 #include <algorithm>
@@ -13,6 +14,13 @@ constexpr double least_gap = 0.05;        ///< of the smallest gap at the start:
 constexpr double shortest_advance = 1e-6;
 constexpr double contact_range = 3.0;  ///< activation distances: gaps that a warm start keeps
 constexpr double open_enough = 0.01;   ///< activation distances: gaps of a warm start are at least that
+/// Parts of the way to a changed design: the longest motion (of what farthest_relative_motion allows), and
+/// iterations that may open gaps: where it takes more, a shorter part is cheaper; and how many parts are
+/// tried before a search from rest is.
+constexpr double longest_motion = 0.5;
+constexpr int most_openings = 12;
+constexpr int most_tries = 24;
+constexpr double shortest_part = 1.0 / 256.0;
 
 /// Model between a and b: bodies interpolated linearly. Kinds follow `b` unless both are tubes.
 Model between(const Model& a, const Model& b, double t)
@@ -85,6 +93,26 @@ Matrix gap_response(const DesignPoint& point, const std::vector<Gap>& gaps,
   return response;
 }
 
+/// The state moved by dy, as a state of the model `changed`; where gaps close, the nearest one that has them
+/// open by `least`. Null where there is none, or where it is so far that cores could have crossed unseen.
+std::optional<State> opened(const Model& m, const State& state, const Vector& dy, const Model& changed,
+                            double least)
+{
+  State s = advanced(m, state, dy, 1.0);
+  const auto acceptable = [&] {
+    return m.load->admissible({s.macro.data(), static_cast<std::size_t>(m.macro_count)}) &&
+           farthest_relative_motion(m, state, s, difference(m, state, s), changed) <= longest_motion;
+  };
+  if (!acceptable()) return std::nullopt;
+  if (smallest_gap(changed, s, least) < least) {
+    Relaxed r = relax(changed, s, 2.0 * least, Cell::free, most_openings);
+    s = std::move(r.state);
+    if (r.smallest < least || !acceptable()) return std::nullopt;
+  }
+  if (!links_kept(changed, s)) return std::nullopt;
+  return s;
+}
+
 }  // namespace
 
 SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables,
@@ -128,21 +156,53 @@ Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>
   return response;
 }
 
+std::optional<Model> intermediate(const DesignPoint& from, const DesignPoint& to,
+                                  const std::vector<DesignVariable>& variables, double share)
+{
+  if (share >= 1.0) return to.model;
+  std::vector<double> x = from.x;
+  for (std::size_t v = 0; v < x.size(); ++v) x[v] = (1.0 - share) * from.x[v] + share * to.x[v];
+  try {
+    Model m = make_model(with_variables(from.spec, variables, x), *from.model.load,
+                         from.model.clearance * from.model.length);
+    m.links = from.model.links;
+    return m;
+  } catch (const InputError&) {  // sizes between two admissible ones need not be admissible
+    return std::nullopt;
+  }
+}
+
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
                               const std::vector<DesignVariable>& variables)
 {
   if (from.x == to.x) return warm.state;
-  const Model& m = from.model;
-  const Vector dx = change_of_variables(from, to);
+  const Vector change = change_of_variables(from, to);
+  DesignPoint at;
+  at.model = from.model;
+  State state = warm.state;
   const double range = contact_range * warm.g_hat;
-  const std::vector<Gap> gaps = find_gaps(m, warm.state, range, true);
-  const Vector dy = free_part(m, gap_response(from, gaps, variables, true, follow_weight) * dx);
-  const State s = advanced(m, warm.state, dy, 1.0);
-  if (farthest_relative_motion(m, warm.state, s, dy, to.model) > 1.0) return std::nullopt;
-  if (!m.load->admissible({s.macro.data(), static_cast<std::size_t>(m.macro_count)})) return std::nullopt;
-  if (smallest_gap(to.model, s, range) < open_enough * warm.g_hat || !links_kept(to.model, s))
-    return std::nullopt;
-  return s;
+  double done = 0.0;
+  int tries = 0;
+  for (double part = 1.0; done < 1.0;) {
+    // One linear response serves all lengths of this part.
+    const Matrix response =
+        gap_response(at, find_gaps(at.model, state, range, true), variables, true, follow_weight);
+    std::optional<State> reached;
+    std::optional<Model> next;
+    for (; !reached; part *= 0.5) {
+      if (part < shortest_part || ++tries > most_tries) return std::nullopt;
+      const double end = std::min(1.0, done + part);
+      next = intermediate(from, to, variables, end);
+      if (!next) continue;
+      const Vector dy = free_part(at.model, response * ((end - done) * change));
+      reached = opened(at.model, state, dy, *next, open_enough * warm.g_hat);
+      if (reached) done = end;
+    }
+    part *= 4.0;  // the loop has halved it: twice the part that succeeded
+    state = std::move(*reached);
+    at.model = std::move(*next);
+  }
+  return state;
 }
 
 double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy)

@@ -16,6 +16,14 @@ constexpr double constrained_range = 0.3;
 /// Gaps within this of the required clearance respond together when parameters change (L).
 constexpr double response_range = 0.03;
 constexpr double smallest_share = 1e-3;
+/// Rest states are followed in at most so many parts, each of this share of what is safe.
+constexpr int most_rest_parts = 24;
+constexpr double most_of_safe = 0.9;
+/// Gaps beyond the required ones (L) that the states between keep if they can: the next part is then longer.
+constexpr double rest_room = 0.01;
+constexpr int rest_iterations = 12;
+/// Accepted designs in a row whose states were only followed: then further ones are looked for.
+constexpr int most_unchecked = 4;
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;
 constexpr int projection_sweeps = 200;
@@ -117,21 +125,12 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
     return p;
   }
   p->model.links = current_->model.links;  // found at the rest state, not at the reference positions
-  // Rest: predicted along the response, then relaxed; both parts of the way are checked.
-  const Vector dy = rest_response(*current_, design_.variables) * change_of_variables(*current_, *p);
-  if (safe_parameter_step(current_->model, p->model, current_->rest, dy) < 1.0) {
+  const RestPath& way = follow_rest(*p);
+  if (way.share < 1.0) {
     p->why = "elements collide at rest on the way";
     return p;
   }
-  const State predicted = advanced(current_->model, current_->rest, dy, 1.0);
-  const Relaxed r = relax(p->model, predicted, rest_target(p->model));
-  if (r.moved &&
-      hauberk::largest_safe_step(p->model, predicted, difference(p->model, predicted, r.state), 0.02).alpha <
-          1.0) {
-    p->why = "relaxing the rest state would pass through an element";
-    return p;
-  }
-  p->rest = r.state;
+  p->rest = way.rest;
   p->rest_gaps = find_gaps(p->model, p->rest, rest_target(p->model) + response_range, true);
   return p;
 }
@@ -253,26 +252,70 @@ void DesignProblem::constraints(std::span<const double> x, std::span<double> c, 
 double DesignProblem::largest_safe_step(std::span<const double> x, std::span<const double> d)
 {
   if (!std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return 0.0;
-  std::vector<double> end = copy(x);
-  Vector dx(static_cast<int>(d.size()));
-  for (std::size_t k = 0; k < d.size(); ++k) {
-    dx[static_cast<int>(k)] = d[k];
-    end[k] += d[k];
-  }
-  double share = 1.0;
+  DesignPoint end;
   // Parameters must stay admissible for the shape; halve until they are.
-  while (share > smallest_share) {
-    std::vector<double> y(end.size());
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] = x[k] + share * d[k];
+  for (double share = 1.0; share > smallest_share; share *= 0.5) {
+    end.x = copy(x);
+    for (std::size_t k = 0; k < d.size(); ++k) end.x[k] += share * d[k];
+    end.spec = with_variables(scene_, design_.variables, end.x);
     try {
-      const Model m = make_model(with_variables(scene_, design_.variables, y), load_, clearance_);
-      const Vector dy = rest_response(*current_, design_.variables) * (share * dx);
-      return share * safe_parameter_step(current_->model, m, current_->rest, dy);
+      end.model = make_model(end.spec, load_, clearance_);
     } catch (const InputError&) {
-      share *= 0.5;
+      continue;
     }
+    return share * follow_rest(end).share;
   }
   return 0.0;
+}
+
+const DesignProblem::RestPath& DesignProblem::follow_rest(const DesignPoint& to)
+{
+  if (way_from_ != current_ || way_to_ != to.x) {
+    way_ = rest_path(to);
+    way_from_ = current_;
+    way_to_ = to.x;
+  }
+  return way_;
+}
+
+DesignProblem::RestPath DesignProblem::rest_path(const DesignPoint& to) const
+{
+  DesignPoint at;
+  at.model = current_->model;
+  at.rest = current_->rest;
+  at.rest_gaps = current_->rest_gaps;
+  const Vector change = change_of_variables(*current_, to);
+  RestPath way{0.0, at.rest};
+  double longest = 1.0;
+  for (int parts = 0; parts < most_rest_parts && way.share < 1.0; ++parts) {
+    // Predicted along the response as far as nothing collides, then relaxed.
+    const Matrix response = rest_response(at, design_.variables);
+    double part = std::min(1.0 - way.share, longest);
+    double end = 1.0;
+    std::optional<Model> next;
+    Vector dy;
+    for (double safe = 0.0; safe < 1.0;) {
+      if (part < smallest_share) return way;
+      end = part < 1.0 - way.share ? way.share + part : 1.0;
+      next = intermediate(*current_, to, design_.variables, end);
+      dy = response * (part * change);
+      safe = next ? safe_parameter_step(at.model, *next, at.rest, dy) : 0.5;
+      if (safe < 1.0) part *= most_of_safe * safe;
+    }
+    const State predicted = advanced(at.model, at.rest, dy, 1.0);
+    longest = 2.0 * part;
+    way.share = end;
+    const Relaxed r = way.share < 1.0 ? relax(*next, predicted, rest_target(*next) + rest_room, Cell::fixed,
+                                              rest_iterations)
+                                      : relax(*next, predicted, rest_target(*next));
+    const Vector back = difference(*next, predicted, r.state);
+    const bool passes = r.moved && hauberk::largest_safe_step(*next, predicted, back, 0.02).alpha < 1.0;
+    at.rest = passes ? predicted : r.state;
+    at.model = std::move(*next);
+    at.rest_gaps = find_gaps(at.model, at.rest, rest_target(at.model) + response_range, true);
+    way.rest = at.rest;
+  }
+  return way;
 }
 
 void DesignProblem::set_schedule(const Schedule& schedule)
@@ -293,6 +336,7 @@ void DesignProblem::accept(std::span<const double> x)
     throw PluginError("the optimizer accepted a design that it " + (p->why.empty()
                                                                         ? "did not evaluate from its iterate"
                                                                         : "could not evaluate: " + p->why));
+  if (p->unchecked >= most_unchecked) check(*p);
   const bool recalled = p->states_missing && memory_->recall_states(*p);
   if (p->states_missing && !recalled) find_states(*p);
   if (memory_ != nullptr && !p->states_kept && !recalled) memory_->record_states(*p);

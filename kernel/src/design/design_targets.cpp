@@ -62,35 +62,42 @@ Value value_of(const Model& model, const Locked& l, const Vector& load, DesignVa
 
 }  // namespace
 
-DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, const Vector& load,
+DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, const DesignPoint& from,
+                                                       const Vector& load,
                                                        const std::vector<WarmStart>& warm) const
 {
   LockedTarget out;
-  const auto run = [&](const State& from, const Schedule& schedule) {
-    Locked l = lock(p.model, from, load, limits_.contact, schedule, keep_going_);
+  const auto run = [&](const State& start, const Schedule& schedule) {
+    Locked l = lock(p.model, start, load, limits_.contact, schedule, keep_going_);
     out.evaluations += l.evaluations;
     return l;
   };
-  // A limit is the furthest locked state. One search starts loose, and may find another state than the
-  // iterate's; one follows the iterate's state, which may be further, as tightly as it can.
+  // A limit is the furthest locked state. A loose search begins with the widest stage and may find another
+  // state than the known one; a tight one follows that, which may be further.
   Locked loose;
-  if (!warm.empty()) {
-    const std::optional<State> start = followed(*current_, warm.front(), p, design_.variables);
-    if (start) loose = run(*start, schedule_);
-    out.followed = true;
-    out.changed = !start || loose.status != LockStatus::locked;
-  }
-  for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
-    const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
-    loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
-  }
-  if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) {
-    out.locked = std::move(loose);
-    return out;
+  const auto search_loosely = [&] {
+    if (!warm.empty()) {
+      const std::optional<State> start = followed(from, warm.front(), p, design_.variables);
+      if (start) loose = run(*start, schedule_);
+      out.followed = true;
+      out.changed = !start || loose.status != LockStatus::locked;
+    }
+    for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
+      const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
+      loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
+    }
+  };
+  const bool both = p.x == from.x || warm.size() < 2;
+  if (both) {
+    search_loosely();
+    if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) {
+      out.locked = std::move(loose);
+      return out;
+    }
   }
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
-    const std::optional<State> start = followed(*current_, warm[j], p, design_.variables);
+    const std::optional<State> start = followed(from, warm[j], p, design_.variables);
     if (!start) continue;
     Schedule schedule = schedule_;
     schedule.first = warm[j].g_hat;
@@ -105,13 +112,14 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     if (!loose.trail.empty()) out.trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
     // Looser stages of the same state: the next change of parameters may be too large for the tightest.
     for (std::size_t i = loose.trail.empty() ? 0 : 1; i < j; ++i) {
-      std::optional<State> s = followed(*current_, warm[i], p, design_.variables);
+      std::optional<State> s = followed(from, warm[i], p, design_.variables);
       if (s) out.trail.push_back({warm[i].g_hat, std::move(*s)});
     }
     enter(tight, out.trail);
     out.locked = std::move(tight);
     return out;
   }
+  if (!both) search_loosely();
   enter(loose, out.trail);
   out.locked = std::move(loose);
   return out;
@@ -157,6 +165,7 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
 void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
 {
   tried_.push_back(p);
+  p->unchecked = p->x == current_->x ? 0 : current_->unchecked + 1;
   long cost = 0;
   if (memory_ != nullptr && memory_->recall(*p, cost)) {
     evaluations_ += cost;
@@ -166,24 +175,48 @@ void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
   // A start is the iterate before it is accepted.
   if (current_->states_missing) find_states(*current_);
   const long before = evaluations_;
-  solve_targets(*p);
+  solve_targets(*p, *current_);
   if (memory_ == nullptr) return;
   memory_->record(*p, evaluations_ - before);
 }
 
 void DesignProblem::find_states(DesignPoint& p)
 {
-  p.evaluated = false;
   const long before = evaluations_;
-  solve_targets(p);
+  solve_targets(p, *current_);
+  if (p.checked) search_again(p);
   evaluations_ = before;
   p.states_missing = false;
 }
 
-void DesignProblem::solve_targets(DesignPoint& p)
+void DesignProblem::check(DesignPoint& p)
 {
-  std::vector<std::vector<WarmStart>> warm = current_->warm;  // p may be the iterate itself
-  warm.resize(tasks_.size());                                 // a starting design has none
+  long cost = 0;
+  if (memory_ != nullptr && memory_->recall(p, cost)) {
+    evaluations_ += cost;
+    p.states_missing = true;
+  } else {
+    if (p.states_missing) find_states(p);
+    const long before = evaluations_;
+    search_again(p);
+    if (memory_ != nullptr) memory_->record(p, evaluations_ - before);
+  }
+  p.checked = true;
+  p.unchecked = 0;
+}
+
+void DesignProblem::search_again(DesignPoint& p)
+{
+  DesignPoint again = p;
+  solve_targets(again, p);
+  if (again.evaluated) p = std::move(again);
+}
+
+void DesignProblem::solve_targets(DesignPoint& p, const DesignPoint& from)
+{
+  p.evaluated = false;
+  std::vector<std::vector<WarmStart>> warm = from.warm;  // p may be `from` itself
+  warm.resize(tasks_.size());                            // a starting design has none
   p.warm.assign(tasks_.size(), {});
   std::vector<LockedTarget> targets(tasks_.size());
   std::vector<double> estimate(tasks_.size());
@@ -200,7 +233,7 @@ void DesignProblem::solve_targets(DesignPoint& p)
     });
   };
   const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
-  each([&](std::size_t k) { targets[k] = lock_target(p, loads[k], warm[k]); });
+  each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k]); });
   if (std::none_of(targets.begin(), targets.end(), has_problem)) learn(p, loads, targets);
   each([&](std::size_t k) {
     const Locked& l = targets[k].locked;

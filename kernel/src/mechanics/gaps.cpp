@@ -11,7 +11,6 @@ namespace {
 /// Weight of staying where the rest state was, against violated gaps; the violation left behind is about
 /// this fraction of the motion.
 constexpr double anchor_weight = 1e-6;
-constexpr int most_relaxations = 200;
 constexpr double room = 1e-3;  ///< relative to the target: aim a little beyond it
 
 template <int dim>
@@ -186,14 +185,14 @@ std::string tightest_pair(const SceneSpec& spec, const Model& m, const State& s)
          (spec.length_unit.empty() ? "" : " (lengths in " + spec.length_unit + ")");
 }
 
-Relaxed relax(const Model& m, const State& start, double target, Cell cell)
+Relaxed relax(const Model& m, const State& start, double target, Cell cell, int most_iterations)
 {
   Relaxed out;
   out.state = start;
   const double aim = target * (1.0 + room);
   Penalty now = penalty(m, start, start, aim, cell);
   double damping = 1e-4;
-  for (int it = 0; it < most_relaxations && now.smallest < target; ++it) {
+  for (int it = 0; it < most_iterations && now.smallest < target; ++it) {
     Matrix A = now.hessian;
     A.diagonal() += damping * m.metric;
     Vector dy = free_part(m, -A.llt().solve(now.gradient));

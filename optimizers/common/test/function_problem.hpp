@@ -41,9 +41,10 @@ class FunctionProblem : public OptimizationProblem {
       if (x[i] < lower_bounds[i] || x[i] > upper_bounds[i]) ++broken_protocol;
     }
     if (!accepted.empty() && !allowed(v)) ++broken_protocol;
-    evaluated.push_back(v);
+    const bool known = !accepted.empty() && v == accepted.back() && v == evaluated.back();  // costs nothing
+    if (!known) evaluated.push_back(v);
     Evaluation e;
-    if (want_gradient) ++gradients;
+    if (want_gradient && !known) ++gradients;
     if (fails(v)) {
       e.why = "told to fail";
       return e;

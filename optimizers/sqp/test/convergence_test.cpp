@@ -6,6 +6,7 @@
 #include <common/test/known_problems.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -273,6 +274,42 @@ TEST(SqpConvergence, AJumpIsCrossed)
   const OptimizerResult r = minimise(problem, {1.05, -3.0}, recorder, SqpSettings{});
   EXPECT_LT(r.value, 1e-6 * recorder.iterates.front().value) << r.message;
   EXPECT_NEAR(r.x[0], -0.1, 2e-3);
+}
+
+/// A problem that looks at its iterates more closely than at trials: every third one is then worth more.
+class CloserLook final : public FunctionProblem {
+ public:
+  double found = 0.0;
+
+  void accept(std::span<const double> x) override
+  {
+    FunctionProblem::accept(x);
+    if (accepted.size() % 3 == 0) found += 0.01;
+  }
+};
+
+TEST(SqpConvergence, WhatACloserLookAtAnIterateFindsIsTaken)
+{
+  CloserLook problem;
+  problem.lower_bounds = {-4.0, -4.0};
+  problem.upper_bounds = {4.0, 4.0};
+  problem.objective = [&problem](const VectorXd& x, VectorXd& g) {
+    g = 2.0 * (x - VectorXd::Ones(2)) + VectorXd{{4.0 * x[0] * x[0] * x[0], 0.0}};
+    return (x - VectorXd::Ones(2)).squaredNorm() + x[0] * x[0] * x[0] * x[0] + problem.found;
+  };
+  Recorder recorder;
+  const OptimizerResult r = minimise(problem, {-3.0, -2.0}, recorder, SqpSettings{});
+  EXPECT_EQ(r.status, "converged") << r.message;
+  ASSERT_GT(problem.found, 0.0);
+  VectorXd g(2);
+  ASSERT_EQ(problem.accepted.size(), recorder.iterates.size());
+  const double found = std::exchange(problem.found, 0.0);
+  for (std::size_t k = 0; k < problem.accepted.size(); ++k) {
+    const double looks = std::floor(static_cast<double>(k + 1) / 3.0);
+    EXPECT_NEAR(recorder.iterates[k].value, problem.objective(problem.accepted[k], g) + 0.01 * looks, 1e-12)
+        << k;
+    EXPECT_LE(0.01 * looks, found + 1e-12);
+  }
 }
 
 }  // namespace

@@ -259,7 +259,7 @@ std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
   problem.set_memory(&memory);
   std::vector<double> numbers;
   std::vector<double> first = problem.scene_variables();
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 6; ++k) {
     std::vector<double> second = first, next = first;
     second[0] += 0.02;
     next[3] -= 0.01;
@@ -270,6 +270,7 @@ std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
       numbers.insert(numbers.end(), e.gradient.begin(), e.gradient.end());
     }
     problem.accept(first);
+    numbers.push_back(problem.evaluate(first, true).value);  // the fifth one is looked at more closely
     for (const std::vector<WarmStart>& task : problem.current().warm) {
       for (const WarmStart& w : task) numbers.push_back(w.state.macro.sum());
     }
@@ -296,7 +297,7 @@ TEST(DesignMemory, HoldsForAnOptimizerThatAcceptsWhatItTriedFirst)
     marks += all[begin];
     ends.push_back(all.find('\n', begin) + 1);
   }
-  EXPECT_EQ(marks, "hEESEES");
+  EXPECT_EQ(marks, "hEESEESEESEESEEESEES");
   // Wherever it was cut off, the search and what is remembered of it come out the same.
   for (const std::size_t end : ends) {
     std::ofstream(log, std::ios::binary) << all.substr(0, end);
@@ -355,8 +356,71 @@ TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
   }
   EXPECT_LT(change[0], 0.3 * before);
   EXPECT_LT(change[1], 0.35 * change[0]) << change[0] << " " << change[1];
-  // A change by more than a tube's radius might pass through it.
-  EXPECT_FALSE(followed(at, tight, neighbour(0.8), design.variables).has_value());
+  // Where the linear motion would close gaps, in parts: gaps stay open, and no link is lost.
+  const DesignPoint far = neighbour(0.1);
+  const auto state = followed(at, tight, far, design.variables);
+  ASSERT_TRUE(state.has_value());
+  EXPECT_GE(smallest_gap(far.model, *state, 0.03), 0.01 * tight.g_hat);
+  EXPECT_TRUE(links_kept(far.model, *state));
+  // A ring of which the other one fills the hole has no state to follow.
+  EXPECT_FALSE(followed(at, tight, neighbour(1.4), design.variables).has_value());
+}
+
+TEST(DesignProblem, RestIsFollowedAroundWhatTheStraightWayCollidesWith)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  const DesignSpec design = spec();
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+  const std::vector<double> x = problem.scene_variables();
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  problem.accept(x);
+  const std::vector<double> d = {0.0, 0.08, 0.0, 0.06};
+  std::vector<double> y = x;
+  for (std::size_t k = 0; k < y.size(); ++k) y[k] += d[k];
+  const Model thick = make_model(with_variables(scene, design.variables, y), load, 0.0);
+  const Vector dx = Eigen::Map<const Vector>(d.data(), 4);
+  const Vector straight = rest_response(problem.current(), design.variables) * dx;
+  ASSERT_LT(safe_parameter_step(problem.current().model, thick, problem.current().rest, straight), 1.0);
+  EXPECT_EQ(problem.largest_safe_step(x, d), 1.0);
+  ASSERT_TRUE(problem.evaluate(y, true).ok);
+  problem.accept(y);
+  EXPECT_TRUE(links_kept(problem.current().model, problem.current().rest));
+  EXPECT_GT(problem.rest_distance(), 0.0);  // what is missing is left to the constraints
+}
+
+TEST(DesignProblem, FollowedStatesAreCheckedEveryFewSteps)
+{
+  // A check looks for further states: each target's value along its load is never less than what was
+  // followed.
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  DesignSpec design = spec();
+  design.quantity = DesignQuantity::positive;
+  DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+  std::vector<double> x = problem.scene_variables();
+  ASSERT_TRUE(problem.evaluate(x, true).ok);
+  problem.accept(x);
+  int checks = 0;
+  for (int k = 0; k < 8; ++k) {
+    x[0] += 0.02;
+    ASSERT_TRUE(problem.evaluate(x, true).ok);
+    const long before = problem.evaluations();
+    const std::vector<double> followed_values = [&] {
+      std::vector<double> r(2), J(8);
+      EXPECT_TRUE(problem.residuals(x, r, J));
+      return r;
+    }();
+    problem.accept(x);
+    EXPECT_EQ(problem.current().unchecked, (k + 1) % 4);
+    const bool checked = problem.evaluations() > before;
+    EXPECT_EQ(checked, (k + 1) % 4 == 0);
+    checks += checked ? 1 : 0;
+    std::vector<double> r(2), J(8);
+    ASSERT_TRUE(problem.residuals(x, r, J));
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_GE(r[i], followed_values[i] - 1e-7) << i;
+  }
+  EXPECT_EQ(checks, 2);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ struct DesignPoint {
   bool evaluated = false;
   bool states_missing = false;  ///< values are recalled from a former run, `warm` is not
   bool states_kept = false;     ///< the memory has `warm`
+  int unchecked = 0;            ///< steps since further states were looked for
+  bool checked = false;         ///< they were, after this one was accepted
   std::string why;              ///< why it could not be evaluated
 };
 
@@ -40,14 +42,18 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
 /// variables, rows unknowns.
 Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>& variables);
 
+/// Model of the design at a share of the way between two; null where its sizes are not admissible.
+std::optional<Model> intermediate(const DesignPoint& from, const DesignPoint& to,
+                                  const std::vector<DesignVariable>& variables, double share);
+
 /// to.x - from.x.
 Vector change_of_variables(const DesignPoint& from, const DesignPoint& to);
 
 /// Warm start of design `to` from a stage of design `from`: the state moved by the least-squares response of
 /// all unknowns, strain included, that keeps the gaps in contact. Null where that is not a state of the same
 /// fabric: some gap is closed, a link is lost, or the change is so large that cores could have crossed
-/// unseen (a tube's radius). What is between is not a motion of either design, so it need not be free of
-/// overlaps.
+/// unseen (a tube's radius). Large changes are followed in parts. What is between is not a motion of either
+/// design, so it need not be free of overlaps.
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
                               const std::vector<DesignVariable>& variables);
 

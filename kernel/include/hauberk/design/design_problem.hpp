@@ -60,9 +60,22 @@ class DesignProblem final : public OptimizationProblem {
   };
 
   std::shared_ptr<DesignPoint> make_point(std::span<const double> x);
+  /// The rest state on the way to another design, as far as it can be followed without a collision.
+  struct RestPath {
+    double share = 0.0;
+    State rest;
+  };
+  RestPath rest_path(const DesignPoint& to) const;
+  /// The same; the last one is remembered, as the step that is safe is then tried.
+  const RestPath& follow_rest(const DesignPoint& to);
   /// Recalls or solves, and records.
   void find_targets(const std::shared_ptr<DesignPoint>& p);
-  void solve_targets(DesignPoint& p);
+  /// Solves for p from the states of `from`, which may be p itself: then further states are looked for, too.
+  void solve_targets(DesignPoint& p, const DesignPoint& from);
+  /// Looks for further states than those that were followed, and takes their values: recalls or solves, and
+  /// records.
+  void check(DesignPoint& p);
+  void search_again(DesignPoint& p);
   /// Warm starts of a design that was evaluated from the iterate in a run that ended before it kept them:
   /// they are found again as they were found first, at no cost that was not counted then.
   void find_states(DesignPoint& p);
@@ -75,8 +88,9 @@ class DesignProblem final : public OptimizationProblem {
     bool changed = false;   ///< and this is not its continuation
     std::string problem;    ///< why it, or its gradient, could not be computed
   };
-  /// Furthest locked state of one task that the iterate's states lead to.
-  LockedTarget lock_target(const DesignPoint& p, const Vector& load,
+  /// Locked state of one task that the known states of `from` lead to; if that is p itself, or they lead
+  /// nowhere, the furthest one of those and of a search that begins with the widest stage.
+  LockedTarget lock_target(const DesignPoint& p, const DesignPoint& from, const Vector& load,
                            const std::vector<WarmStart>& warm) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
   /// another that is further along its direction, until there is none.
@@ -101,6 +115,10 @@ class DesignProblem final : public OptimizationProblem {
   std::vector<Hole> holes_;
   std::vector<Pair> pairs_;
   std::shared_ptr<DesignPoint> current_, last_;
+  /// What follow_rest found last, from where, and to where.
+  RestPath way_;
+  std::shared_ptr<DesignPoint> way_from_;
+  std::vector<double> way_to_;
   /// Evaluated from the iterate: an optimizer may try several before it accepts one.
   std::vector<std::shared_ptr<DesignPoint>> tried_;
   /// Iterates: an optimizer may go back to its best one, which is not always on the way from the last.

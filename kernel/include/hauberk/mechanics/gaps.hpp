@@ -45,6 +45,7 @@ enum class Cell { fixed, free };
 /// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2
 /// by Levenberg-Marquardt. Elements may overlap at the start (not deeper
 /// than their tubes).
-Relaxed relax(const Model& model, const State& start, double target, Cell cell = Cell::fixed);
+Relaxed relax(const Model& model, const State& start, double target, Cell cell = Cell::fixed,
+              int most_iterations = 200);
 
 }  // namespace hauberk

@@ -22,7 +22,7 @@ constexpr double most_of_safe = 0.9;
 /// Gaps beyond the required ones (L) that the states between keep if they can: the next part is then longer.
 constexpr double rest_room = 0.01;
 constexpr int rest_iterations = 12;
-/// Accepted designs in a row whose states were only followed: then further ones are looked for.
+/// Accepted designs in a row whose states were only followed: then they are looked for from rest.
 constexpr int most_unchecked = 4;
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;

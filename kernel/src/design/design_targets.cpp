@@ -72,26 +72,27 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     out.evaluations += l.evaluations;
     return l;
   };
-  // A limit is the furthest locked state. A loose search begins with the widest stage and may find another
-  // state than the known one; a tight one follows that, which may be further.
-  Locked loose;
-  const auto search_loosely = [&] {
-    if (!warm.empty()) {
-      const std::optional<State> start = followed(from, warm.front(), p, design_.variables);
-      if (start) loose = run(*start, schedule_);
-      out.followed = true;
-      out.changed = !start || loose.status != LockStatus::locked;
-    }
-    for (int attempt = 0; attempt < attempts_from_rest && loose.status == LockStatus::stalled; ++attempt) {
-      const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
-      loose = run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
-    }
+  const auto value = [&load](const State& s) { return load.dot(s.macro); };
+  const auto from_rest = [&](int attempt) {
+    const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
+    return run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
   };
-  const bool both = p.x == from.x || warm.size() < 2;
-  if (both) {
-    search_loosely();
-    if (loose.status != LockStatus::locked && loose.status != LockStatus::stalled) {
-      out.locked = std::move(loose);
+  if (p.x == from.x) {
+    // What counts in the end is where rest leads. States that were followed through many designs can be
+    // further, but then no load leads there.
+    Locked found = from_rest(0);
+    for (int attempt = 1; attempt < attempts_from_rest; ++attempt) {
+      Locked other = from_rest(attempt);
+      if (other.status == LockStatus::locked &&
+          (found.status != LockStatus::locked || value(other.state) > value(found.state) + same_value))
+        found = std::move(other);
+    }
+    if (found.status != LockStatus::stalled || warm.empty()) {
+      out.followed = !warm.empty();
+      out.changed = out.followed && found.status == LockStatus::locked &&
+                    std::abs(value(found.state) - value(warm.back().state)) > schedule_.last;
+      enter(found, out.trail);
+      out.locked = std::move(found);
       return out;
     }
   }
@@ -103,25 +104,28 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     schedule.first = warm[j].g_hat;
     Locked tight = run(*start, schedule);
     if (tight.status != LockStatus::locked) continue;
-    const double by = loose.status == LockStatus::locked
-                          ? load.dot(tight.state.macro) - load.dot(loose.state.macro)
-                          : std::numeric_limits<double>::infinity();
-    // Two ways to one state end closer to each other than its gaps.
-    out.changed = by < -schedule_.last;
-    if (!(by > same_value)) break;
-    if (!loose.trail.empty()) out.trail.push_back({loose.stages.front().g_hat, loose.trail.front()});
     // Looser stages of the same state: the next change of parameters may be too large for the tightest.
-    for (std::size_t i = loose.trail.empty() ? 0 : 1; i < j; ++i) {
+    for (std::size_t i = 0; i < j; ++i) {
       std::optional<State> s = followed(from, warm[i], p, design_.variables);
       if (s) out.trail.push_back({warm[i].g_hat, std::move(*s)});
     }
     enter(tight, out.trail);
+    out.followed = true;
     out.locked = std::move(tight);
     return out;
   }
-  if (!both) search_loosely();
-  enter(loose, out.trail);
-  out.locked = std::move(loose);
+  // The state has no continuation that could be found.
+  Locked found;
+  if (!warm.empty()) {
+    const std::optional<State> start = followed(from, warm.front(), p, design_.variables);
+    if (start) found = run(*start, schedule_);
+    out.followed = true;
+    out.changed = !start || found.status != LockStatus::locked;
+  }
+  for (int attempt = 0; attempt < attempts_from_rest && found.status == LockStatus::stalled; ++attempt)
+    found = from_rest(attempt);
+  enter(found, out.trail);
+  out.locked = std::move(found);
   return out;
 }
 

@@ -29,7 +29,7 @@ struct DesignPoint {
   bool evaluated = false;
   bool states_missing = false;  ///< values are recalled from a former run, `warm` is not
   bool states_kept = false;     ///< the memory has `warm`
-  int unchecked = 0;            ///< steps since further states were looked for
+  int unchecked = 0;            ///< steps since states were looked for from rest
   bool checked = false;         ///< they were, after this one was accepted
   std::string why;              ///< why it could not be evaluated
 };

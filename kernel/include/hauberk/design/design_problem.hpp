@@ -70,9 +70,9 @@ class DesignProblem final : public OptimizationProblem {
   const RestPath& follow_rest(const DesignPoint& to);
   /// Recalls or solves, and records.
   void find_targets(const std::shared_ptr<DesignPoint>& p);
-  /// Solves for p from the states of `from`, which may be p itself: then further states are looked for, too.
+  /// Solves for p from the states of `from`, which may be p itself: then states are looked for from rest.
   void solve_targets(DesignPoint& p, const DesignPoint& from);
-  /// Looks for further states than those that were followed, and takes their values: recalls or solves, and
+  /// Replaces states that were followed by those that rest leads to, and their values: recalls or solves, and
   /// records.
   void check(DesignPoint& p);
   void search_again(DesignPoint& p);
@@ -88,8 +88,8 @@ class DesignProblem final : public OptimizationProblem {
     bool changed = false;   ///< and this is not its continuation
     std::string problem;    ///< why it, or its gradient, could not be computed
   };
-  /// Locked state of one task that the known states of `from` lead to; if that is p itself, or they lead
-  /// nowhere, the furthest one of those and of a search that begins with the widest stage.
+  /// Locked state of one task: the continuation of the one that is known of `from`; if that is p itself, the
+  /// furthest that rest leads to.
   LockedTarget lock_target(const DesignPoint& p, const DesignPoint& from, const Vector& load,
                            const std::vector<WarmStart>& warm) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of

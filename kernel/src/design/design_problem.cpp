@@ -254,16 +254,17 @@ double DesignProblem::largest_safe_step(std::span<const double> x, std::span<con
   if (!std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return 0.0;
   DesignPoint end;
   // Parameters must stay admissible for the shape; halve until they are.
-  for (double share = 1.0; share > smallest_share; share *= 0.5) {
+  double share = 1.0;
+  while (share > smallest_share) {
     end.x = copy(x);
     for (std::size_t k = 0; k < d.size(); ++k) end.x[k] += share * d[k];
     end.spec = with_variables(scene_, design_.variables, end.x);
     try {
       end.model = make_model(end.spec, load_, clearance_);
+      return share * follow_rest(end).share;
     } catch (const InputError&) {
-      continue;
+      share *= 0.5;
     }
-    return share * follow_rest(end).share;
   }
   return 0.0;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hauberk::verification {
@@ -131,12 +132,19 @@ std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
     const int k = (i + around) % around * nv + (j + nv) % nv;
     return f[static_cast<std::size_t>(k)];
   };
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < nv; ++j)
-      at(i, j) =
-          signed_distance(b, tube ? core_point(a, u(i)) : surface_point(a, u(i), v(j))) - (tube ? a.r0 : 0.0);
   // A minimum between samples is lower than they are by at most half a cell.
   const double cell = 0.5 * (a.R + a.r0) * full_turn / around;
+  for (int i = 0; i < around; ++i) {
+    const double core = signed_distance(b, core_point(a, u(i)));
+    // No point of a section is farther from its core than this, and the distance changes by no more.
+    const bool far = core - std::max(a.r0, a.r1) > range + cell;
+    for (int j = 0; j < nv; ++j) {
+      if (tube || far)
+        at(i, j) = tube ? core - a.r0 : std::numeric_limits<double>::infinity();
+      else
+        at(i, j) = signed_distance(b, surface_point(a, u(i), v(j)));
+    }
+  }
   std::vector<Touching> out;
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < nv; ++j) {

@@ -78,7 +78,7 @@ Trial ScaledProblem::begin(const VectorXd& start, Linearisation& at, bool want_g
 {
   Trial trial = evaluate(start, want_gradient);
   if (!trial.ok) return trial;
-  accept(start);
+  trial = accept(start, trial);
   at.gradient = trial.gradient;
   linearise(start, at);
   if (!at.c.allFinite() || !at.J.allFinite()) {
@@ -111,11 +111,9 @@ double ScaledProblem::largest_safe_step(const VectorXd& x, const VectorXd& d)
   return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0;  // not-a-number: nothing is safe
 }
 
-void ScaledProblem::accept(const VectorXd& x) { problem_.accept(view(x)); }
-
 Trial ScaledProblem::accept(const VectorXd& x, const Trial& trial)
 {
-  accept(x);
+  problem_.accept(view(x));
   const Trial closer = evaluate(x, trial.gradient.size() > 0);
   --evaluations_;  // the problem knows its iterate
   return closer.ok ? closer : trial;

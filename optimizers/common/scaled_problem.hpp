@@ -52,8 +52,8 @@ class ScaledProblem {
   int constraint_count() const { return problem_.constraint_count(); }
   /// In [0, 1].
   double largest_safe_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d);
-  void accept(const Eigen::VectorXd& x);
-  /// The same; returns what is known of x then, which a closer look may have changed.
+  /// Makes x, just evaluated as `trial`, the iterate; returns what is known of it then, which a closer look
+  /// may have changed.
   Trial accept(const Eigen::VectorXd& x, const Trial& trial);
 
   int evaluations() const { return evaluations_; }

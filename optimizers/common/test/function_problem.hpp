@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace hauberk::testing_problems {
@@ -41,7 +42,8 @@ class FunctionProblem : public OptimizationProblem {
       if (x[i] < lower_bounds[i] || x[i] > upper_bounds[i]) ++broken_protocol;
     }
     if (!accepted.empty() && !allowed(v)) ++broken_protocol;
-    const bool known = !accepted.empty() && v == accepted.back() && v == evaluated.back();  // costs nothing
+    // What became of an iterate when it was accepted costs nothing to ask.
+    const bool known = std::exchange(just_accepted, false) && v == accepted.back();
     if (!known) evaluated.push_back(v);
     Evaluation e;
     if (want_gradient && !known) ++gradients;
@@ -90,6 +92,7 @@ class FunctionProblem : public OptimizationProblem {
   {
     if (evaluated.empty() || vector(x) != evaluated.back()) ++broken_protocol;
     accepted.push_back(vector(x));
+    just_accepted = true;
     directions.clear();
   }
 
@@ -117,6 +120,7 @@ class FunctionProblem : public OptimizationProblem {
   }
 
   std::vector<Direction> directions;
+  bool just_accepted = false;
 };
 
 /// Records iterates; stops after `limit` of them.

@@ -1,0 +1,93 @@
+/// States of a design that are followed to another: locked ones, and the one at rest.
+
+#include "uneven_chainmail.hpp"
+
+namespace hauberk::test {
+namespace {
+
+TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
+{
+  const AtStart start;
+  const auto& [scene, load, design, problem, x] = start;
+  const DesignPoint at = problem.current();
+  const WarmStart& tight = at.warm[0].back();
+  EXPECT_NEAR(tight.g_hat, 1e-2, 1e-12);
+  const double before = smallest_gap(at.model, tight.state, 0.03);
+  const auto neighbour = [&](double h) {
+    DesignPoint to = at;
+    to.x[0] -= h;
+    to.x[3] += h;
+    to.spec = with_variables(scene, design.variables, to.x);
+    to.model = make_model(to.spec, load, 0.0);
+    return to;
+  };
+  // Gaps are kept to the second order, strain and poses moving along.
+  std::array<double, 2> change{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const DesignPoint to = neighbour(0.02 / static_cast<double>(1U << k));
+    const auto state = followed(at, tight, to, design.variables);
+    ASSERT_TRUE(state.has_value());
+    change[k] = std::abs(smallest_gap(to.model, *state, 0.03) - before);
+  }
+  EXPECT_LT(change[0], 0.3 * before);
+  EXPECT_LT(change[1], 0.35 * change[0]) << change[0] << " " << change[1];
+  // Where the linear motion would close gaps, in parts: gaps stay open, and no link is lost.
+  const DesignPoint far = neighbour(0.1);
+  const auto state = followed(at, tight, far, design.variables);
+  ASSERT_TRUE(state.has_value());
+  EXPECT_GE(smallest_gap(far.model, *state, 0.03), 0.01 * tight.g_hat);
+  EXPECT_TRUE(links_kept(far.model, *state));
+  // A ring of which the other one fills the hole has no state to follow.
+  EXPECT_FALSE(followed(at, tight, neighbour(1.4), design.variables).has_value());
+}
+
+TEST(DesignProblem, RestIsFollowedAroundWhatTheStraightWayCollidesWith)
+{
+  AtStart start;
+  auto& [scene, load, design, problem, x] = start;
+  const std::vector<double> d = {0.0, 0.08, 0.0, 0.06};
+  std::vector<double> y = x;
+  for (std::size_t k = 0; k < y.size(); ++k) y[k] += d[k];
+  const Model thick = make_model(with_variables(scene, design.variables, y), load, 0.0);
+  const Vector dx = Eigen::Map<const Vector>(d.data(), 4);
+  const Vector straight = rest_response(problem.current(), design.variables) * dx;
+  ASSERT_LT(safe_parameter_step(problem.current().model, thick, problem.current().rest, straight), 1.0);
+  EXPECT_EQ(problem.largest_safe_step(x, d), 1.0);
+  ASSERT_TRUE(problem.evaluate(y, true).ok);
+  problem.accept(y);
+  EXPECT_TRUE(links_kept(problem.current().model, problem.current().rest));
+  EXPECT_GT(problem.rest_distance(), 0.0);  // what is missing is left to the constraints
+}
+
+TEST(DesignProblem, FollowedStatesAreCheckedEveryFewSteps)
+{
+  // Here rest leads to the states that are followed, so a check finds the same values another way.
+  DesignSpec values = spec();
+  values.quantity = DesignQuantity::positive;
+  AtStart start(values);
+  DesignProblem& problem = start.problem;
+  std::vector<double> x = start.x;
+  int checks = 0;
+  for (int k = 0; k < 8; ++k) {
+    x[0] += 0.02;
+    ASSERT_TRUE(problem.evaluate(x, true).ok);
+    const long before = problem.evaluations();
+    const std::vector<double> followed_values = [&] {
+      std::vector<double> r(2), J(8);
+      EXPECT_TRUE(problem.residuals(x, r, J));
+      return r;
+    }();
+    problem.accept(x);
+    EXPECT_EQ(problem.current().unchecked, (k + 1) % 4);
+    const bool checked = problem.evaluations() > before;
+    EXPECT_EQ(checked, (k + 1) % 4 == 0);
+    checks += checked ? 1 : 0;
+    std::vector<double> r(2), J(8);
+    ASSERT_TRUE(problem.residuals(x, r, J));
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(r[i], followed_values[i], 1e-6) << i;
+  }
+  EXPECT_EQ(checks, 2);
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -8,8 +8,8 @@ namespace {
 TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
 {
   const AtStart start;
-  const auto& [scene, load, design, problem, x] = start;
-  const DesignPoint at = problem.current();
+  const DesignSpec& design = start.design;
+  const DesignPoint at = start.problem.current();
   const WarmStart& tight = at.warm[0].back();
   EXPECT_NEAR(tight.g_hat, 1e-2, 1e-12);
   const double before = smallest_gap(at.model, tight.state, 0.03);
@@ -17,8 +17,8 @@ TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
     DesignPoint to = at;
     to.x[0] -= h;
     to.x[3] += h;
-    to.spec = with_variables(scene, design.variables, to.x);
-    to.model = make_model(to.spec, load, 0.0);
+    to.spec = with_variables(start.scene, design.variables, to.x);
+    to.model = make_model(to.spec, start.load, 0.0);
     return to;
   };
   // Gaps are kept to the second order, strain and poses moving along.
@@ -44,15 +44,16 @@ TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
 TEST(DesignProblem, RestIsFollowedAroundWhatTheStraightWayCollidesWith)
 {
   AtStart start;
-  auto& [scene, load, design, problem, x] = start;
+  DesignProblem& problem = start.problem;
+  const DesignSpec& design = start.design;
   const std::vector<double> d = {0.0, 0.08, 0.0, 0.06};
-  std::vector<double> y = x;
+  std::vector<double> y = start.x;
   for (std::size_t k = 0; k < y.size(); ++k) y[k] += d[k];
-  const Model thick = make_model(with_variables(scene, design.variables, y), load, 0.0);
+  const Model thick = make_model(with_variables(start.scene, design.variables, y), start.load, 0.0);
   const Vector dx = Eigen::Map<const Vector>(d.data(), 4);
   const Vector straight = rest_response(problem.current(), design.variables) * dx;
   ASSERT_LT(safe_parameter_step(problem.current().model, thick, problem.current().rest, straight), 1.0);
-  EXPECT_EQ(problem.largest_safe_step(x, d), 1.0);
+  EXPECT_EQ(problem.largest_safe_step(start.x, d), 1.0);
   ASSERT_TRUE(problem.evaluate(y, true).ok);
   problem.accept(y);
   EXPECT_TRUE(links_kept(problem.current().model, problem.current().rest));

@@ -1,4 +1,5 @@
 #include <hauberk/contact/body_pair.hpp>
+#include <hauberk/contact/mesh.hpp>
 #include <hauberk/contact/published.hpp>
 
 #include <cmath>
@@ -17,6 +18,8 @@ void add_terms(const PairFrame& frame, const ContactSettings& settings, const Re
       return add_published<dim>(frame, settings, request, out);
     case Formulation::nearest:
       return add_nearest<dim>(frame, settings, request, out);
+    case Formulation::mesh:
+      return add_mesh(frame, settings, request, out);
   }
 }
 

@@ -224,12 +224,13 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                             sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
     }
   }
-  r.certificate =
-      fmt::format("{}; {} links kept; smallest gap {:.3g}",
-                  l.stage.ccd == CollisionCheck::certified
-                      ? "path from rest certified free of intersections"
-                      : "path from rest checked for intersections at sampled points, nothing certified",
-                  m.links.size(), *r.min_gap);
+  r.certificate = fmt::format(
+      "{}; {} links kept; smallest gap {:.3g}",
+      l.stage.contact.formulation == Formulation::mesh ? "path of the meshes from rest free of intersections"
+      : l.stage.ccd == CollisionCheck::certified
+          ? "path from rest certified free of intersections"
+          : "path from rest checked for intersections at sampled points, nothing certified",
+      m.links.size(), *r.min_gap);
   if (r.status == LimitStatus::locked && !(driving > least_drive)) {
     r.status = LimitStatus::failed;
     r.message = fmt::format(

@@ -1,3 +1,4 @@
+#include <hauberk/contact/mesh.hpp>
 #include <hauberk/mechanics/gaps.hpp>
 
 #include <fmt/format.h>
@@ -13,57 +14,116 @@ namespace {
 constexpr double anchor_weight = 1e-6;
 constexpr double room = 1e-3;  ///< relative to the target: aim a little beyond it
 
-template <int dim>
-void gaps_of(const Model& m, const ElementPair& pair, int p, int f, const Pose& pp, const Pose& pf,
-             bool swapped, double range, bool derivatives, const PositionMap& mi, const PositionMap& mj,
-             std::vector<Gap>& out)
+/// A side of a pair of bodies as the unknowns see it: P probes F.
+struct Side {
+  const Model& m;
+  const ElementPair& pair;
+  int p, f;
+  bool swapped;
+  const Pose &pp, &pf;
+  const PositionMap &mi, &mj;
+};
+
+Gap gap_between(const Side& side, double gap)
 {
-  const Body& P = m.bodies[static_cast<std::size_t>(p)];
-  const Body& F = m.bodies[static_cast<std::size_t>(f)];
-  const PairFrame frame(P, pp, F, pf);
+  Gap g;
+  g.a = side.swapped ? side.f : side.p;
+  g.b = side.swapped ? side.p : side.f;
+  g.image = side.pair.image;
+  g.gap = gap;
+  return g;
+}
+
+/// Derivatives of a gap out of those of its side (terms of weight 1).
+void set_derivatives(const Side& side, const PairFrame& frame, const SideTerms& t, Gap& g)
+{
+  const Model& m = side.m;
+  const PairTerms w = to_world(t, frame.M, side.pp.position - side.pf.position, 1);
+  const int nm = m.macro_count, nc = m.coordinate_count;
+  const Vec3 eta = side.swapped ? Vec3(-w.gradient.head<3>()) : Vec3(w.gradient.head<3>());
+  const Vec3 wi = side.swapped ? w.gradient.segment<3>(6) : w.gradient.segment<3>(3);
+  const Vec3 wj = side.swapped ? w.gradient.segment<3>(3) : w.gradient.segment<3>(6);
+  g.dy = Vector::Zero(m.dofs());
+  g.dy.head(nm) = (side.mi.J.leftCols(nm) - side.mj.J.leftCols(nm)).transpose() * eta;
+  g.dy.segment(m.offset(side.pair.i), nc) += side.mi.J.middleCols(nm, nc).transpose() * eta;
+  g.dy.segment(m.offset(side.pair.j), nc) -= side.mj.J.middleCols(nm, nc).transpose() * eta;
+  g.dy.segment<3>(m.offset(side.pair.i) + nc) += wi;
+  g.dy.segment<3>(m.offset(side.pair.j) + nc) += wj;
+  const auto chain = [&](int body, const Pose& pose, const std::array<double, primitive_dofs>& d) {
+    const auto k = static_cast<std::size_t>(body);
+    const Vec3 local = pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
+    const std::array<double, primitive_dofs> full{local[0], local[1], local[2], d[3], d[4], d[5]};
+    const int n = m.parameter_count[static_cast<std::size_t>(m.bodies[k].element)];
+    Vector out_d = Vector::Zero(n);
+    for (int r = 0; r < primitive_dofs; ++r) {
+      for (int c = 0; c < n; ++c) {
+        out_d[c] += full[static_cast<std::size_t>(r)] * m.size_derivative(k, r, c);
+      }
+    }
+    return out_d;
+  };
+  const Vector dp = chain(side.p, side.pp, t.dP), df = chain(side.f, side.pf, t.dF);
+  g.da = side.swapped ? df : dp;
+  g.db = side.swapped ? dp : df;
+}
+
+template <int dim>
+void gaps_of(const Side& side, double range, bool derivatives, std::vector<Gap>& out)
+{
+  const Model& m = side.m;
+  const Body& P = m.bodies[static_cast<std::size_t>(side.p)];
+  const Body& F = m.bodies[static_cast<std::size_t>(side.f)];
+  const PairFrame frame(P, side.pp, F, side.pf);
   const Probe<dim> probe(frame);
   int evaluations = 0;
   for (const Minimum& mm : local_minima<dim>(frame, range + m.clearance, evaluations)) {
-    Gap g;
-    g.a = swapped ? f : p;
-    g.b = swapped ? p : f;
-    g.image = pair.image;
-    g.gap = mm.distance - m.clearance;
+    Gap g = gap_between(side, mm.distance - m.clearance);
     if (derivatives) {
       const ProbePoint q = probe.at(mm.u, mm.v);
       const FieldValue v = field_at(F, q.p);
       SideTerms t;
       t.add(v, q.p - frame.o, 1.0, 0.0, 1);
       t.template add_parameters<dim>(frame, v, q, 1.0);
-      const PairTerms w = to_world(t, frame.M, pp.position - pf.position, 1);
-      const int nm = m.macro_count, nc = m.coordinate_count;
-      const Vec3 eta = swapped ? Vec3(-w.gradient.head<3>()) : Vec3(w.gradient.head<3>());
-      const Vec3 wi = swapped ? w.gradient.segment<3>(6) : w.gradient.segment<3>(3);
-      const Vec3 wj = swapped ? w.gradient.segment<3>(3) : w.gradient.segment<3>(6);
-      g.dy = Vector::Zero(m.dofs());
-      g.dy.head(nm) = (mi.J.leftCols(nm) - mj.J.leftCols(nm)).transpose() * eta;
-      g.dy.segment(m.offset(pair.i), nc) += mi.J.middleCols(nm, nc).transpose() * eta;
-      g.dy.segment(m.offset(pair.j), nc) -= mj.J.middleCols(nm, nc).transpose() * eta;
-      g.dy.segment<3>(m.offset(pair.i) + nc) += wi;
-      g.dy.segment<3>(m.offset(pair.j) + nc) += wj;
-      const auto chain = [&](int body, const Pose& pose, const std::array<double, primitive_dofs>& d) {
-        const auto k = static_cast<std::size_t>(body);
-        const Vec3 local = pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
-        const std::array<double, primitive_dofs> full{local[0], local[1], local[2], d[3], d[4], d[5]};
-        const int n = m.parameter_count[static_cast<std::size_t>(m.bodies[k].element)];
-        Vector out_d = Vector::Zero(n);
-        for (int r = 0; r < primitive_dofs; ++r) {
-          for (int c = 0; c < n; ++c) {
-            out_d[c] += full[static_cast<std::size_t>(r)] * m.size_derivative(k, r, c);
-          }
-        }
-        return out_d;
-      };
-      const Vector dp = chain(p, pp, t.dP), df = chain(f, pf, t.dF);
-      g.da = swapped ? df : dp;
-      g.db = swapped ? dp : df;
+      set_derivatives(side, frame, t, g);
     }
     out.push_back(std::move(g));
+  }
+}
+
+/// Of meshes: the smallest gap, or with derivatives those of all features within range.
+void mesh_gaps(const Side& side, double range, bool derivatives, std::vector<Gap>& out)
+{
+  const Model& m = side.m;
+  const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,
+                        m.bodies[static_cast<std::size_t>(side.f)], side.pf);
+  if (derivatives) {
+    for (const FeatureGap& feature : feature_gaps(frame, range, m.clearance)) {
+      Gap g = gap_between(side, feature.gap);
+      set_derivatives(side, frame, feature.terms, g);
+      out.push_back(std::move(g));
+    }
+    return;
+  }
+  const double gap = smallest_feature_distance(frame, range + m.clearance) - m.clearance;
+  if (gap < range) out.push_back(gap_between(side, gap));
+}
+
+/// All gaps of a pair of bodies a, b.
+void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose& pi, const Pose& pj,
+               const PositionMap& mi, const PositionMap& mj, double range, bool derivatives,
+               std::vector<Gap>& out)
+{
+  const Body& A = m.bodies[static_cast<std::size_t>(a)];
+  const Body& B = m.bodies[static_cast<std::size_t>(b)];
+  const bool swapped = !A.facets && !A.is_tube() && B.is_tube();
+  const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
+                  mi, mj};
+  if (A.facets) {
+    mesh_gaps(side, range, derivatives, out);
+  } else if (A.is_tube() || B.is_tube()) {
+    gaps_of<1>(side, range, derivatives, out);
+  } else {
+    gaps_of<2>(side, range, derivatives, out);
   }
 }
 
@@ -134,13 +194,7 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         const double d = (pi.position + pi.rotation * A.center - pj.position - pj.rotation * B.center).norm();
         if (d >= A.bound + B.bound + reach) continue;
-        if (A.is_tube()) {
-          gaps_of<1>(m, pair, a, b, pi, pj, false, range, derivatives, mi, mj, out);
-        } else if (B.is_tube()) {
-          gaps_of<1>(m, pair, b, a, pj, pi, true, range, derivatives, mi, mj, out);
-        } else {
-          gaps_of<2>(m, pair, a, b, pi, pj, false, range, derivatives, mi, mj, out);
-        }
+        body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, out);
       }
     }
   }

@@ -218,6 +218,7 @@ ContactChoice contact_named(std::string_view name)
 {
   if (name == "nearest") return ContactChoice::nearest;
   if (name == "arc") return ContactChoice::arc;
+  if (name == "mesh") return ContactChoice::mesh;
   return name == "published" ? ContactChoice::published : ContactChoice::automatic;
 }
 
@@ -243,6 +244,8 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
       return Formulation::arc;
     case ContactChoice::published:
       return Formulation::published;
+    case ContactChoice::mesh:
+      return Formulation::mesh;
     case ContactChoice::automatic:
       break;
   }

@@ -1,10 +1,12 @@
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/facets.hpp>
 #include <hauberk/mechanics/model.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace hauberk {
@@ -106,6 +108,21 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 
 }  // namespace
 
+namespace {
+
+/// Gives every body its mesh; bodies of one size share one.
+void set_facets(Model& m, int count)
+{
+  std::map<std::array<double, 3>, std::shared_ptr<const Facets>> made;
+  for (Body& b : m.bodies) {
+    std::shared_ptr<const Facets>& facets = made[{b.R, b.r0, b.r1}];
+    if (!facets) facets = std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
+    b.facets = facets;
+  }
+}
+
+}  // namespace
+
 Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
 {
   Model m;
@@ -136,6 +153,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
     positions.push_back(m.rest.back().position);
   }
   m.first_body.push_back(static_cast<int>(m.bodies.size()));
+  if (spec.facets > 0) set_facets(m, spec.facets);
   check_images(m);
   m.walls = load.inequalities(positions);
   set_metric(m);

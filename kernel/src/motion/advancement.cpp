@@ -1,3 +1,4 @@
+#include "facet_advancement.hpp"
 #include "track.hpp"
 
 #include <hauberk/geometry/separation.hpp>
@@ -235,6 +236,11 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         const double motion = pair.approach + ti.w.norm() * A.reach + tj.w.norm() * B.reach;
+        if (A.facets) {
+          out.alpha = advance_facets(A, ti, B, tj, m.clearance, out.alpha, keep, out);
+          if (out.alpha <= 0.0) return out;
+          continue;
+        }
         const Separation now = separation(A, pair.pi, B, pair.pj, m.clearance, 2.0 * motion);
         out.evaluations += now.evaluations;
         const double gap = now.lower;

@@ -1,3 +1,4 @@
+#include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/mechanics/gaps.hpp>
 #include <hauberk/plan/plan.hpp>
@@ -98,6 +99,12 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
     case ContactChoice::published:
       p.decisions.emplace_back(
           "contact: published in every stage (squared distances of charts, faded by an eigenvalue)");
+      break;
+    case ContactChoice::mesh:
+      p.decisions.push_back(
+          fmt::format("contact: of meshes in every stage, {} triangles and {} edges a primitive; values are "
+                      "those of the meshes",
+                      m.bodies.front().facets->triangles().size(), m.bodies.front().facets->edges().size()));
       break;
   }
   if (settings.schedule.search == MinimaSearch::sampled)

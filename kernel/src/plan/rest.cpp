@@ -1,4 +1,5 @@
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/mechanics/gaps.hpp>
 #include <hauberk/plan/plan.hpp>
@@ -44,6 +45,29 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
   }
 }
 
+/// Meshes that meet at rest: facets cut across holes, where surfaces leave room.
+void add_meeting_meshes(const SceneSpec& spec, const Model& m, std::vector<std::string>& out)
+{
+  const State rest = rest_state(m);
+  for (const ElementPair& pair : near_pairs(m, rest, 0.0)) {
+    const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const PairFrame frame(m.bodies[static_cast<std::size_t>(a)], pi,
+                              m.bodies[static_cast<std::size_t>(b)], pj);
+        if (!facets_intersect(frame)) continue;
+        Gap g;
+        g.a = a;
+        g.b = b;
+        g.image = pair.image;
+        out.push_back(fmt::format("the meshes of {} meet at rest; use more facets, or give them more room",
+                                  pair_name(spec, m, g)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bool relax_allowed)
@@ -69,6 +93,7 @@ std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bo
     }
   }
   add_deep_overlaps(m, worst);
+  if (spec.facets > 0) add_meeting_meshes(spec, m, out);
   const std::string unit = spec.length_unit.empty() ? "" : " " + spec.length_unit;
   for (const Gap& g : worst) {
     if (g.gap >= -touching) continue;

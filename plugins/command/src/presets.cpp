@@ -105,6 +105,13 @@ std::vector<Problem> solver_problems(const Experiment& e)
     if (solver.ccd == "sampled") refuse("ccd");
     if (solver.closest_points == "sampled") refuse("closest_points");
   }
+  if (solver.facets && solver.contact != "mesh") {
+    out.push_back(
+        {"/solver/facets", 0, "facets belong to contact 'mesh'; remove this or choose that contact"});
+  }
+  if (e.task == Task::design && solver.contact == "mesh") {
+    out.push_back({"/solver/contact", 0, "contact 'mesh' is for limits only; use auto or arc for a design"});
+  }
   const bool published = contact_choice(solver) == ContactChoice::published;
   if (!published && solver.closest_points == "sampled") {
     out.push_back(

@@ -89,6 +89,7 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed)
   solver.preset = string_or(section, "preset", "accurate");
   solver.clearance = number_or(section, "clearance", 0.0);
   solver.contact = string_or(section, "contact", "auto");
+  solver.facets = optional_int(section, "facets");
   solver.closest_points = optional_string(section, "closest_points");
   solver.ccd = optional_string(section, "ccd");
   solver.finite_target = optional_number(section, "finite_target");

@@ -44,6 +44,9 @@ void read_task(const Node& root, Problems& problems, Experiment& experiment)
           "' is not supported yet by this version; use limits, design, sweep, stability or transition");
 }
 
+/// Of contact mesh: what the paper compares with.
+constexpr int default_facets = 20;
+
 /// Frozen for the whole run; 1 where the scene cannot say, so that later sections can still be checked.
 double scene_length(const Node& root, const SceneSpec& scene, bool scene_complete, Problems& problems)
 {
@@ -125,6 +128,8 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   experiment.scene.length = scene_length(*root, experiment.scene, scene_complete, problems);
   if (const Node* cell = root->find("cell")) experiment.relax = boolean_or(*cell, "relax", false);
   if (Node* solver = find_mutable(*root, "solver")) experiment.solver = read_solver(*solver, experiment.seed);
+  if (experiment.solver.contact == "mesh")
+    experiment.scene.facets = experiment.solver.facets.value_or(default_facets);
   read_load_case(*root, plugins, problems, experiment);
   if (Node* design = find_mutable(*root, "design")) {
     experiment.design = read_design(*design, plugins, problems, experiment, scene.tile_of, scene_complete);

@@ -118,6 +118,12 @@ inline Field at_least(Field field, double minimum, bool exclusive = false)
   return field;
 }
 
+inline Field at_most(Field field, double maximum)
+{
+  field.maximum = maximum;
+  return field;
+}
+
 inline Field at_least_items(Field field, std::size_t count)
 {
   field.min_items = count;

@@ -130,9 +130,16 @@ Field solver_field()
                                  0.0),
                         "0"),
            with_default(
-               choice("contact", "Contact formulation; auto: arc, then nearest, with preset paper published.",
-                      {"auto", "nearest", "arc", "published"}),
+               choice("contact",
+                      "Contact formulation; auto: arc, then nearest, with preset paper published; mesh: of "
+                      "triangle meshes, what others compute, for comparison.",
+                      {"auto", "nearest", "arc", "published", "mesh"}),
                "\"auto\""),
+           at_most(at_least(integer("facets",
+                                    "Of contact mesh: every primitive is a mesh of facets x facets "
+                                    "quadrilaterals, each of two triangles; absent: 20."),
+                            3),
+                   1000),
            choice("closest_points",
                   "How closest points of contact published are found: certified, or from samples; absent: "
                   "as the preset says.",

@@ -5,7 +5,7 @@
 
 namespace hauberk {
 
-enum class Formulation { nearest, arc, published };
+enum class Formulation { nearest, arc, published, mesh };
 
 /// Its name in experiment files and results.
 inline const char* name_of(Formulation f)
@@ -17,6 +17,8 @@ inline const char* name_of(Formulation f)
       return "arc";
     case Formulation::published:
       return "published";
+    case Formulation::mesh:
+      return "mesh";
   }
   return "";
 }

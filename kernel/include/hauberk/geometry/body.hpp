@@ -6,6 +6,8 @@
 
 namespace hauberk {
 
+class Facets;
+
 /// A primitive of a placed element, lengths scaled by L, placed in the element frame.
 struct Body {
   int element = 0;  ///< placed element it belongs to
@@ -16,6 +18,8 @@ struct Body {
   Mat3 axes = Mat3::Identity();
   double bound = 0.0;  ///< radius of a sphere about `center` that holds the surface
   double reach = 0.0;  ///< radius of a sphere about the element's origin that holds the surface
+  /// Mesh that stands for the surface in contact; null: the surface itself.
+  std::shared_ptr<const Facets> facets;
 
   bool is_tube() const { return kind == PrimitiveKind::circle_tube; }
   /// Radius of the largest ball that passes through the hole.

@@ -14,10 +14,11 @@ enum class ContactChoice {
   automatic,  ///< arc while contacts may merge and split, nearest to finish; arc again where nearest stalls
   nearest,
   arc,
-  published  ///< the paper's, in every stage
+  published,  ///< the paper's, in every stage
+  mesh        ///< of triangle meshes, in every stage; the model must have facets
 };
 
-/// The choice of that name in experiments: nearest, arc, published; automatic for any other.
+/// The choice of that name in experiments: nearest, arc, published, mesh; automatic for any other.
 ContactChoice contact_named(std::string_view name);
 
 /// Stages of activation distances from `first` to `last` (L), falling by equal factors that are not smaller

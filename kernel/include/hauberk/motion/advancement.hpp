@@ -25,7 +25,10 @@ struct SafeStep {
 /// V: bound of the relative speed of material points, a: of their relative acceleration in F's frame, W: of
 /// the relative angular speed. Panels are halved where the bound fails because of h, tau where it fails
 /// because of tau. As tangential sliding enters only through V^2 tau^2, sliding at a small gap costs
-/// V/sqrt(g rho) steps, not V/g. Ends at 2e6 evaluations of one pair. Thread safe, deterministic.
+/// V/sqrt(g rho) steps, not V/g. Ends at 2e6 evaluations of one pair.
+///
+/// Bodies with facets are checked as meshes, by additive advancement of every pair of features (Li, Kaufman, Jiang
+/// 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep);
 
 /// The published check (paper equations (6) to (8)), without guarantee. For every pair of bodies the smallest

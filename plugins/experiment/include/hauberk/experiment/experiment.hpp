@@ -31,7 +31,8 @@ enum class Task { limits, design, stability, transition, sweep };
 struct ExperimentSolver {
   std::string preset;                              ///< "fast", "accurate", "paper"
   double clearance = 0.0;                          ///< file units
-  std::string contact;                             ///< "auto", "nearest", "arc", "published"
+  std::string contact;                             ///< "auto", "nearest", "arc", "published", "mesh"
+  std::optional<int> facets;                       ///< of contact "mesh"
   std::optional<std::string> closest_points, ccd;  ///< "certified", "sampled"
   std::optional<double> finite_target;
   int starts = 1;

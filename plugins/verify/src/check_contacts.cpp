@@ -1,4 +1,5 @@
 #include "checks.hpp"
+#include "facets.hpp"
 #include "neighbours.hpp"
 #include "surface.hpp"
 
@@ -46,6 +47,12 @@ void check_surfaces(const Scene& scene, const Limit& limit, const Contact& conta
     if (side == 1) place.position += translation(scene, limit.macro->deformation(), contact.image);
     const Torus torus =
         placed(scene.elements[k].tori[static_cast<std::size_t>(contact.primitives[side])], place);
+    if (torus.facets > 0) {
+      const double off = mesh_distance(torus, contact.points[side]);
+      if (off > slack.length)
+        problems.push_back(fmt::format("{}: point {} is {:.3g} off its mesh", name, side, off));
+      continue;  // meshes have no normals at their edges
+    }
     Vec3 outward;
     const double off = signed_distance(torus, contact.points[side], &outward);
     if (std::abs(off) > slack.length)
@@ -98,6 +105,9 @@ void check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
     const Slack allowed = slack(scene, limit, contact, tolerances);
     check_surfaces(scene, limit, contact, allowed, name, problems);
     const double gap = (contact.points[1] - contact.points[0]).dot(contact.normal) - setting.clearance;
+    const Vec3 aside = contact.points[1] - contact.points[0] - (gap + setting.clearance) * contact.normal;
+    if (setting.facets > 0 && aside.norm() > allowed.length)
+      problems.push_back(fmt::format("{}: its points are {:.3g} off its normal", name, aside.norm()));
     if (std::abs(gap - contact.gap) > allowed.length)
       problems.push_back(
           fmt::format("{}: gap {:.6g} listed, {:.6g} between its points", name, contact.gap, gap));

@@ -111,7 +111,9 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
                    [](const std::string& p) { return p.find("no such") != std::string::npos; });
   if (readable) found.push_back(check_balance(scene, setting, limit, tolerances, problems));
   // Only where everything else is in order: it moves the state along its contacts.
-  if (problems.empty() && limit.status == "locked") {
+  if (setting.facets > 0) {
+    found.emplace_back("not tested for saddles");
+  } else if (problems.empty() && limit.status == "locked") {
     if (const auto further = further_nearby(scene, setting, limit))
       problems.push_back(fmt::format(
           "a saddle, not a locked state: moved by {:.2g} it goes further by {:.3g} without intersection",

@@ -32,6 +32,7 @@ struct Torus {
   std::string name;
   Place place;  ///< in its element's frame, or in space
   double R = 0.0, r0 = 0.0, r1 = 0.0;
+  int facets = 0;  ///< its surface is a mesh of facets x facets quadrilaterals; 0: the surface itself
 };
 
 struct Element {
@@ -105,6 +106,7 @@ struct Setting {
   double clearance = 0.0;
   /// Half-height that elements keep to; infinite when free.
   double half_height = std::numeric_limits<double>::infinity();
+  int facets = 0;  ///< of contact mesh, else 0
 };
 
 }  // namespace hauberk::verification

@@ -210,6 +210,13 @@ Setting read_setting(const json::value& experiment)
   Setting out;
   const json::value& solver = member(experiment, "solver", "/experiment");
   out.clearance = number(member(solver, "clearance", "/experiment/solver"), "/experiment/solver/clearance");
+  if (const json::value* contact = solver.as_object().if_contains("contact");
+      contact != nullptr && text(*contact, "/experiment/solver/contact") == "mesh") {
+    const json::value* facets = solver.as_object().if_contains("facets");
+    constexpr int absent = 20;
+    out.facets = facets == nullptr ? absent : static_cast<int>(number(*facets, "/experiment/solver/facets"));
+    if (out.facets < 3) throw Malformed("/experiment/solver/facets: at least 3 expected");
+  }
   const json::value& load = member(experiment, "load_case", "/experiment");
   const std::string plugin =
       text(member(load, "plugin", "/experiment/load_case"), "/experiment/load_case/plugin");

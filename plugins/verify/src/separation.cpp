@@ -1,5 +1,6 @@
 #include "separation.hpp"
 
+#include "facets.hpp"
 #include "surface.hpp"
 
 #include <algorithm>
@@ -153,6 +154,7 @@ double tube_separation(const Torus& tube, const Torus& other)
 
 double separation(const Torus& a, const Torus& b)
 {
+  if (a.facets > 0) return mesh_separation(a, b);
   if (a.r0 == a.r1) return tube_separation(a, b);
   if (b.r0 == b.r1) return tube_separation(b, a);
   return torus_minimum([&](double u, double v) { return signed_distance(b, surface_point(a, u, v)); },
@@ -161,10 +163,11 @@ double separation(const Torus& a, const Torus& b)
 
 double separation_bound(const Torus& a, const Torus& b)
 {
+  const double excess = a.facets > 0 ? mesh_excess(a) + mesh_excess(b) : 0.0;
   Torus thin_a = a, thin_b = b;
   thin_a.r0 = thin_a.r1 = std::max(a.r0, a.r1);
   thin_b.r0 = thin_b.r1 = std::max(b.r0, b.r1);
-  return tube_separation(thin_a, thin_b);
+  return tube_separation(thin_a, thin_b) - excess;
 }
 
 }  // namespace hauberk::verification

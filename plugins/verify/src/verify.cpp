@@ -47,7 +47,9 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
                             const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
 {
   const Setting setting = read_setting(member(results, "experiment", prefix));
-  const Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
+  Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
+  for (Element& element : scene.elements)
+    for (Torus& torus : element.tori) torus.facets = setting.facets;
   if ((setting.load == Load::strain) != (scene.cell.size() == 2))
     throw Malformed(prefix + "/scene/cell_vectors: two for in_plane_periodic, none for a patch");
   check_length(scene, scene.length, prefix + "/scene");

@@ -1,0 +1,159 @@
+#include "facets.hpp"
+
+#include "surface.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hauberk::verification {
+namespace {
+
+using Triangle = std::array<Vec3, 3>;
+
+struct Ball {
+  Vec3 center = Vec3::Zero();
+  double radius = 0.0;
+};
+
+Ball ball_of(const std::vector<Vec3>& points)
+{
+  Ball out;
+  for (const Vec3& p : points) out.center += p / static_cast<double>(points.size());
+  for (const Vec3& p : points) out.radius = std::max(out.radius, (p - out.center).norm());
+  return out;
+}
+
+/// The triangles between two neighbouring sections of the tube.
+struct Sector {
+  std::vector<Triangle> triangles;
+  std::vector<Ball> balls;  ///< of the triangles
+  Ball ball;
+};
+
+std::vector<Sector> sectors(const Torus& torus)
+{
+  const int n = torus.facets;
+  const double step = 2.0 * std::numbers::pi / n;
+  const auto corner = [&](int i, int j) {
+    return surface_point(torus, (i + 0.5) * step, std::numbers::pi + (j + 0.5) * step);
+  };
+  std::vector<Sector> out(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    Sector& sector = out[static_cast<std::size_t>(i)];
+    std::vector<Vec3> all;
+    for (int j = 0; j < n; ++j) {
+      const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
+      for (const Triangle& t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
+        sector.triangles.push_back(t);
+        sector.balls.push_back(ball_of({t[0], t[1], t[2]}));
+      }
+      all.insert(all.end(), {a, b});
+    }
+    sector.ball = ball_of(all);
+  }
+  return out;
+}
+
+double apart(const Ball& a, const Ball& b) { return (a.center - b.center).norm() - a.radius - b.radius; }
+
+double point_segment(const Vec3& x, const Vec3& a, const Vec3& b)
+{
+  const double t = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (x - a - t * (b - a)).norm();
+}
+
+/// The foot of the perpendicular if it lies inside, else the nearest side.
+double point_triangle(const Vec3& x, const Triangle& t)
+{
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  bool inside = true;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = t[k], &b = t[(k + 1) % 3];
+    inside = inside && normal.dot((b - a).cross(x - a)) >= 0.0;
+    nearest = std::min(nearest, point_segment(x, a, b));
+  }
+  return inside ? std::abs(normal.dot(x - t[0])) : nearest;
+}
+
+/// The common perpendicular if both its feet lie inside, else the nearest of the four ends.
+double segment_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  const double ends = std::min(
+      {point_segment(a, c, d), point_segment(b, c, d), point_segment(c, a, b), point_segment(d, a, b)});
+  const Vec3 p = b - a, q = d - c, n = p.cross(q), r = c - a;
+  const double nn = n.squaredNorm();
+  if (nn < 1e-24 * p.squaredNorm() * q.squaredNorm()) return ends;
+  const double s = r.cross(q).dot(n) / nn, t = r.cross(p).dot(n) / nn;
+  return s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? std::abs(r.dot(n)) / std::sqrt(nn) : ends;
+}
+
+/// How far the nearer end of a segment is behind the plane of a triangle that it goes through, else 0.
+double piercing(const Vec3& a, const Vec3& b, const Triangle& t)
+{
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  const double ha = normal.dot(a - t[0]), hb = normal.dot(b - t[0]);
+  if (ha * hb >= 0.0) return 0.0;
+  const Vec3 x = a + ha / (ha - hb) * (b - a);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (normal.dot((t[(k + 1) % 3] - t[k]).cross(x - t[k])) < 0.0) return 0.0;
+  return std::min(std::abs(ha), std::abs(hb));
+}
+
+double triangle_separation(const Triangle& a, const Triangle& b)
+{
+  double nearest = std::numeric_limits<double>::infinity(), deepest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t k1 = (k + 1) % 3;
+    nearest = std::min({nearest, point_triangle(a[k], b), point_triangle(b[k], a)});
+    deepest = std::max({deepest, piercing(a[k], a[k1], b), piercing(b[k], b[k1], a)});
+    for (std::size_t l = 0; l < 3; ++l)
+      nearest = std::min(nearest, segment_segment(a[k], a[k1], b[l], b[(l + 1) % 3]));
+  }
+  return deepest > 0.0 ? -deepest : nearest;
+}
+
+}  // namespace
+
+double mesh_separation(const Torus& a, const Torus& b)
+{
+  const std::vector<Sector> first = sectors(a), second = sectors(b);
+  struct Candidate {
+    double bound;
+    const Sector *a, *b;
+  };
+  std::vector<Candidate> candidates;
+  for (const Sector& p : first)
+    for (const Sector& q : second) candidates.push_back({apart(p.ball, q.ball), &p, &q});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& x, const Candidate& y) { return x.bound < y.bound; });
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Candidate& c : candidates) {
+    if (c.bound > std::max(nearest, 0.0)) break;
+    for (std::size_t i = 0; i < c.a->triangles.size(); ++i)
+      for (std::size_t j = 0; j < c.b->triangles.size(); ++j)
+        if (apart(c.a->balls[i], c.b->balls[j]) <= std::max(nearest, 0.0))
+          nearest = std::min(nearest, triangle_separation(c.a->triangles[i], c.b->triangles[j]));
+  }
+  return nearest;
+}
+
+double mesh_distance(const Torus& torus, const Vec3& x)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Sector& sector : sectors(torus)) {
+    if ((x - sector.ball.center).norm() - sector.ball.radius > nearest) continue;
+    for (const Triangle& t : sector.triangles) nearest = std::min(nearest, point_triangle(x, t));
+  }
+  return nearest;
+}
+
+double mesh_excess(const Torus& torus)
+{
+  return (torus.R + torus.r0) * (1.0 - std::cos(std::numbers::pi / torus.facets));
+}
+
+}  // namespace hauberk::verification

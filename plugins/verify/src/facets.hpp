@@ -1,0 +1,17 @@
+#pragma once
+/// Meshes of tori, as contact `mesh` has them; by their rule and by brute force, not by the program's code.
+#include "model.hpp"
+
+namespace hauberk::verification {
+
+/// Smallest distance of two meshes; negative when an edge of one goes through a triangle of the other: then
+/// minus how far the edge's nearer end is behind that triangle's plane. Both tori must have facets.
+double mesh_separation(const Torus& a, const Torus& b);
+
+/// Distance of x to the mesh.
+double mesh_distance(const Torus& torus, const Vec3& x);
+
+/// By how much a mesh may stick out of its torus: chords cut across the hole.
+double mesh_excess(const Torus& torus);
+
+}  // namespace hauberk::verification

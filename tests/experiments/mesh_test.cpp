@@ -23,9 +23,9 @@ std::string mesh_text(int facets)
               "\"preset\": \"accurate\", \"contact\": \"mesh\", \"facets\": " + std::to_string(facets));
 }
 
-/// N even: a ring of polygons hangs in another with a corner of its chords in the middle of a flat of the other's
-/// tube, whose edges, at r sin h (h = pi/N) to either side, rest on these chords: their slope is tan h, so
-/// that centres are 2 (R - r cos h - r sin h tan h) = 2 (R - r/cos h) apart.
+/// N even: a ring of polygons hangs in another with a corner of its chords in the middle of a flat of the
+/// other's tube, whose edges, at r sin h (h = pi/N) to either side, rest on these chords: their slope is tan
+/// h, so that centres are 2 (R - r cos h - r sin h tan h) = 2 (R - r/cos h) apart.
 double exact(int facets) { return 4.0 * (5.0 - 0.7 / std::cos(std::numbers::pi / facets)) / 12.0 - 1.0; }
 
 TEST(Mesh, ExactLimitsOfMeshes)

@@ -59,7 +59,9 @@ AdjointGradient adjoint_gradient(const Model& model, const State& state, const V
     out.parameters = Matrix::Zero(explicit_at(state).rows(), model.element_count());
     return out;
   }
-  const Vector a = solve(e.hessian, free_part(model, quantity), model.metric, load.norm(), out.residual);
+  const Matrix hessian =
+      model.sparse() ? Matrix(Matrix(e.sparse_hessian).selfadjointView<Eigen::Lower>()) : e.hessian;
+  const Vector a = solve(hessian, free_part(model, quantity), model.metric, load.norm(), out.residual);
   // What elements move by themselves, and by the macroscopic unknowns, whose metric is that displacement's.
   const int nm = model.macro_count;
   const double motion = largest_motion(model, a) +

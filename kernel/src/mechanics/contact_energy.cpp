@@ -15,7 +15,7 @@ class Assembler {
   {
     for (int i = 0; i < m_.element_count(); ++i) map(i, {0, 0}, maps_[static_cast<std::size_t>(i)]);
     if (request_.order >= 1) out_.gradient = Vector::Zero(m_.dofs());
-    if (request_.order >= 2) out_.hessian = Matrix::Zero(m_.dofs(), m_.dofs());
+    if (request_.order >= 2 && !m_.sparse()) out_.hessian = Matrix::Zero(m_.dofs(), m_.dofs());
     if (request_.parameters) {
       int most = 0;
       for (const int n : m_.parameter_count) most = std::max(most, n);
@@ -66,8 +66,8 @@ class Assembler {
       if (request_.order >= 2) {
         for (const auto& t : wall.terms) {
           for (const auto& r : wall.terms) {
-            out_.hessian(m_.offset(t.element) + t.coordinate, m_.offset(r.element) + r.coordinate) +=
-                b.ddb * t.coefficient * r.coefficient;
+            add_second(m_.offset(t.element) + t.coordinate, m_.offset(r.element) + r.coordinate,
+                       b.ddb * t.coefficient * r.coefficient);
           }
         }
       }
@@ -87,7 +87,16 @@ class Assembler {
     }
   }
 
-  ContactEnergy take() { return std::move(out_); }
+  ContactEnergy take()
+  {
+    if (request_.order >= 2 && m_.sparse()) {
+      out_.sparse_hessian.resize(m_.dofs(), m_.dofs());
+      // The diagonal is always there: factorisations shift it.
+      for (int k = 0; k < m_.dofs(); ++k) second_.emplace_back(k, k, 0.0);
+      out_.sparse_hessian.setFromTriplets(second_.begin(), second_.end());
+    }
+    return std::move(out_);
+  }
 
  private:
   void map(int element, const Image& image, PositionMap& out) const
@@ -96,6 +105,15 @@ class Assembler {
         {s_.macro.data(), static_cast<std::size_t>(m_.macro_count)},
         {s_.e.data() + element * m_.coordinate_count, static_cast<std::size_t>(m_.coordinate_count)},
         m_.rest[static_cast<std::size_t>(element)].position, m_.translation(image), out);
+  }
+
+  void add_second(int row, int column, double value)
+  {
+    if (!m_.sparse()) {
+      out_.hessian(row, column) += value;
+    } else if (row >= column) {
+      second_.emplace_back(row, column, value);
+    }
   }
 
   bool add_bodies(int a, int b, const Image& image, const Pose& pa, const Pose& pb, PairTerms& sum)
@@ -179,7 +197,7 @@ class Assembler {
     H.noalias() = C.transpose() * (t.hessian * C).eval();
     if (A.curved || B.curved) add_curvature(A, B, t.gradient.head<3>(), H);
     for (int c = 0; c < n; ++c) {
-      for (int r = 0; r < n; ++r) out_.hessian(at(r), at(c)) += H(r, c);
+      for (int r = 0; r < n; ++r) add_second(at(r), at(c), H(r, c));
     }
   }
 
@@ -228,6 +246,7 @@ class Assembler {
   const Request& request_;
   std::vector<PositionMap> maps_;
   ContactEnergy out_;
+  std::vector<Eigen::Triplet<double>> second_;  ///< of a sparse Hessian
 };
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "curvature.hpp"
+
 #include <hauberk/contact/published.hpp>
 #include <hauberk/mechanics/equilibrium.hpp>
 
@@ -63,6 +65,7 @@ class Newton {
     result_.evaluations += now.contact.evaluations;
     if (!now.admissible)
       return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
+    curvature_ = curvature_of(m_, now, *order_);
     double radius = first_radius, noticed = now.energy;
     int rejected = 0, noticed_at = 0, rescues = 0, escapes_then = 0;
     bool escaping = false;
@@ -113,7 +116,7 @@ class Newton {
       const double alpha = try_step(step.dy, trial, next);
       const double gs = now.gradient.dot(step.dy);
       const double predicted =
-          alpha > 0.0 ? -(alpha * gs + 0.5 * alpha * alpha * step.dy.dot(now.hessian * step.dy)) : 0.0;
+          alpha > 0.0 ? -(alpha * gs + 0.5 * alpha * alpha * step.dy.dot(curvature_->times(step.dy))) : 0.0;
       const double actual = now.energy - next.energy;
       const double length = step_norm(m_, step.dy);
       double rounding = noise * (std::abs(now.energy) + 1.0);
@@ -162,6 +165,7 @@ class Newton {
       }
       state_ = std::move(trial);
       now = std::move(next);
+      curvature_ = curvature_of(m_, now, *order_);
       if (runaway()) return finish(now, StageStatus::unbounded, "the strain leaves every bound");
     }
   }
@@ -184,32 +188,29 @@ class Newton {
   Step newton_step(const TotalEnergy& e, double radius)
   {
     Step s;
-    const double scale = (e.hessian.diagonal().cwiseAbs().array() / m_.metric.array()).maxCoeff();
+    const double scale = curvature_->scale();
     const double floor = std::max(load_shift * load_norm_, rounding_shift * scale);
     double lambda = floor, too_low = 0.0;
     for (int it = 0; it < 60; ++it) {
-      Matrix A = e.hessian;
-      A.diagonal() += lambda * m_.metric;
-      Eigen::LLT<Eigen::Ref<Matrix>> llt(A);
-      if (llt.info() != Eigen::Success) {
+      if (!curvature_->factor(lambda)) {
         too_low = lambda;
         lambda = std::max(8.0 * lambda, 1e-4 * load_norm_);
         s.shifted = true;
         continue;
       }
-      s.dy = -llt.solve(e.gradient);
+      s.dy = -curvature_->solve(e.gradient);
       s.lambda = lambda;
       const double norm = step_norm(m_, s.dy);
       if (norm <= 1.1 * radius) break;
       // Newton on the secular equation 1/norm(lambda) = 1/radius.
       const Vector w = m_.metric.cwiseProduct(s.dy);
-      const double q = w.dot(llt.solve(w));
+      const double q = w.dot(curvature_->solve(w));
       double next = lambda + (norm * norm / q) * (norm - radius) / radius;
       if (!(next > lambda)) next = 2.0 * lambda;
       lambda = std::max(next, too_low * 1.5);
       if (lambda > 2.0 * floor) s.shifted = true;
     }
-    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(e.hessian * s.dy));
+    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(curvature_->times(s.dy)));
     if (s.predicted < 0.0) s.predicted = -0.5 * e.gradient.dot(s.dy);
     return s;
   }
@@ -217,19 +218,16 @@ class Newton {
   /// At a stationary point that may be a saddle: a step along the most negative curvature, or false.
   bool saddle_step(const TotalEnergy& e, double radius, Step& s)
   {
-    const Vector root = m_.metric.cwiseSqrt().cwiseInverse();
-    const Matrix scaled = root.asDiagonal() * e.hessian * root.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> eig(scaled);
-    const double lowest = eig.eigenvalues()[0];
+    Vector d;
+    const double lowest = curvature_->lowest(s.lambda, d);
     result_.lowest_curvature = lowest;
-    const double scale = scaled.diagonal().cwiseAbs().maxCoeff();
-    if (lowest > -std::max(saddle_curvature * load_norm_, 10.0 * rounding_shift * scale)) return false;
-    Vector d = root.cwiseProduct(eig.eigenvectors().col(0));
+    if (lowest > -std::max(saddle_curvature * load_norm_, 10.0 * rounding_shift * curvature_->scale()))
+      return false;
     const double slope = e.gradient.dot(d);
     if (slope > 0.0) d = -d;
     const double length = std::min(radius, 0.05);
     s.dy = length * d;
-    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(e.hessian * s.dy));
+    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(curvature_->times(s.dy)));
     s.shifted = true;
     return true;
   }
@@ -272,6 +270,8 @@ class Newton {
   const KeepGoing& keep_going_;
   double load_norm_ = 1.0;
   std::vector<ElementPair> pairs_;
+  EliminationOrderHandle order_ = make_elimination_order();
+  std::unique_ptr<Curvature> curvature_;  ///< of the state's energy
   StageResult result_;
 };
 
@@ -307,15 +307,19 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
     t.gradient = stage.mu * t.contact.gradient;
     t.gradient.head(m.macro_count) -= driving_load(s, load, stage);
   }
-  if (order >= 2) t.hessian = stage.mu * t.contact.hessian;
+  if (order >= 2) {
+    t.hessian = stage.mu * t.contact.hessian;
+    t.sparse_hessian = stage.mu * t.contact.sparse_hessian;
+  }
   if (std::isfinite(stage.target)) {
     t.energy += s.macro.squaredNorm() / (2.0 * stage.target);
-    if (order >= 2) t.hessian.diagonal().head(m.macro_count).array() += 1.0 / stage.target;
+    for (int k = 0; order >= 2 && k < m.macro_count; ++k)
+      (m.sparse() ? t.sparse_hessian.coeffRef(k, k) : t.hessian(k, k)) += 1.0 / stage.target;
   }
   if (m.held.cols() > 0) {
     // Held directions become directions without force, and stiff ones, so that rounding moves nothing there.
     if (order >= 1) t.gradient = free_part(m, t.gradient);
-    if (order >= 2) {
+    if (order >= 2 && !m.sparse()) {
       t.hessian -= m.held * (m.held.transpose() * t.hessian).eval();
       t.hessian -= (t.hessian * m.held).eval() * m.held.transpose();
       t.hessian += std::max(1.0, t.hessian.diagonal().maxCoeff()) * m.held * m.held.transpose();

@@ -1,7 +1,9 @@
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/mechanics/model.hpp>
 
+#include <algorithm>
 #include <deque>
+#include <tuple>
 
 namespace hauberk {
 
@@ -29,16 +31,14 @@ std::vector<Link> find_links(const Model& m, const State& s)
 
 bool links_kept(const Model& m, const State& s)
 {
-  const std::vector<Link> now = find_links(m, s);
-  if (now.size() != m.links.size()) return false;
-  for (const Link& l : m.links) {
-    bool found = false;
-    for (const Link& k : now) {
-      if (k.a == l.a && k.b == l.b && k.image == l.image && k.number == l.number) found = true;
-    }
-    if (!found) return false;
-  }
-  return true;
+  const auto sorted = [](const std::vector<Link>& links) {
+    std::vector<std::tuple<int, int, Image, int>> out;
+    out.reserve(links.size());
+    for (const Link& l : links) out.emplace_back(l.a, l.b, l.image, l.number);
+    std::sort(out.begin(), out.end());
+    return out;
+  };
+  return sorted(find_links(m, s)) == sorted(m.links);
 }
 
 std::vector<Vec3> cycle_translations(const Model& m)
@@ -52,6 +52,12 @@ std::vector<Vec3> cycle_translations(const Model& m)
   const auto element = [&](int body) {
     return static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(body)].element);
   };
+  std::vector<std::vector<const Link*>> links_of(n);
+  for (const Link& l : m.links) {
+    const std::size_t a = element(l.a), b = element(l.b);
+    links_of[a].push_back(&l);
+    if (b != a) links_of[b].push_back(&l);
+  }
   for (std::size_t root = 0; root < n; ++root) {
     if (seen[root]) continue;
     seen[root] = true;
@@ -59,7 +65,8 @@ std::vector<Vec3> cycle_translations(const Model& m)
     while (!queue.empty()) {
       const std::size_t i = queue.front();
       queue.pop_front();
-      for (const Link& l : m.links) {
+      for (const Link* link : links_of[i]) {
+        const Link& l = *link;
         const std::size_t a = element(l.a), b = element(l.b);
         for (const bool forward : {true, false}) {
           if ((forward ? a : b) != i) continue;

@@ -27,8 +27,8 @@ double squared_displacement(const Model& m, const MacroInfo& macro)
   return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, m.rest.size())));
 }
 
-/// Images of one pair that are looked at. More at rest are no fabric but a slip in a length.
-constexpr double most_images_at_rest = 1e4, most_images = 1e8;
+/// Images of one pair that are looked at at rest. More are no fabric but a slip in a length.
+constexpr double most_images_at_rest = 1e4;
 
 /// Lattice translations to either side that may bring a pair within its reach.
 class ImageRange {
@@ -162,6 +162,11 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   return m;
 }
 
+/// Where both cost about the same: share/doc/speed.md.
+constexpr int most_dense = 150;
+
+bool Model::sparse() const { return dofs() > most_dense; }
+
 State rest_state(const Model& m)
 {
   State s;
@@ -238,48 +243,6 @@ double largest_motion(const Model& m, const Vector& dy)
                         dy.segment<3>(o + m.coordinate_count).norm() * m.reach[static_cast<std::size_t>(i)]);
   }
   return most;
-}
-
-std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margin)
-{
-  const std::vector<Pose> p = poses(m, s);
-  const int n = m.element_count();
-  std::vector<ElementPair> pairs;
-  if (m.lattice.empty()) {
-    for (int i = 0; i < n; ++i) {
-      for (int j = i + 1; j < n; ++j) {
-        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-        if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
-          pairs.push_back({i, j, {0, 0}});
-      }
-    }
-    return pairs;
-  }
-  // |F T| >= s_min |T|.
-  const auto [smin, smax] = m.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m.macro_count)});
-  static_cast<void>(smax);
-  const ImageRange range(m);
-  for (int i = 0; i < n; ++i) {
-    for (int j = i; j < n; ++j) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-      const double r = m.reach[a] + m.reach[b] + margin;
-      const double far = ((p[a].position - p[b].position).norm() + r) / std::max(smin, 1e-6);
-      const std::optional<Image> most = range.within(far, most_images);
-      if (!most) {
-        throw ComputationError(
-            fmt::format("elements {} and {}: more than {:g} images of the cell are within their reach", i, j,
-                        most_images));
-      }
-      for (int k = -(*most)[0]; k <= (*most)[0]; ++k) {
-        for (int l = -(*most)[1]; l <= (*most)[1]; ++l) {
-          if (i == j && (k < 0 || (k == 0 && l <= 0))) continue;  // an image pair counts once
-          const Vec3 x = image_pose(m, s, j, {k, l}).position;
-          if ((p[a].position - x).norm() < r) pairs.push_back({i, j, {k, l}});
-        }
-      }
-    }
-  }
-  return pairs;
 }
 
 }  // namespace hauberk

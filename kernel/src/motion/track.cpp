@@ -72,13 +72,19 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
   return near_pairs(m, from, margin);
 }
 
-/// All pairs of a patch.
-std::vector<ElementPair> pairs_of_patch(const Model& m)
+/// Pairs of a patch that the step may bring together: no element goes farther than the fastest one may.
+std::vector<ElementPair> pairs_of_patch(const Model& m, const State& from, const Vector& dy)
 {
-  std::vector<ElementPair> pairs;
-  for (int i = 0; i < m.element_count(); ++i)
-    for (int j = i + 1; j < m.element_count(); ++j) pairs.push_back({i, j, {0, 0}});
-  return pairs;
+  double farthest = 0.0;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const Track track(m, from, dy, i, {0, 0});
+    Pose pose;
+    Vec3 velocity;
+    track.at(0.0, pose, velocity);
+    farthest = std::max(farthest, velocity.norm() + 0.5 * track.acceleration);
+  }
+  // Beyond rounding: what is as far as it may be is told apart below.
+  return near_pairs(m, from, (m.clearance + 2.0 * farthest) * (1.0 + 1e-12) + 1e-12);
 }
 
 }  // namespace
@@ -86,7 +92,8 @@ std::vector<ElementPair> pairs_of_patch(const Model& m)
 std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy)
 {
   std::vector<CandidatePair> out;
-  for (const ElementPair& pair : m.lattice.empty() ? pairs_of_patch(m) : pairs_of_cell(m, from, dy)) {
+  for (const ElementPair& pair :
+       m.lattice.empty() ? pairs_of_patch(m, from, dy) : pairs_of_cell(m, from, dy)) {
     const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
     Pose pi, pj;
     Vec3 vi, vj;

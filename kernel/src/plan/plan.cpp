@@ -137,7 +137,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   p.elements = m.element_count();
   p.primitives = static_cast<int>(m.bodies.size());
   p.unknowns = m.dofs();
-  p.linear_solver = "dense Cholesky";
+  p.linear_solver = m.sparse() ? "sparse Cholesky (CHOLMOD, supernodal)" : "dense Cholesky";
   for (std::size_t i = 0; i < m.rest.size(); ++i) p.inert += spins(m, i) ? 1 : 0;
   p.links_per_element.assign(m.rest.size(), 0);
   for (const Link& l : m.links) {

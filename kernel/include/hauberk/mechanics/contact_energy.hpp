@@ -4,13 +4,17 @@
 #include <hauberk/contact/formulation.hpp>
 #include <hauberk/mechanics/model.hpp>
 
+#include <Eigen/SparseCore>
+
 namespace hauberk {
 
 /// Energy (without stiffness) and derivatives with respect to all unknowns.
 struct ContactEnergy {
   double energy = 0.0;
   Vector gradient;
-  Matrix hessian;
+  Matrix hessian;  ///< of models with few unknowns
+  /// Of models with many (Model::sparse), their lower triangle.
+  Eigen::SparseMatrix<double> sparse_hessian;
   double min_gap = std::numeric_limits<double>::infinity();  ///< smallest gap seen; <= 0: not admissible
   double regularity = std::numeric_limits<double>::infinity();
   long evaluations = 0;      ///< closest-point evaluations

@@ -62,7 +62,9 @@ Vector driving_load(const State& state, const Vector& load, const Stage& stage);
 struct TotalEnergy {
   double energy = 0.0;
   Vector gradient;
-  Matrix hessian;
+  Matrix hessian;  ///< with what the load case holds made stiff
+  /// Lower triangle, as it is, of models with many unknowns.
+  Eigen::SparseMatrix<double> sparse_hessian;
   ContactEnergy contact;
   bool admissible = false;  ///< all gaps positive
 };

@@ -1,0 +1,159 @@
+#include "curvature.hpp"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/OrderingMethods>
+
+#include <cmath>
+#include <optional>
+
+namespace hauberk {
+
+/// Unknowns by elimination: position of each.
+struct EliminationOrder {
+  std::optional<Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>> permutation;
+};
+
+void EliminationOrderDeleter::operator()(EliminationOrder* order) const { delete order; }
+EliminationOrderHandle make_elimination_order() { return EliminationOrderHandle(new EliminationOrder); }
+
+namespace {
+
+class DenseCurvature final : public Curvature {
+ public:
+  DenseCurvature(const Model& m, const Matrix& hessian) : m_(m), hessian_(hessian) {}
+
+  Vector times(const Vector& x) const override { return hessian_ * x; }
+  double scale() const override
+  {
+    return (hessian_.diagonal().cwiseAbs().array() / m_.metric.array()).maxCoeff();
+  }
+  bool factor(double lambda) override
+  {
+    factor_ = hessian_;
+    factor_.diagonal() += lambda * m_.metric;
+    llt_.emplace(factor_);
+    return llt_->info() == Eigen::Success;
+  }
+  Vector solve(const Vector& b) const override { return llt_->solve(b); }
+  double lowest(double, Vector& direction) override
+  {
+    const Vector root = m_.metric.cwiseSqrt().cwiseInverse();
+    const Matrix scaled = root.asDiagonal() * hessian_ * root.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix> eig(scaled);
+    direction = root.cwiseProduct(eig.eigenvectors().col(0));
+    return eig.eigenvalues()[0];
+  }
+
+ private:
+  const Model& m_;
+  const Matrix& hessian_;
+  Matrix factor_;
+  std::optional<Eigen::LLT<Eigen::Ref<Matrix>>> llt_;
+};
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// In unknowns scaled by the root of the metric, P D H D P^T with D = M^(-1/2) and an elimination order P.
+class SparseCurvature final : public Curvature {
+ public:
+  SparseCurvature(const Model& m, const Sparse& lower, EliminationOrder& order)
+      : m_(m), lower_(lower), root_(m.metric.cwiseSqrt().cwiseInverse())
+  {
+    const Sparse scaled = root_.asDiagonal() * lower * root_.asDiagonal();
+    if (!order.permutation) {
+      // Of the first Hessian of the stage: later ones have nearly the same contacts.
+      Eigen::AMDOrdering<int> amd;
+      Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+      const Sparse full = scaled.selfadjointView<Eigen::Lower>();
+      amd(full, inverse);
+      order.permutation = inverse.inverse();
+    }
+    p_ = *order.permutation;
+    permuted_.resize(lower.rows(), lower.cols());
+    permuted_.selfadjointView<Eigen::Lower>() = scaled.selfadjointView<Eigen::Lower>().twistedBy(p_);
+    solver_.cholmod().nmethods = 1;
+    solver_.cholmod().method[0].ordering = CHOLMOD_NATURAL;
+    solver_.cholmod().print = 0;
+    solver_.cholmod().error_handler = nullptr;
+    solver_.analyzePattern(permuted_);
+  }
+
+  Vector times(const Vector& x) const override
+  {
+    return free_part(m_, lower_.selfadjointView<Eigen::Lower>() * free_part(m_, x));
+  }
+  double scale() const override { return permuted_.diagonal().cwiseAbs().maxCoeff(); }
+
+  bool factor(double lambda) override
+  {
+    solver_.setShift(lambda);
+    solver_.factorize(permuted_);
+    if (solver_.info() != Eigen::Success) return false;
+    if (m_.held.cols() > 0) {
+      across_.resize(m_.held.rows(), m_.held.cols());
+      for (Eigen::Index k = 0; k < m_.held.cols(); ++k) across_.col(k) = unconstrained(m_.held.col(k));
+      reaction_ = m_.held.transpose() * across_;
+    }
+    return true;
+  }
+
+  Vector solve(const Vector& b) const override
+  {
+    Vector x = unconstrained(b);
+    // Multipliers of held^T x = 0.
+    if (m_.held.cols() > 0) x -= across_ * reaction_.llt().solve(m_.held.transpose() * x);
+    return x;
+  }
+
+  double lowest(double positive, Vector& direction) override
+  {
+    constexpr int most = 200;
+    constexpr double settled = 1e-4;
+    if (!factor(positive)) return 0.0;
+    // Inverse iteration converges the faster the nearer the shift is to the eigenvalue.
+    double shift = positive;
+    for (int k = 0; k < 10 && factor(0.5 * shift); ++k) shift *= 0.5;
+    if (!factor(shift)) return 0.0;
+    const Eigen::Index n = m_.metric.size();
+    Vector x(n);
+    // Any start that is no eigenvector by symmetry.
+    for (Eigen::Index k = 0; k < n; ++k) x[k] = std::sin(1.0 + 12.9898 * static_cast<double>(k));
+    double value = 0.0;
+    for (int k = 0; k < most; ++k) {
+      x = solve(m_.metric.cwiseProduct(x));
+      x /= step_norm(m_, x);
+      const double next = x.dot(times(x));
+      const bool done = k > 3 && std::abs(next - value) <= settled * std::abs(next);
+      value = next;
+      if (done) break;
+    }
+    direction = x;
+    return value;
+  }
+
+ private:
+  Vector unconstrained(const Vector& b) const
+  {
+    const Vector right = p_ * root_.cwiseProduct(b);
+    const Vector left = p_.transpose() * Vector(solver_.solve(right));
+    return root_.cwiseProduct(left);
+  }
+
+  const Model& m_;
+  const Sparse& lower_;
+  Vector root_;
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> p_;
+  Sparse permuted_;
+  Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> solver_;
+  Matrix across_, reaction_;
+};
+
+}  // namespace
+
+std::unique_ptr<Curvature> curvature_of(const Model& m, const TotalEnergy& e, EliminationOrder& order)
+{
+  if (m.sparse()) return std::make_unique<SparseCurvature>(m, e.sparse_hessian, order);
+  return std::make_unique<DenseCurvature>(m, e.hessian);
+}
+
+}  // namespace hauberk

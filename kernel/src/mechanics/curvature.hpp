@@ -1,0 +1,37 @@
+#pragma once
+/// The Hessian of the energy as Newton's method uses it: dense for few unknowns, sparse for many.
+
+#include <hauberk/mechanics/equilibrium.hpp>
+
+#include <memory>
+
+namespace hauberk {
+
+/// Systems with H + lambda M, M the metric, on the directions that the load case does not hold.
+class Curvature {
+ public:
+  virtual ~Curvature() = default;
+
+  virtual Vector times(const Vector& x) const = 0;
+  /// Largest |H_kk| / M_kk.
+  virtual double scale() const = 0;
+  /// Prepares `solve`; false: H + lambda M is not positive definite.
+  virtual bool factor(double lambda) = 0;
+  virtual Vector solve(const Vector& b) const = 0;
+  /// Smallest eigenvalue of H against M and its direction, of unit length in the step norm. `positive`: a
+  /// shift for which `factor` succeeded. Sparse: an upper bound, from inverse iteration.
+  virtual double lowest(double positive, Vector& direction) = 0;
+};
+
+/// What stays from one Hessian of a stage to the next: the order of elimination.
+struct EliminationOrder;
+struct EliminationOrderDeleter {
+  void operator()(EliminationOrder* order) const;
+};
+using EliminationOrderHandle = std::unique_ptr<EliminationOrder, EliminationOrderDeleter>;
+EliminationOrderHandle make_elimination_order();
+
+/// Of the energy, with the storage that it has.
+std::unique_ptr<Curvature> curvature_of(const Model& m, const TotalEnergy& e, EliminationOrder& order);
+
+}  // namespace hauberk

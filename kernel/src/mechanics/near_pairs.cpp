@@ -1,0 +1,225 @@
+#include <hauberk/error.hpp>
+#include <hauberk/mechanics/model.hpp>
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hauberk {
+namespace {
+
+/// Images of one pair that are looked at.
+constexpr double most_images = 1e8;
+/// Of fewer elements all pairs are looked at.
+constexpr int few = 64;
+
+double widest_reach(const Model& m) { return *std::max_element(m.reach.begin(), m.reach.end()); }
+
+/// All pairs of a patch, looked at one by one.
+std::vector<ElementPair> pairs_one_by_one(const Model& m, const std::vector<Pose>& p, double margin)
+{
+  std::vector<ElementPair> pairs;
+  const int n = m.element_count();
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
+        pairs.push_back({i, j, {0, 0}});
+    }
+  }
+  return pairs;
+}
+
+using Bucket = std::array<int, 3>;
+
+/// The same through buckets as wide as any pair's reach: neighbours are in neighbouring ones.
+std::vector<ElementPair> pairs_by_buckets(const Model& m, const std::vector<Pose>& p, double margin)
+{
+  const double width = 2.0 * widest_reach(m) + margin;
+  const auto bucket = [width](const Vec3& x) {
+    const Vec3 cell = (x / width).array().floor();
+    return Bucket{static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2])};
+  };
+  std::map<Bucket, std::vector<int>> buckets;
+  for (int i = 0; i < m.element_count(); ++i)
+    buckets[bucket(p[static_cast<std::size_t>(i)].position)].push_back(i);
+  std::vector<ElementPair> pairs;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    const Bucket at = bucket(p[a].position);
+    const std::size_t first = pairs.size();
+    for (int k = 0; k < 27; ++k) {
+      const auto found = buckets.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
+      if (found == buckets.end()) continue;
+      for (const int j : found->second) {
+        const auto b = static_cast<std::size_t>(j);
+        if (j > i && (p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
+          pairs.push_back({i, j, {0, 0}});
+      }
+    }
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
+              [](const ElementPair& x, const ElementPair& y) { return x.j < y.j; });
+  }
+  return pairs;
+}
+
+/// The deformed lattice in the plane: images are x + k t1 + l t2.
+struct DeformedLattice {
+  Vec3 t1, t2;
+  Eigen::Matrix2d inverse;
+  double row1 = 0.0,
+         row2 = 0.0;  ///< norms of its rows: coordinates of a vector are at most that times its length
+
+  DeformedLattice(const Model& m, const State& s, const std::vector<Pose>& p)
+      : t1(image_pose(m, s, 0, {1, 0}).position - p.front().position),
+        t2(image_pose(m, s, 0, {0, 1}).position - p.front().position)
+  {
+    Eigen::Matrix2d lattice;
+    lattice << t1.head<2>(), t2.head<2>();
+    inverse = lattice.inverse();
+    row1 = inverse.row(0).norm();
+    row2 = inverse.row(1).norm();
+  }
+};
+
+/// All pairs of a cell and its images, looked at one by one: those images of which x_i is within reach.
+std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const std::vector<Pose>& p,
+                                           double margin)
+{
+  constexpr double slack = 1e-9;  // for rounding; distances decide
+  const DeformedLattice lattice(m, s, p);
+  std::vector<ElementPair> pairs;
+  const int n = m.element_count();
+  for (int i = 0; i < n; ++i) {
+    for (int j = i; j < n; ++j) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const double r = m.reach[a] + m.reach[b] + margin;
+      const Eigen::Vector2d at = lattice.inverse * (p[a].position - p[b].position).head<2>();
+      const double w1 = r * lattice.row1 + slack, w2 = r * lattice.row2 + slack;
+      if (!((2.0 * w1 + 1.0) * (2.0 * w2 + 1.0) <= most_images)) {
+        throw ComputationError(
+            fmt::format("elements {} and {}: more than {:g} images of the cell are within their reach", i, j,
+                        most_images));
+      }
+      const int last1 = static_cast<int>(std::floor(at[0] + w1)),
+                last2 = static_cast<int>(std::floor(at[1] + w2));
+      for (int k = static_cast<int>(std::ceil(at[0] - w1)); k <= last1; ++k) {
+        for (int l = static_cast<int>(std::ceil(at[1] - w2)); l <= last2; ++l) {
+          if (i == j && (k < 0 || (k == 0 && l <= 0))) continue;  // an image pair counts once
+          const Vec3 x = image_pose(m, s, j, {k, l}).position;
+          if ((p[a].position - x).norm() < r) pairs.push_back({i, j, {k, l}});
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+/// A cell with so many elements that buckets pay: columns and rows of the deformed lattice, as wide as any
+/// pair's reach.
+class LatticeBuckets {
+ public:
+  LatticeBuckets(const Model& m, const State& s, const std::vector<Pose>& p, double margin)
+      : m_(m), s_(s), p_(p), margin_(margin), lattice_(m, s, p)
+  {
+    // 1/row is how far apart lines of the lattice are.
+    const double width = 2.0 * widest_reach(m) + margin;
+    count_ = {static_cast<int>(std::min(1e4, 1.0 / (lattice_.row1 * width))),
+              static_cast<int>(std::min(1e4, 1.0 / (lattice_.row2 * width)))};
+  }
+
+  /// Fewer than three along a side would meet themselves.
+  bool pay() const { return count_[0] >= 3 && count_[1] >= 3; }
+
+  std::vector<ElementPair> pairs()
+  {
+    fill();
+    std::vector<ElementPair> out;
+    for (int i = 0; i < m_.element_count(); ++i) {
+      const std::size_t first = out.size();
+      for (int k = 0; k < 9; ++k) add_from(i, k % 3 - 1, k / 3 - 1, out);
+      std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                [](const ElementPair& x, const ElementPair& y) {
+                  return x.j != y.j ? x.j < y.j : x.image < y.image;
+                });
+    }
+    return out;
+  }
+
+ private:
+  /// Where an element is: its bucket in the cell, and the cell.
+  struct Place {
+    std::array<int, 2> bucket{}, cell{};
+  };
+
+  void fill()
+  {
+    buckets_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]));
+    for (int i = 0; i < m_.element_count(); ++i) {
+      const Eigen::Vector2d x = lattice_.inverse * p_[static_cast<std::size_t>(i)].position.head<2>();
+      Place place;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double coordinate = x[static_cast<Eigen::Index>(k)], cell = std::floor(coordinate);
+        place.cell[k] = static_cast<int>(cell);
+        place.bucket[k] = std::min(count_[k] - 1, static_cast<int>((coordinate - cell) * count_[k]));
+      }
+      places_.push_back(place);
+      bucket(place.bucket).push_back(i);
+    }
+  }
+
+  std::vector<int>& bucket(const std::array<int, 2>& at)
+  {
+    return buckets_[static_cast<std::size_t>(at[0] * count_[1] + at[1])];
+  }
+
+  /// Pairs of i with elements of the bucket d1, d2 away.
+  void add_from(int i, int d1, int d2, std::vector<ElementPair>& out)
+  {
+    const Place& at = places_[static_cast<std::size_t>(i)];
+    std::array<int, 2> there{at.bucket[0] + d1, at.bucket[1] + d2}, beyond{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      beyond[k] = there[k] < 0 ? -1 : there[k] >= count_[k] ? 1 : 0;
+      there[k] -= beyond[k] * count_[k];
+    }
+    const auto a = static_cast<std::size_t>(i);
+    for (const int j : bucket(there)) {
+      if (j < i) continue;
+      const auto b = static_cast<std::size_t>(j);
+      const Image image{beyond[0] - places_[b].cell[0] + at.cell[0],
+                        beyond[1] - places_[b].cell[1] + at.cell[1]};
+      if (i == j && (image[0] < 0 || (image[0] == 0 && image[1] <= 0))) continue;
+      const Vec3 x = image_pose(m_, s_, j, image).position;
+      if ((p_[a].position - x).norm() < m_.reach[a] + m_.reach[b] + margin_) out.push_back({i, j, image});
+    }
+  }
+
+  const Model& m_;
+  const State& s_;
+  const std::vector<Pose>& p_;
+  double margin_;
+  DeformedLattice lattice_;
+  std::array<int, 2> count_{};
+  std::vector<Place> places_;
+  std::vector<std::vector<int>> buckets_;
+};
+
+}  // namespace
+
+std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margin)
+{
+  const std::vector<Pose> p = poses(m, s);
+  if (m.lattice.empty())
+    return m.element_count() < few ? pairs_one_by_one(m, p, margin) : pairs_by_buckets(m, p, margin);
+  if (m.element_count() >= few) {
+    LatticeBuckets buckets(m, s, p, margin);
+    if (buckets.pay()) return buckets.pairs();
+  }
+  return images_one_by_one(m, s, p, margin);
+}
+
+}  // namespace hauberk

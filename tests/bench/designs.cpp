@@ -84,7 +84,7 @@ void measure_next(benchmark::State& state, const Scene& scene)
 void register_designs(Scenes& scenes)
 {
   const auto add = [&scenes](const char* name, void (*measured)(benchmark::State&, const Scene&)) {
-    benchmark::RegisterBenchmark(name, [&scenes, measured](benchmark::State& state) {
+    enter(name, [&scenes, measured](benchmark::State& state) {
       try {
         measured(state, scenes.at({"share/experiments/paper/chainmail_d.json", {}}));
       } catch (const std::exception& error) {

@@ -48,10 +48,10 @@ void register_energies(Scenes& scenes)
   for (const char* material : materials) {
     const Source source = published_limits(material);
     for (const Formulation formulation : {Formulation::nearest, Formulation::arc}) {
-      benchmark::RegisterBenchmark(fmt::format("energy/{}/{}", material, name_of(formulation)).c_str(),
-                                   [&scenes, source, formulation](benchmark::State& state) {
-                                     measure_energy(state, scenes, source, formulation);
-                                   });
+      enter(fmt::format("energy/{}/{}", material, name_of(formulation)),
+            [&scenes, source, formulation](benchmark::State& state) {
+              measure_energy(state, scenes, source, formulation);
+            });
     }
   }
 }

@@ -26,7 +26,7 @@ LimitResult only_limit(const Scene& scene)
 /// One limit. The label is what `hauberk run` is given to find the same one.
 void add(Scenes& scenes, const std::string& name, const Source& source, std::optional<double> exact = {})
 {
-  benchmark::RegisterBenchmark(("limit/" + name).c_str(), [&scenes, source, exact](benchmark::State& state) {
+  enter("limit/" + name, [&scenes, source, exact](benchmark::State& state) {
     LimitResult limit;
     measure(state, [&] { return [&limit, &scene = scenes.at(source)] { limit = only_limit(scene); }; });
     if (!limit.value) return;

@@ -19,7 +19,7 @@ int main(int argc, char** argv)
 
   bench::Scenes scenes;
   // What is left of this one's spread after calibration is what calibration cannot remove.
-  benchmark::RegisterBenchmark("calibration", [](benchmark::State& state) {
+  bench::enter("calibration", [](benchmark::State& state) {
     bench::measure(state, [] { return [] { benchmark::DoNotOptimize(bench::fixed_loop()); }; });
   });
   bench::register_pairs(scenes);

@@ -4,8 +4,13 @@
 #include <benchmark/benchmark.h>
 
 #include <exception>
+#include <functional>
+#include <string>
 
 namespace hauberk::bench {
+
+/// Adds a benchmark to those that the program runs.
+void enter(const std::string& name, const std::function<void(benchmark::State&)>& run);
 
 /// Some milliseconds of double arithmetic, division and roots like the distance fields', always the same and
 /// none of the project's code. The result depends on all of it.

@@ -80,14 +80,13 @@ Pair pair_at(Scenes& scenes, const Shapes& shape, double gap)
 template <class Operation>
 void add(Scenes& scenes, const Shapes& shape, double gap, const std::string& what, Operation operation)
 {
-  benchmark::RegisterBenchmark(
-      fmt::format("pair/{}/{:.0e}/{}", shape.name, gap, what).c_str(),
-      [&scenes, shape, gap, operation](benchmark::State& state) {
-        long evaluations = 0;
-        measure(state,
-                [&] { return [&, pair = pair_at(scenes, shape, gap)] { evaluations = operation(pair); }; });
-        state.counters[counter::evaluations] = static_cast<double>(evaluations);
-      });
+  enter(fmt::format("pair/{}/{:.0e}/{}", shape.name, gap, what),
+        [&scenes, shape, gap, operation](benchmark::State& state) {
+          long evaluations = 0;
+          measure(state,
+                  [&] { return [&, pair = pair_at(scenes, shape, gap)] { evaluations = operation(pair); }; });
+          state.counters[counter::evaluations] = static_cast<double>(evaluations);
+        });
 }
 
 long minima(const Pair& pair, double threshold)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds and runs all benchmarks (tests/bench), stores the run, prints it as a table, and compares it with an earlier one.
+# Builds and runs all benchmarks (tests/bench), stores the run, prints a table, and compares it with an earlier one.
 #
 #   share/bench.sh [--out DIR] [--compare EARLIER.json] [--filter REGEX] [--repetitions N]
 #
@@ -36,7 +36,8 @@ while (($# > 0)); do
   esac
   shift
 done
-[[ $repetitions =~ ^[1-9][0-9]{0,2}$ ]] || bad_input "--repetitions: expected a number from 1 to 999, found '$repetitions'"
+[[ $repetitions =~ ^[1-9][0-9]{0,2}$ ]] ||
+  bad_input "--repetitions: expected a number from 1 to 999, found '$repetitions'"
 
 raw=$(mktemp -d)
 trap 'rm -rf "$raw"' EXIT
@@ -58,8 +59,10 @@ fi
 
 list=$("$bench" --benchmark_list_tests "--benchmark_filter=$regex") ||
   bad_input "--filter: no benchmark matches '$regex'"
-commit=$(git -C "$root" describe --always --abbrev=12 --exclude='*' --dirty=' with changes' 2>/dev/null) || commit=unknown
-echo "bench: $(wc -l <<<"$list") benchmarks, $repetitions times, at $commit; load average $(cut -d' ' -f1-3 /proc/loadavg)"
+commit=$(git -C "$root" describe --always --abbrev=12 --exclude='*' --dirty=' with changes' 2>/dev/null) ||
+  commit=unknown
+load=$(cut -d' ' -f1-3 /proc/loadavg 2>/dev/null) || load=unknown
+echo "bench: $(wc -l <<<"$list") benchmarks, $repetitions times, at $commit; load average $load"
 
 files=()
 # Whole passes rather than repetitions in a row: other load comes and goes, and every process has its own layout.

@@ -115,10 +115,20 @@ def duration(seconds):
     return f"{seconds * 1e9:.3g} ns"
 
 
+def only_one(has, lacks, word, lacking_run, filtered):
+    """Lines for benchmarks that one run lacks; a single one where a filter explains it."""
+    names = [name for name in has if name not in lacks]
+    if names and lacking_run.get("filter"):
+        return [f"{len(names)} benchmarks {filtered} (filter {lacking_run['filter']})"]
+    return [f"{word:<8} {name}" for name in names]
+
+
 def compare(earlier, now):
     """(lines to print, whether something became worse)."""
     before, after = earlier["benchmarks"], now["benchmarks"]
     both = [name for name in after if name in before]
+    if not both:
+        raise BadInput("the two runs have no benchmark in common")
     other = other_machine(earlier, now)
     lines, counts, worse = [], {"slower": 0, "faster": 0, "same": 0, "not judged": 0}, False
     for sentence in other:
@@ -137,13 +147,8 @@ def compare(earlier, now):
             lines.append(f"{'more' if new > old else 'less':<8} {name}: {what} {old:g} -> {new:g}")
         for what, old, new in result_changes(before[name], after[name]):
             lines.append(f"{'result':<8} {name}: {what} {old:.10g} -> {new:.10g}")
-    lines += [f"{'new':<8} {name}" for name in after if name not in before]
-    missing = [name for name in before if name not in after]
-    if now.get("filter"):
-        if missing:
-            lines.append(f"{len(missing)} benchmarks of the earlier run were not run (filter {now['filter']})")
-    else:
-        lines += [f"{'missing':<8} {name}" for name in missing]
+    lines += only_one(after, before, "new", earlier, "of this run were not in the earlier one")
+    lines += only_one(before, after, "missing", now, "of the earlier run were not run")
     lines.append(f"{len(both)} benchmarks compared: " + ", ".join(f"{n} {what}" for what, n in counts.items() if n))
     return lines, worse
 

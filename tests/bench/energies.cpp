@@ -29,7 +29,8 @@ void measure_energy(benchmark::State& state, Scenes& scenes, const Source& sourc
   long evaluations = 0;
   measure(state, [&] {
     const Scene& scene = scenes.at(source);
-    return [&, stage = stage_of(scene, formulation), rest = rest_state(scene.model)] {
+    return [&pairs, &evaluations, &scene = scene, stage = stage_of(scene, formulation),
+            rest = rest_state(scene.model)] {
       const std::vector<ElementPair> near = stage_pairs(scene.model, rest, stage);
       const ContactEnergy energy = contact_energy(scene.model, rest, near, stage.contact, {2, false, false});
       if (!(energy.energy > 0.0)) throw ComputationError("nothing is in contact");

@@ -61,7 +61,8 @@ class Compare(Scripts):
         for then, now in ((0.1, 0.12), (0.0, 0.22), (0.22, 0.0)):
             self.expect(run_of(benchmark("a", spread=then)), run_of(benchmark("a", 1.2, spread=now)), 0,
                         "1 benchmarks compared: 1 same")
-        self.assertEqual(self.compare(run_of(benchmark("a", spread=0.1)), run_of(benchmark("a", 1.3, spread=0.1)))[0], 1)
+        code, _, _ = self.compare(run_of(benchmark("a", spread=0.1)), run_of(benchmark("a", 1.3, spread=0.1)))
+        self.assertEqual(code, 1)
 
     def test_faster(self):
         self.expect(run_of(benchmark("a")), run_of(benchmark("a", 0.5)), 0,
@@ -95,6 +96,10 @@ class Compare(Scripts):
                     "new      c", "missing  a", "1 benchmarks compared: 1 same")
         self.expect(run_of(benchmark("a"), benchmark("b")), run_of(benchmark("b"), filter="b"), 0,
                     "1 benchmarks of the earlier run were not run (filter b)", "1 benchmarks compared: 1 same")
+        self.expect(run_of(benchmark("b"), filter="b"), run_of(benchmark("a"), benchmark("b")), 0,
+                    "1 benchmarks of this run were not in the earlier one (filter b)", "1 benchmarks compared: 1 same")
+        code, _, err = self.compare(run_of(benchmark("a")), run_of(benchmark("b")))
+        self.assertEqual((code, err), (2, "bench: the two runs have no benchmark in common\n"))
 
     def test_times_of_other_machines_and_builds_are_not_judged_but_counts_are(self):
         earlier = run_of(benchmark("a"))
@@ -166,7 +171,8 @@ class Record(Scripts):
 
     def test_medians_are_of_times_over_the_fixed_loop(self):
         # The middle repetition ran on a machine half as fast: over the loop all three are 2, 4 and 3 (thousandths).
-        (code, out, err), run = self.record(self.repetition(2e6, 1.0), self.repetition(8e6, 2.0), self.repetition(3e6, 1.0))
+        (code, out, err), run = self.record(
+            self.repetition(2e6, 1.0), self.repetition(8e6, 2.0), self.repetition(3e6, 1.0))
         self.assertEqual((code, err), (0, ""))
         entry = run["benchmarks"][0]
         self.assertAlmostEqual(entry["relative"], 3e-3)

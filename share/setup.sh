@@ -15,6 +15,7 @@ packages=(
   libnlopt-dev                      # optimizers/nlopt
   libfmt-dev
   libgtest-dev python3-jsonschema   # tests only
+  libbenchmark-dev                  # tests/bench only
 )
 
 usage() { sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }

@@ -144,7 +144,7 @@ TEST(Structure, ProblemsStayOnOneLineEach)
       after("\"name\": \"pair\"", "\"name\": \"pair\", \"a\\nb\\u001b\": 1"),
       "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; known: '$schema', 'name', 'description', "
       "'task', 'length_unit', 'seed', "
-      "'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'stability', 'transition', 'expect'");
+      "'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', 'transition', 'expect'");
 }
 
 TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)

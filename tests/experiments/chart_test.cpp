@@ -304,14 +304,14 @@ TEST(ChartInput, MistakesOfTheFileAreBadInput)
     return o.err;
   };
   EXPECT_TRUE(holds(errors("\"exact\": 0.43333333333333335", "\"exact\": [0.4, 0.4]"),
-                    "c.json:15: /chart/scenes/0/exact: expected 1 exact values, one per limit, found 2\n"));
+                    "c.json:16: /chart/scenes/0/exact: expected 1 exact values, one per limit, found 2\n"));
   EXPECT_TRUE(
       holds(errors(R"("/solver/contact": "arc")", R"("/load_case/directions_deg": [30])"),
-            "c.json:21: /chart/methods/1: method 'arc' has other limits than scene 'chain': it may set how "
+            "c.json:22: /chart/methods/1: method 'arc' has other limits than scene 'chain': it may set how "
             "they are found, not which they are\n"));
   EXPECT_TRUE(
       holds(errors("\"/elements/link/parameters/ring.r0\": 0.6", "\"/elements/link/parameters/ring.r0\": 6"),
-            "c.json:16: /chart/scenes/1: scene 'thin, both ways': /elements/link/parameters"));
+            "c.json:17: /chart/scenes/1: scene 'thin, both ways': /elements/link/parameters"));
   const std::string wrong = errors(R"("/solver/contact": "arc")", R"("/solver/contact": "ark")");
   EXPECT_TRUE(
       holds(wrong, "scene 'chain', method 'arc', setting 'coarse': expected one of auto, nearest, arc"));

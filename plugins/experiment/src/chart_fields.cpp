@@ -13,14 +13,14 @@ constexpr double most_threads = 4096.0;
 
 Field scene_field()
 {
-  Field one = number("exact", "Of all limits.", "as the value");
+  Field one = number("exact", "Of the only limit.", "as the value");
   Field several = at_least_items(
       list("exact", "One per limit; null: not compared.", any("value", "A number or null.")), 1);
   return object(
       "scene", "A scene whose limits are known. Either exact or reference says how.",
       {required(string("name", "Name in tables and pictures.")),
        set_field("What makes the scene out of this experiment, by JSON pointer; whole sections too."),
-       any_of("exact", "Known values of the scene's limits.", {std::move(one), std::move(several)}),
+       any_of("exact", "Known values: a number where there is one limit, else a list with one per limit; null: not compared.", {std::move(one), std::move(several)}),
        object("reference",
               "Settings of a solve of higher accuracy, made once and not timed; its values count as exact, "
               "its error estimates are recorded.",

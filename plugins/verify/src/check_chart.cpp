@@ -125,7 +125,8 @@ void check_chart(const json::value& experiment, const json::value& chart, std::v
        "/chart: " + (table.empty() ? fmt::format("{} points, as asked for", points.size()) : joined(table))});
   for (std::size_t k = 0; k < points.size(); ++k) {
     const ChartPoint& p = points[k];
-    const std::string name = fmt::format("{} ({}, {}, {})", p.where, p.scene, p.method, p.setting);
+    const std::string setting = p.setting.empty() ? "" : ", " + p.setting;
+    const std::string name = fmt::format("{} ({}, {}{})", p.where, p.scene, p.method, setting);
     Sentences problems;
     const std::optional<Values> exact = exact_of(scenes, p.scene);
     check_error(p, exact.value_or(Values{}), problems);

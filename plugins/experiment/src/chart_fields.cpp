@@ -20,7 +20,10 @@ Field scene_field()
       "scene", "A scene whose limits are known. Either exact or reference says how.",
       {required(string("name", "Name in tables and pictures.")),
        set_field("What makes the scene out of this experiment, by JSON pointer; whole sections too."),
-       any_of("exact", "Known values: a number where there is one limit, else a list with one per limit; null: not compared.", {std::move(one), std::move(several)}),
+       any_of("exact",
+              "Known values: a number where there is one limit, else a list with one per limit; null: not "
+              "compared.",
+              {std::move(one), std::move(several)}),
        object("reference",
               "Settings of a solve of higher accuracy, made once and not timed; its values count as exact, "
               "its error estimates are recorded.",

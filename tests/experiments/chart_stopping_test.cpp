@@ -57,30 +57,52 @@ TEST_F(ChartStopping, ResumesRunsThatAreMissing)
             out + "/results.json: complete already\nall 1 expected results are met\n");
 }
 
+/// Runs of the last point on the disk.
+std::size_t runs_of_last(const std::string& out)
+{
+  if (!fs::exists(out + "/results.json")) return 0;
+  const json::value results = read_results(out);
+  const json::value& seconds = point(results, point_count - 1).at("seconds");
+  return seconds.is_null() ? 0 : seconds.at("runs").as_array().size();
+}
+
+/// Interrupts when the last point has more runs than before, which is on the disk every few seconds.
+Outcome interrupt_later(const std::vector<std::string>& arguments, const std::string& out)
+{
+  const TemporaryFolder streams;
+  const std::size_t before = runs_of_last(out);
+  Process process(arguments, streams);
+  for (int wait = 0; wait < 1200 && runs_of_last(out) <= before; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  process.signal(SIGINT);
+  return process.wait();
+}
+
 TEST_F(ChartStopping, AnInterruptLeavesWhatIsFinished)
 {
-  // The last point is never done: its round never ends.
-  const std::string file = folder_->write(
-      "endless.json", with(with(chart_text(), R"("/solver/max_iterations", "values": [500, 500, 1])",
-                                R"("/solver/starts", "values": [1, 1, 200000])"),
-                           R"("threads": [1, 2])", R"("threads": [1])"));
+  // So many runs take hours.
+  const std::string file =
+      folder_->write("endless.json", with(chart_text(), R"("repeats": 2)", R"("repeats": 1000000)"));
   const std::string out = *folder_ / "endless";
-  const TemporaryFolder streams;
-  Process process({"run", file, "-o", out, "--set", "/expect=[]"}, streams);
-  for (int wait = 0; wait < 1200 && !fs::exists(out + "/results.json"); ++wait)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  process.signal(SIGINT);
-  const Outcome o = process.wait();
+  Outcome o = interrupt_later({"run", file, "-o", out}, out);
   EXPECT_EQ(o.code, 130) << o.err;
+  EXPECT_TRUE(holds(o.out, "interrupted: these results are partial; go on with --resume\n"));
   const json::value r = read_results(out);
   EXPECT_EQ(text(r.at_pointer("/chart/scenes/1/reference/status")), "done");
-  const json::value& last = point(r, 4);
-  EXPECT_EQ(text(last.at("status")), "interrupted");
-  EXPECT_TRUE(last.at("seconds").is_null());
-  EXPECT_TRUE(last.at("error").is_null());
-  EXPECT_TRUE(holds(read_text(out + "/chart.svg"), "chain, arc, hasty: interrupted<"));
-  const Outcome verified = run_program({"verify", out});
-  EXPECT_EQ(verified.code, 0) << verified.out;
+  EXPECT_EQ(number_at(r, "/chart/counts/interrupted"), 12.0);
+  EXPECT_EQ(number_at(r, "/chart/counts/failed"), 2.0) << "those are finished";
+  const json::array runs = r.at_pointer("/chart/points/0/seconds/runs").as_array();
+  EXPECT_EQ(point(r, 0).at("error"), point(results_, 0).at("error")) << "known from the first run on";
+  EXPECT_EQ(run_program({"verify", out}).code, 0);
+  // The runs that were made stay.
+  o = interrupt_later({"run", file, "-o", out, "--resume"}, out);
+  EXPECT_EQ(o.code, 130) << o.err;
+  const json::value more = read_results(out);
+  json::array kept = more.at_pointer("/chart/points/0/seconds/runs").as_array();
+  ASSERT_GT(kept.size(), runs.size());
+  kept.resize(runs.size());
+  EXPECT_EQ(kept, runs);
+  EXPECT_EQ(point(more, 8).at("seconds"), point(r, 8).at("seconds")) << "not tried again";
 }
 
 TEST_F(ChartStopping, TimesOfAnotherMachineAreNotMixedIn)

@@ -73,28 +73,34 @@ std::optional<double> error_of(const PrecisionScene& scene, const Values& values
   return worst;
 }
 
-/// Whether error and cost of `a` are no worse than those of `b`, and one of them better.
-bool dominates(double error_a, double cost_a, double error_b, double cost_b)
-{
-  return error_a <= error_b && cost_a <= cost_b && (error_a < error_b || cost_a < cost_b);
-}
+/// A point as fronts see it.
+struct Placed {
+  PrecisionPoint* point = nullptr;
+  double error = 0.0, seconds = 0.0, evaluations = 0.0;
+};
 
-bool compared(const PrecisionPoint& a, const PrecisionPoint& b)
+/// Whether another one of the same scene and number of threads is at least as good in both, and better in
+/// one.
+bool is_beaten(const Placed& p, const std::vector<Placed>& all, double Placed::*cost)
 {
-  return a.error && b.error && a.scene == b.scene && a.threads == b.threads;
+  return std::any_of(all.begin(), all.end(), [&](const Placed& o) {
+    return o.point->scene == p.point->scene && o.point->threads == p.point->threads && o.error <= p.error &&
+           o.*cost <= p.*cost && (o.error < p.error || o.*cost < p.*cost);
+  });
 }
 
 void find_fronts(std::vector<PrecisionPoint>& points)
 {
-  const auto error = [](const PrecisionPoint& p) { return std::max(*p.error, least_error); };
-  const auto work = [](const PrecisionPoint& p) { return static_cast<double>(p.first->evaluations); };
+  std::vector<Placed> placed;
   for (PrecisionPoint& p : points) {
-    p.pareto = p.pareto_work = p.error.has_value();
-    for (const PrecisionPoint& o : points) {
-      if (!compared(p, o)) continue;
-      p.pareto = p.pareto && !dominates(error(o), *o.median_seconds(), error(p), *p.median_seconds());
-      p.pareto_work = p.pareto_work && !dominates(error(o), work(o), error(p), work(p));
-    }
+    p.pareto = p.pareto_work = false;
+    if (!p.error || p.seconds.empty()) continue;
+    placed.push_back({&p, std::max(*p.error, least_error), *p.median_seconds(),
+                      static_cast<double>(p.first->evaluations)});
+  }
+  for (const Placed& p : placed) {
+    p.point->pareto = !is_beaten(p, placed, &Placed::seconds);
+    p.point->pareto_work = !is_beaten(p, placed, &Placed::evaluations);
   }
 }
 

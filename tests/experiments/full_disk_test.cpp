@@ -45,6 +45,9 @@ Outcome run_on_small_disk(const std::vector<std::string>& arguments, rlim_t byte
   return Process(arguments, folder).wait();
 }
 
+/// What it holds is made of times: its size is not that of another run.
+bool sized_by_times(const std::string& name) { return name == "chart.csv" || name == "chart.svg"; }
+
 class FullDisk : public ::testing::TestWithParam<TaskCase> {};
 
 /// The limit cuts each file in turn near its end, and all of them.
@@ -56,7 +59,9 @@ TEST_P(FullDisk, LeavesNothingOrEverything)
   ASSERT_EQ(whole.code, 0) << whole.out << whole.err;
   const Contents complete = contents(folder / "whole");
   std::vector<std::size_t> sizes;
-  for (const auto& [name, text] : complete) sizes.push_back(text.size());
+  for (const auto& [name, text] : complete) {
+    if (!sized_by_times(name)) sizes.push_back(text.size());
+  }
   const std::size_t largest = *std::max_element(sizes.begin(), sizes.end());
   std::vector<std::size_t> disks{1};
   // Not by a byte: times have more digits in one run than in another.
@@ -75,7 +80,9 @@ TEST_P(FullDisk, LeavesNothingOrEverything)
     const std::size_t name_at = at + 10 + out.size();
     const std::string name = o.err.substr(name_at, o.err.find(':', name_at) - name_at);
     ASSERT_TRUE(complete.contains(name)) << o.err;
-    EXPECT_GE(too_small(complete.at(name).size()), bytes - bytes / 20) << "a file that would have fit";
+    if (!sized_by_times(name)) {
+      EXPECT_GE(too_small(complete.at(name).size()), bytes - bytes / 20) << "a file that would have fit";
+    }
     EXPECT_NE(o.err.find(": cannot be written: File too large; make room, then go on with --resume from what "
                          "was written before\n"),
               std::string::npos)

@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -100,10 +102,12 @@ double number_at(const json::value& document, const std::string& pointer)
 
 json::value timeless(const json::value& document)
 {
+  constexpr std::array<json::string_view, 5> timed{"seconds", "threads", "peak_memory_bytes", "pareto",
+                                                   "machine"};
   if (const json::object* o = document.if_object()) {
     json::object out;
     for (const auto& [key, value] : *o) {
-      if (key != "seconds" && key != "threads" && key != "peak_memory_bytes") out[key] = timeless(value);
+      if (std::find(timed.begin(), timed.end(), key) == timed.end()) out[key] = timeless(value);
     }
     return out;
   }
@@ -206,6 +210,37 @@ std::string sweep_text()
     { "name": "R", "pointers": ["/elements/a/parameters/ring.R", { "pointer": "/elements/b/parameters/ring.R", "factor": 0.5, "offset": 2.5 }], "values": [4.8, 5.2, 0.6] },
     { "name": "r", "pointers": ["/elements/a/parameters/ring.r0", "/elements/a/parameters/ring.r1", "/elements/b/parameters/ring.r0", "/elements/b/parameters/ring.r1"], "values": [0.5, 0.6, 0.7] } ] },
   "expect": [ { "pointer": "/sweep/counts/refused", "value": 3 } ]
+})";
+}
+
+std::string chart_text()
+{
+  return R"({
+  "name": "lines", "task": "chart",
+  "elements": {
+    "link": { "shape": "torus_union", "tori": [ { "name": "ring" } ],
+      "parameters": { "ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7 } } },
+  "cell": {
+    "vectors": [[12, 0], [0, 100]],
+    "place": [
+      { "element": "link", "position": [0, 0, 0] },
+      { "element": "link", "position": [6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } } ] },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "solver": { "neighbours": 0 },
+  "chart": {
+    "repeats": 2,
+    "scenes": [
+      { "name": "chain", "set": {}, "exact": 0.43333333333333335 },
+      { "name": "thin, both ways", "set": { "/elements/link/parameters/ring.r0": 0.6, "/elements/link/parameters/ring.r1": 0.6, "/load_case/directions_deg": [0, 90] },
+        "reference": { "set": { "/solver/tolerance": 1e-10 } } } ],
+    "methods": [
+      { "name": "nearest", "set": { "/solver/contact": "nearest" },
+        "vary": [ { "pointer": "/solver/tolerance", "values": [1e-2, 1e-6] } ] },
+      { "name": "arc", "set": { "/solver/contact": "arc" }, "scenes": ["chain"],
+        "vary": [ { "pointer": "/solver/tolerance", "values": [1e-2, 1e-6, 1e-6] }, { "pointer": "/solver/max_iterations", "values": [500, 500, 1] } ],
+        "labels": ["coarse", "fine", "hasty"] } ],
+    "threads": [1, 2] },
+  "expect": [ { "pointer": "/chart/counts/failed", "value": 2 } ]
 })";
 }
 

@@ -55,8 +55,8 @@ boost::json::value read_results(const std::filesystem::path& folder);
 /// The number at a JSON pointer.
 double number_at(const boost::json::value& document, const std::string& pointer);
 
-/// The document without `seconds`, `threads` and `peak_memory_bytes` at any depth: what must not depend on
-/// how it was computed.
+/// The document without `seconds`, `threads`, `peak_memory_bytes`, `pareto` and `machine` at any depth: what
+/// must not depend on how it was computed.
 boost::json::value timeless(const boost::json::value& document);
 
 /// `text` with the only occurrence of `from` replaced.
@@ -78,5 +78,9 @@ std::string map_text();
 /// A sweep over chains of two kinds of rings, R_B = R_A/2 + 2.5, r_A = r_B: 3 x 3 rows, the last three of
 /// which are no scene.
 std::string sweep_text();
+
+/// A chart of two chains, one of them with a reference and a second limit that is unbounded: seven settings
+/// with two numbers of threads, two runs each. The last setting stalls.
+std::string chart_text();
 
 }  // namespace hauberk::test

@@ -72,8 +72,11 @@ std::string endless_text()
 
 const std::vector<TaskCase>& task_cases()
 {
-  static const std::vector<TaskCase> tasks{
-      {"limits", chainmail_text}, {"design", design_text}, {"stability", map_text}, {"sweep", sweep_text}};
+  static const std::vector<TaskCase> tasks{{"limits", chainmail_text},
+                                           {"design", design_text},
+                                           {"stability", map_text},
+                                           {"sweep", sweep_text},
+                                           {"chart", chart_text}};
   return tasks;
 }
 

@@ -71,6 +71,9 @@ bool is_small(const Experiment& e)
     for (const StabilityFamily& family : e.stability->families)
       cases += family.members.size() * e.stability->methods.size();
   }
+  if (e.chart) {
+    for (const ChartMethod& method : e.chart->methods) cases += method.scenes.size() * method.settings.size();
+  }
   if (e.sweep) cases += e.sweep->row_count();
   return e.scene.elements.size() <= most_elements && bodies <= most_bodies && cases <= most_cases;
 }

@@ -87,6 +87,8 @@ class Computation {
     if (unfinished_ == 0 && !complete) learn(threads);
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
+    if (observer_.on_unreported)
+      observer_.on_unreported({results_.begin() + static_cast<std::ptrdiff_t>(asked_), results_.end()});
     results_.resize(asked_);
     return std::move(results_);
   }

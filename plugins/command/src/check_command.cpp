@@ -27,6 +27,13 @@ int check_command(const std::vector<std::string>& words)
                loaded.tasks.size(), refused > 0 ? fmt::format(" ({} refused as input)", refused) : "");
     return exit_done;
   }
+  if (loaded.chart) {
+    const ExperimentChart& chart = *loaded.experiment.chart;
+    fmt::print("{}: no problems; {} scenes, {} methods, {} points of {} runs\n", options.positional(),
+               chart.scenes.size(), chart.methods.size(), loaded.chart->items.size() * chart.threads.size(),
+               chart.repeats);
+    return exit_done;
+  }
   if (loaded.transition) {
     fmt::print("{}: no problems; {} paths, {} formulations\n", options.positional(),
                loaded.transition->spec.paths.size(), loaded.transition->spec.contacts.size());

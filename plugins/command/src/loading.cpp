@@ -1,4 +1,6 @@
 #include "loading.hpp"
+#include "chart_loading.hpp"
+#include "nearest_node.hpp"
 #include "presets.hpp"
 #include "stability_loading.hpp"
 #include "sweep_loading.hpp"
@@ -7,7 +9,6 @@
 #include "weave_library.hpp"
 
 #include <hauberk/design/design_problem.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/host/search_path.hpp>
 
 #include <fmt/format.h>
@@ -62,26 +63,6 @@ WeaveLookup recording_lookup(WeaveLookup weaves, std::shared_ptr<WeaveTexts> use
     if (text) used->emplace(name, *text);
     return text;
   };
-}
-
-/// The node at `pointer`, or the closest one above it.
-const Node& nearest_node(const Node& root, std::string_view pointer)
-{
-  const Node* node = &root;
-  while (!pointer.empty()) {
-    pointer.remove_prefix(1);
-    const std::size_t end = std::min(pointer.find('/'), pointer.size());
-    const std::string key = pointer_key(pointer.substr(0, end));
-    pointer.remove_prefix(end);
-    const Node* next = node->find(key);
-    if (node->is(Node::Type::array)) {
-      const std::size_t index = std::stoul(key);
-      next = index < node->items.size() ? &node->items[index] : nullptr;
-    }
-    if (next == nullptr) break;
-    node = next;
-  }
-  return *node;
 }
 
 /// Runs `step`; what stops it becomes a problem at `pointer`.
@@ -212,7 +193,11 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
     loaded.sweep = load_sweep(e, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
     stop_on_problems();
   }
-  if (e.stability || e.sweep) loaded.weaves.assign(weaves->begin(), weaves->end());
+  if (e.task == Task::chart) {
+    loaded.chart = load_chart(e, recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
+    stop_on_problems();
+  }
+  if (e.stability || e.sweep || e.chart) loaded.weaves.assign(weaves->begin(), weaves->end());
   loaded.settings = limit_settings(e.solver, loaded.scene, e.length_unit);
   loaded.settings.start = loaded.start;
   loaded.tasks = profile_tasks(e);

@@ -26,6 +26,18 @@ struct StabilityItem {
   std::size_t scene = 0;  ///< equal numbers: the same scene and load, whatever the solver's settings
 };
 
+/// A scene of a chart by one method in one setting.
+struct ChartItem {
+  std::size_t scene = 0, method = 0, setting = 0;
+  std::optional<Experiment> experiment;  ///< null: refused
+  std::string refusal;
+};
+
+struct LoadedChart {
+  std::vector<std::optional<Experiment>> scenes;  ///< with the settings of their references; none is null
+  std::vector<ChartItem> items;                   ///< by scene, method, setting
+};
+
 /// A transition with the model that it refers to.
 struct TransitionJob {
   std::shared_ptr<const Model> model;
@@ -49,6 +61,7 @@ struct Loaded {
   SceneSpec design_scene;                   ///< rest with the design's clearance; task design only
   std::vector<StabilityItem> stability;     ///< by family, member, method; task stability only
   std::vector<VariantReading> sweep;        ///< by row; task sweep only
+  std::optional<LoadedChart> chart;         ///< task chart only
   std::optional<TransitionJob> transition;  ///< task transition only
   Plan plan;
 };

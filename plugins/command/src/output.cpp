@@ -1,5 +1,6 @@
 #include "output.hpp"
 #include "evaluation_log.hpp"
+#include "machine.hpp"
 #include "memory.hpp"
 
 #include <hauberk/error.hpp>
@@ -69,6 +70,7 @@ Provenance provenance(const Loaded& loaded, unsigned threads)
   p.weaves = loaded.weaves;
   p.seed = loaded.experiment.seed;
   p.threads = static_cast<int>(threads);
+  if (loaded.chart) p.machine = this_machine();
   return p;
 }
 
@@ -92,9 +94,20 @@ Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned t
   labels_.unit = unit_of(loaded);
 }
 
-boost::json::object Output::document(const RunResult& run)
+void Output::note_peak_memory()
 {
   provenance_.peak_memory_bytes = std::max(provenance_.peak_memory_bytes, peak_memory_bytes());
+}
+
+void Output::keep_load_average(const std::optional<double>& load)
+{
+  if (provenance_.machine && load)
+    provenance_.machine->load_average = std::max(provenance_.machine->load_average.value_or(*load), *load);
+}
+
+boost::json::object Output::document(const RunResult& run)
+{
+  note_peak_memory();
   return results_document(run, experiment_json_, provenance_, names_);
 }
 
@@ -124,6 +137,14 @@ Output::Files Output::content(const RunResult& run, const SweepTable& table)
   document_ = document(run);
   document_["sweep"] = sweep_json(table);
   return sweep_content(document_, table, labels_);
+}
+
+Output::Files Output::content(const RunResult& run, const PrecisionChart& chart)
+{
+  names_.files = chart_files();
+  document_ = document(run);
+  document_["chart"] = chart_json(chart);
+  return chart_content(document_, chart, labels_.title);
 }
 
 Output::Files Output::content(const RunResult& run, const TransitionResult& transition)
@@ -171,6 +192,11 @@ void Output::write(const RunResult& run, const StabilityMap& map) { write_or_res
 
 void Output::write(const RunResult& run, const SweepTable& table) { write_or_rescue(content(run, table)); }
 
+void Output::write(const RunResult& run, const PrecisionChart& chart)
+{
+  write_or_rescue(content(run, chart));
+}
+
 void Output::write(const RunResult& run, const TransitionResult& transition)
 {
   write_or_rescue(content(run, transition));
@@ -213,6 +239,11 @@ void Output::write_sometimes(const RunResult& run, const StabilityMap& map)
 void Output::write_sometimes(const RunResult& run, const SweepTable& table)
 {
   if (is_time()) try_writing(content(run, table));
+}
+
+void Output::write_sometimes(const RunResult& run, const PrecisionChart& chart)
+{
+  if (is_time()) try_writing(content(run, chart));
 }
 
 }  // namespace hauberk::command

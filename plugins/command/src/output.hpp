@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ class Output {
   /// The largest resident size of the runs that this one goes on from.
   void keep_peak_memory(std::int64_t bytes) { provenance_.peak_memory_bytes = bytes; }
 
+  /// Notes the largest resident size so far, as it is to be forgotten.
+  void note_peak_memory();
+
+  /// The machine's load before the runs that this one goes on from: the largest one is kept.
+  void keep_load_average(const std::optional<double>& load);
+
   /// Writes everything. Where the folder cannot be written, writes to a new folder for temporary files
   /// instead. Throws ComputationError naming the file that cannot be written, and the place or the way out.
   void write(const RunResult& run);
@@ -36,6 +43,8 @@ class Output {
   void write(const RunResult& run, const StabilityMap& map);
   /// The same for a sweep.
   void write(const RunResult& run, const SweepTable& table);
+  /// The same for a chart.
+  void write(const RunResult& run, const PrecisionChart& chart);
   /// The same for a transition experiment.
   void write(const RunResult& run, const TransitionResult& transition);
   /// Writes what there is. Never throws.
@@ -44,6 +53,7 @@ class Output {
   void write_sometimes(const RunResult& run);
   void write_sometimes(const RunResult& run, const StabilityMap& map);
   void write_sometimes(const RunResult& run, const SweepTable& table);
+  void write_sometimes(const RunResult& run, const PrecisionChart& chart);
 
   /// Results are complete: those of former runs go.
   void done();
@@ -63,6 +73,7 @@ class Output {
   Files content(const RunResult& run);
   Files content(const RunResult& run, const StabilityMap& map);
   Files content(const RunResult& run, const SweepTable& table);
+  Files content(const RunResult& run, const PrecisionChart& chart);
   Files content(const RunResult& run, const TransitionResult& transition);
   void replace(const Files& files);
   void write_or_rescue(const Files& files);

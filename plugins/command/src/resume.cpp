@@ -1,4 +1,6 @@
 #include "resume.hpp"
+#include "chart_run.hpp"
+#include "machine.hpp"
 #include "output.hpp"
 #include "stability_run.hpp"
 #include "sweep_run.hpp"
@@ -153,6 +155,28 @@ void read_sweep(const json::value& document, const Loaded& loaded, Resumed& out)
   }
 }
 
+/// Times of two machines do not belong into one picture.
+void check_machine(const json::value& then, const Machine& now)
+{
+  const std::string processor = text(then.at("processor"));
+  const int processors = then.at("processors").to_number<int>();
+  if (processor != now.processor || processors != now.processors)
+    throw InputError(fmt::format(
+        "it was timed on another machine ({} of '{}'), this has {} of '{}'; start anew with --force",
+        processors, processor, now.processors, now.processor));
+}
+
+void read_chart(const json::value& document, const Loaded& loaded, Resumed& out)
+{
+  const json::value& machine = document.at("provenance").at("machine");
+  check_machine(machine, this_machine());
+  out.load_average = optional_number(machine.at("load_average"));
+  out.chart = empty_chart(loaded);
+  if (!take_chart(document.at("chart"), *out.chart)) throw InputError("its points are others");
+  out.complete = std::none_of(out.chart->points.begin(), out.chart->points.end(),
+                              [](const PrecisionPoint& p) { return p.status == RowStatus::interrupted; });
+}
+
 /// Quick enough to be computed anew unless it is complete.
 void read_transition(const json::value& document, const Loaded& loaded, Resumed& out)
 {
@@ -210,6 +234,8 @@ std::optional<Resumed> read_resumed(const std::filesystem::path& directory, cons
       read_stability(document, loaded, out);
     else if (loaded.experiment.task == Task::sweep)
       read_sweep(document, loaded, out);
+    else if (loaded.experiment.task == Task::chart)
+      read_chart(document, loaded, out);
     else if (loaded.experiment.task == Task::transition)
       read_transition(document, loaded, out);
     else

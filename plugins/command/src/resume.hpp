@@ -3,6 +3,7 @@
 
 #include "loading.hpp"
 
+#include <hauberk/results/chart.hpp>
 #include <hauberk/results/stability.hpp>
 #include <hauberk/results/sweep.hpp>
 
@@ -21,6 +22,8 @@ struct Resumed {
   std::vector<boost::json::value> entries;
   std::optional<StabilityMap> stability;  ///< with the finished cases; task stability only
   std::optional<SweepTable> sweep;        ///< with the finished rows; task sweep only
+  std::optional<PrecisionChart> chart;    ///< with the finished runs; task chart only
+  std::optional<double> load_average;     ///< before the runs so far; task chart only
   std::int64_t peak_memory_bytes = 0;     ///< of the runs so far
   bool complete = false;                  ///< nothing is left to be done
   boost::json::value document;            ///< of a complete run

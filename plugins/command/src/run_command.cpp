@@ -1,3 +1,5 @@
+#include "chart_run.hpp"
+#include "chart_summary.hpp"
 #include "design_run.hpp"
 #include "dispatch.hpp"
 #include "interrupt.hpp"
@@ -146,6 +148,23 @@ int run_sweep_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Pro
   return code == exit_done && any_failed(table) ? exit_failed : code;
 }
 
+/// Whole run of a chart. Points that fail are what it shows; a reference that fails, and runs that differ,
+/// make the run fail.
+int run_chart_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
+                   Output& output, const RunResult& base)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  output.keep_load_average(resumed.load_average);
+  PrecisionChart chart = resumed.chart ? std::move(*resumed.chart) : empty_chart(loaded);
+  const ChartObserver observer{[&](const PrecisionChart& so_far) { output.write_sometimes(base, so_far); },
+                               [&] { output.note_peak_memory(); }};
+  run_chart(loaded, threads, progress, chart, observer);
+  progress.clear();
+  output.write(base, chart);
+  const int code = conclude(loaded, output, chart_summary(chart), chart_files(), begin);
+  return code == exit_done && any_failed(chart) ? exit_failed : code;
+}
+
 int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progress, Output& output,
                         const RunResult& base)
 {
@@ -211,7 +230,8 @@ int already_complete(const Loaded& loaded, const Resumed& resumed, const std::fi
   drop_evaluations(folder);
   fmt::print("{}: complete already\n", (folder / results_file).string());
   bool failed = report_expectations(loaded.experiment, resumed.document);
-  failed = failed || (resumed.sweep && any_failed(*resumed.sweep));
+  failed = failed || (resumed.sweep && any_failed(*resumed.sweep)) ||
+           (resumed.chart && any_failed(*resumed.chart));
   for (const auto& limit : resumed.limits)
     failed = failed || limit->status == LimitStatus::failed || limit->status == LimitStatus::stalled;
   return failed ? exit_failed : exit_done;
@@ -248,6 +268,7 @@ int run_command(const std::vector<std::string>& words)
                   : loaded.transition ? "not finished: starting anew"
                   : resumed.stability ? "resuming: finished cases are kept"
                   : resumed.sweep     ? "resuming: finished rows are kept"
+                  : resumed.chart     ? "resuming: finished runs are kept"
                                       : "resuming: finished limits are kept");
   }
   Output output(folder, loaded, threads, resuming, progress);
@@ -259,6 +280,7 @@ int run_command(const std::vector<std::string>& words)
     return run_stability_task(loaded, threads, resumed, progress, output, run);
   if (loaded.experiment.task == Task::sweep)
     return run_sweep_task(loaded, threads, resumed, progress, output, run);
+  if (loaded.chart) return run_chart_task(loaded, threads, resumed, progress, output, run);
   if (loaded.transition) return run_transition_task(loaded, threads, progress, output, run);
   compute(loaded, threads, resumed, resuming, progress, output, run);
   progress.clear();

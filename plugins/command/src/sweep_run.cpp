@@ -1,5 +1,6 @@
 #include "sweep_run.hpp"
 #include "interrupt.hpp"
+#include "text_table.hpp"
 #include "variant_run.hpp"
 
 #include <hauberk/error.hpp>
@@ -124,16 +125,7 @@ std::string sweep_summary(const SweepTable& table)
     for (std::size_t k = 0; k < table.measures.size(); ++k) line.push_back(cell(row, k));
     line.push_back(to_string(row.status));
   }
-  std::vector<std::size_t> widths(cells[0].size(), 0);
-  for (const auto& line : cells) {
-    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
-  }
-  std::string text;
-  for (const auto& line : cells) {
-    for (std::size_t k = 0; k < line.size(); ++k)
-      text += fmt::format("{}{:>{}}", k == 0 ? "" : "  ", line[k], widths[k]);
-    text += "\n";
-  }
+  std::string text = text_table(cells);
   for (std::size_t k = 0; k < table.rows.size(); ++k) {
     const SweepRow& row = table.rows[k];
     if (row.status == RowStatus::failed || row.status == RowStatus::refused)

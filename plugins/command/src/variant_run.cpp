@@ -5,41 +5,49 @@
 #include "tasks.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/limits/limits.hpp>
 #include <hauberk/plan/plan.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace hauberk::command {
-namespace {
 
-/// The rest state as it would be loaded. Throws InputError when there is none.
-PreparedScene rest_of(const Experiment& e)
+PreparedVariant prepare_variant(const Experiment& experiment)
 {
+  const Experiment& e = experiment;
   if (const std::vector<Problem> problems = solver_problems(e); !problems.empty())
     throw InputError(problems.front().message);
   const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
   const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
   if (!wrong.empty()) throw InputError(fmt::format("{}", fmt::join(wrong, "; ")));
-  return prepare_rest(e.scene, *e.load_case, e.solver.clearance);
+  PreparedScene rest = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
+  PreparedVariant out{std::move(rest.scene), profile_tasks(e), {}};
+  out.settings = limit_settings(e.solver, out.scene, e.length_unit);
+  out.settings.start = std::move(rest.start);
+  return out;
 }
 
-}  // namespace
-
-RunResult run_variant(const Experiment& e)
+VariantLimits solve_variant(const Experiment& experiment, const PreparedVariant& prepared, unsigned threads)
 {
-  PreparedScene prepared = rest_of(e);
-  RunResult run;
-  run.scene = std::move(prepared.scene);
-  const Model model = make_model(run.scene, *e.load_case, e.solver.clearance);
+  const Model model = make_model(prepared.scene, *experiment.load_case, experiment.solver.clearance);
+  VariantLimits out;
+  out.length = model.length;
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
-  LimitSettings settings = limit_settings(e.solver, run.scene, e.length_unit);
-  settings.start = std::move(prepared.start);
-  run.limits = compute_limits(model, run.scene, profile_tasks(e), settings, 1, observer);
-  run.profiles = profiles(run.limits, *e.load_case);
-  run.boundary = boundary_of(e, settings, model.length, run.limits);
+  observer.on_unreported = [&out](const std::vector<LimitResult>& limits) { out.unreported = limits; };
+  out.limits = compute_limits(model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
+  return out;
+}
+
+RunResult run_variant(const Experiment& experiment)
+{
+  PreparedVariant prepared = prepare_variant(experiment);
+  VariantLimits solved = solve_variant(experiment, prepared, 1);
+  RunResult run;
+  run.limits = std::move(solved.limits);
+  run.profiles = profiles(run.limits, *experiment.load_case);
+  run.boundary = boundary_of(experiment, prepared.settings, solved.length, run.limits);
+  run.scene = std::move(prepared.scene);
   return run;
 }
 

@@ -1,16 +1,35 @@
 #pragma once
-/// One variant of a file (a member of a stability family, a row of a sweep) from its experiment to its
-/// results.
+/// One variant of a file (a member of a stability family, a row of a sweep, a point of a chart) from its
+/// experiment to its results.
 
 #include <hauberk/experiment/experiment.hpp>
+#include <hauberk/limits/limits.hpp>
 #include <hauberk/results.hpp>
 
 namespace hauberk::command {
 
-/// Limits and profiles of an ordinary limits experiment, from its rest state, with all checks that `check`
-/// makes of it. Uses one thread: variants are what is done in parallel, and a variant alone decides its
-/// result. Limits that a signal stopped have status interrupted. Throws InputError where there is no such
-/// scene.
+/// Everything that comes before the solve.
+struct PreparedVariant {
+  SceneSpec scene;  ///< rest as used
+  std::vector<LimitTask> tasks;
+  LimitSettings settings;
+};
+
+/// The rest state of an ordinary limits experiment, with all checks that `check` makes of it. Throws
+/// InputError where there is no such scene.
+PreparedVariant prepare_variant(const Experiment& experiment);
+
+struct VariantLimits {
+  std::vector<LimitResult> limits;      ///< those that a signal stopped have status interrupted
+  std::vector<LimitResult> unreported;  ///< solved for their states alone
+  double length = 1.0;                  ///< L
+};
+
+/// The solve. Its result depends on the variant alone, whatever `threads` (0: all processors).
+VariantLimits solve_variant(const Experiment& experiment, const PreparedVariant& prepared, unsigned threads);
+
+/// Both, and what follows from limits. Uses one thread: variants are what is done in parallel. Throws
+/// InputError where there is no such scene.
 RunResult run_variant(const Experiment& experiment);
 
 }  // namespace hauberk::command

@@ -11,6 +11,7 @@
 #include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/experiment/overrides.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -24,8 +25,8 @@ namespace {
 
 /// Tasks that have a section of their own.
 constexpr std::array section_tasks{std::pair{"design", Task::design}, std::pair{"stability", Task::stability},
-                                   std::pair{"transition", Task::transition},
-                                   std::pair{"sweep", Task::sweep}};
+                                   std::pair{"transition", Task::transition}, std::pair{"sweep", Task::sweep},
+                                   std::pair{"chart", Task::chart}};
 
 void read_task(const Node& root, Problems& problems, Experiment& experiment)
 {
@@ -38,10 +39,6 @@ void read_task(const Node& root, Problems& problems, Experiment& experiment)
       problems.add(root, std::string("missing key '") + name + "': task " + name + " needs it");
     return;
   }
-  problems.add(
-      *task,
-      "task '" + task->string +
-          "' is not supported yet by this version; use limits, design, sweep, stability or transition");
 }
 
 /// Of contact mesh: what the paper compares with.
@@ -102,7 +99,9 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   Problems& problems = diagnostics.problems;
   if (well_formed) *well_formed = false;
   std::optional<Node> root(std::move(given));
-  const bool has_variants = root->find("stability") != nullptr || root->find("sweep") != nullptr;
+  constexpr std::array variant_sections{"stability", "sweep", "chart"};
+  const bool has_variants = std::any_of(variant_sections.begin(), variant_sections.end(),
+                                        [&root](const char* key) { return root->find(key) != nullptr; });
   const VariantBase base = has_variants ? variant_base(*root, lookups.weaves) : VariantBase{};
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
@@ -138,6 +137,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
     experiment.stability = read_stability(*stability, base, problems);
   if (const Node* sweep = root->find("sweep"))
     experiment.sweep = read_sweep(*sweep, base, experiment, problems);
+  if (const Node* chart = root->find("chart")) experiment.chart = read_chart(*chart, base, problems);
   if (Node* transition = find_mutable(*root, "transition")) {
     experiment.transition =
         read_transition(*transition, experiment.scene, experiment.solver.clearance, scene_complete, problems);

@@ -1,5 +1,6 @@
 #include <hauberk/experiment/fields.hpp>
 
+#include "chart_fields.hpp"
 #include "field_helpers.hpp"
 #include "stability_fields.hpp"
 #include "sweep_fields.hpp"
@@ -299,18 +300,16 @@ Field experiment_fields()
       "experiment", "A Hauberk experiment.",
       {string("$schema", "Place of the schema file, for editors."),
        required(string("name", "Name of the experiment.")), string("description", "What it shows."),
-       with_default(
-           choice("task",
-                  "What is computed. This version does limits, design, sweep, stability and transition.",
-                  {"limits", "design", "sweep", "chart", "stability", "transition"}),
-           "\"limits\""),
+       with_default(choice("task", "What is computed.",
+                           {"limits", "design", "sweep", "chart", "stability", "transition"}),
+                    "\"limits\""),
        with_default(choice("length_unit",
                            "What lengths in this file mean; a label in everything that is written, and "
                            "what preset paper, whose lengths are absolute, converts by.",
                            {"m", "mm", "um"}),
                     "\"mm\""),
        with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(), cell_field(),
-       load_case_field(), solver_field(), design_field(), sweep_field(), stability_field(),
+       load_case_field(), solver_field(), design_field(), sweep_field(), chart_field(), stability_field(),
        transition_field(), expect_field()});
 }
 

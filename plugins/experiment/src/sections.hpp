@@ -51,6 +51,9 @@ ExperimentSweep read_sweep(const Node& section, VariantBase base, const Experime
 void check_sweep_pointers(const Node& section, const ExperimentSweep& sweep, const Node& resolved,
                           Problems& problems);
 
+/// chart.
+ExperimentChart read_chart(const Node& section, VariantBase base, Problems& problems);
+
 /// transition; fills in the range. `clearance` is the solver's.
 ExperimentTransition read_transition(Node& section, const SceneSpec& scene, double clearance,
                                      bool scene_complete, Problems& problems);

@@ -1,19 +1,13 @@
 #include "stability_fields.hpp"
 
 #include "field_helpers.hpp"
+#include "variant_fields.hpp"
 
 namespace hauberk {
 
 using namespace fields;
 
 namespace {
-
-Field set_field(const char* doc)
-{
-  return with_default(
-      map("set", doc, any("value", "Replaces what is at the place; a whole section or a single value.")),
-      "{}");
-}
 
 Field method_field()
 {
@@ -23,21 +17,6 @@ Field method_field()
        set_field("What it sets, by JSON pointer, after the family: {\"/solver/contact\": \"arc\"}.")});
 }
 
-Field vary_field()
-{
-  Field one = string("pointer", "One place.");
-  Field several = at_least_items(
-      list("pointer", "Several places that get the same value.", string("pointer", "A place.")), 1);
-  Field entry =
-      object("vary", "What differs between the members.",
-             {required(any_of("pointer", "JSON pointer into the experiment.", {one, several})),
-              required(at_least_items(list("values", "A value per member.", any("value", "A value.")), 1))});
-  return required(at_least_items(
-      list("vary", "The members: member k has value k of every entry, so all are equally long.",
-           std::move(entry)),
-      1));
-}
-
 Field family_field()
 {
   return object(
@@ -45,9 +24,7 @@ Field family_field()
       {required(string("name", "Name in tables and pictures.")), string("why", "What makes it hard."),
        set_field(
            "What makes the family's scene out of this experiment, by JSON pointer; whole sections too."),
-       vary_field(),
-       list("labels", "Names of the members; absent: the values of the first entry of vary.",
-            string("label", "A name.")),
+       required(vary_field("member")), labels_field("member"),
        list("exact", "Exact values of the members, where they are known; else null.",
             any("value", "A number or null.")),
        with_default(

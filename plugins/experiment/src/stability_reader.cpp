@@ -1,74 +1,16 @@
 #include "node_access.hpp"
 #include "sections.hpp"
-
-#include <hauberk/experiment/json_writer.hpp>
-
-#include <algorithm>
+#include "variants.hpp"
 
 namespace hauberk {
 
 namespace {
 
-std::vector<Assignment> read_set(const Node& section)
-{
-  std::vector<Assignment> out;
-  if (const Node* set = find_typed(section, "set", Node::Type::object)) {
-    for (const auto& [pointer, value] : set->members) out.push_back({pointer, value});
-  }
-  return out;
-}
-
-/// A value as a label: short where it is a scalar, else the member's number.
-std::string label_of(const Node& value, std::size_t member)
-{
-  if (value.is(Node::Type::number)) return format_number(value.number);
-  if (value.is(Node::Type::string)) return value.string;
-  if (value.is(Node::Type::boolean)) return value.boolean ? "true" : "false";
-  return std::to_string(member + 1);
-}
-
-std::vector<std::string> pointers_of(const Node& entry)
-{
-  std::vector<std::string> out;
-  const Node* pointer = entry.find("pointer");
-  if (pointer == nullptr) return out;
-  if (pointer->is(Node::Type::string)) return {pointer->string};
-  for (const Node& item : pointer->items) out.push_back(item.string);
-  return out;
-}
-
-/// Lists that say something about every member must be as long as there are members.
-void check_length(const Node* list, std::size_t members, const char* what, Problems& problems)
-{
-  if (list == nullptr || list->items.size() == members) return;
-  problems.add(*list, "expected " + std::to_string(members) + " " + what + ", one per member, found " +
-                          std::to_string(list->items.size()));
-}
-
-void read_members(const Node& section, Problems& problems, StabilityFamily& family)
-{
-  const Node* vary = find_typed(section, "vary", Node::Type::array);
-  if (vary == nullptr || vary->items.empty()) return;
-  const Node* first = find_typed(vary->items.front(), "values", Node::Type::array);
-  if (first == nullptr) return;
-  family.members.assign(first->items.size(), read_set(section));
-  for (std::size_t k = 0; k < first->items.size(); ++k) family.labels.push_back(label_of(first->items[k], k));
-  for (const Node& entry : vary->items) {
-    const Node* values = find_typed(entry, "values", Node::Type::array);
-    if (values == nullptr) continue;
-    check_length(values, family.members.size(), "values", problems);
-    for (std::size_t k = 0; k < std::min(values->items.size(), family.members.size()); ++k) {
-      for (const std::string& pointer : pointers_of(entry))
-        family.members[k].push_back({pointer, values->items[k]});
-    }
-  }
-}
-
 void read_exact(const Node& section, Problems& problems, StabilityFamily& family)
 {
   family.exact.assign(family.members.size(), std::nullopt);
   const Node* exact = find_typed(section, "exact", Node::Type::array);
-  check_length(exact, family.members.size(), "exact values", problems);
+  check_length(exact, family.members.size(), "exact values", "member", problems);
   if (exact == nullptr) return;
   for (std::size_t k = 0; k < exact->items.size(); ++k) {
     const Node& item = exact->items[k];
@@ -85,25 +27,11 @@ StabilityFamily read_family(const Node& section, Problems& problems)
   family.name = string_or(section, "name", "");
   family.why = string_or(section, "why", "");
   family.solvable = boolean_or(section, "solvable", true);
-  read_members(section, problems, family);
+  Variants variants = read_variants(section, "member", problems);
+  family.labels = std::move(variants.labels);
+  family.members = std::move(variants.values);
   read_exact(section, problems, family);
-  if (const Node* labels = find_typed(section, "labels", Node::Type::array)) {
-    check_length(labels, family.members.size(), "labels", problems);
-    for (std::size_t k = 0; k < std::min(labels->items.size(), family.labels.size()); ++k)
-      family.labels[k] = labels->items[k].string;
-  }
   return family;
-}
-
-template <class Named>
-void check_names(const Node& list, const std::vector<Named>& entries, const char* what, Problems& problems)
-{
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    for (std::size_t j = 0; j < k; ++j) {
-      if (entries[j].name == entries[k].name)
-        problems.add(list.items[k], std::string(what) + " '" + entries[k].name + "' is given twice");
-    }
-  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "node_access.hpp"
 #include "sections.hpp"
+#include "variants.hpp"
 
 #include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/json_writer.hpp>
@@ -7,7 +8,6 @@
 #include <hauberk/load_case.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace hauberk {
@@ -127,18 +127,6 @@ std::vector<SweepMeasure> all_limits(const ExperimentSweep& sweep, const Experim
   return out;
 }
 
-template <class Named>
-void check_names(const Node& list, const std::vector<Named>& entries, Problems& problems)
-{
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    if (entries[k].name.empty()) problems.add(list.items[k], "expected a name, found \"\"");
-    for (std::size_t j = 0; j < k; ++j) {
-      if (entries[j].name == entries[k].name)
-        problems.add(list.items[k], "the name '" + entries[k].name + "' is given twice");
-    }
-  }
-}
-
 bool leads_somewhere(const Node& root, const std::string& pointer)
 {
   const Node* node = &root;
@@ -168,24 +156,13 @@ bool is_weave_parameter(const Node& root, const std::string& pointer)
          leads_somewhere(root, "/cell/weave");
 }
 
-/// What rows do not have, or have of their own.
-bool without_effect(const std::string& pointer)
-{
-  constexpr std::array sections{"/name",      "/task",       "/expect", "/design",
-                                "/stability", "/transition", "/sweep"};
-  return std::any_of(sections.begin(), sections.end(),
-                     [&](const char* section) { return pointer_within(pointer, section); });
-}
-
 /// What is wrong with a pointer by itself; empty when nothing is.
 std::string pointer_problem(const ExperimentSweep& sweep, const Node& resolved, const std::string& pointer)
 {
   if (!pointer.starts_with('/'))
     return "expected a JSON pointer such as /solver/clearance, found " + quote_json(pointer);
-  if (without_effect(pointer))
-    return quote_json(pointer) +
-           " has no effect: rows are limits experiments; vary something of elements, cell, load_case, solver "
-           "or seed";
+  if (const std::string problem = place_without_effect(pointer, "rows", "vary"); !problem.empty())
+    return problem;
   if (!leads_somewhere(sweep.base.file, pointer) && !leads_somewhere(resolved, pointer) &&
       !is_weave_parameter(sweep.base.file, pointer))
     return "there is nothing at " + quote_json(pointer) + " of this experiment";
@@ -223,7 +200,7 @@ ExperimentSweep read_sweep(const Node& section, VariantBase base, const Experime
     out.axes.push_back(read_axis(entry, problems));
     rows *= static_cast<double>(out.axes.back().values.size());
   }
-  check_names(*vary, out.axes, problems);
+  check_names(*vary, out.axes, "the name", problems);
   if (rows > most_rows)
     problems.add(*vary,
                  "expected at most " + format_number(most_rows) + " rows, found " + format_number(rows));
@@ -234,7 +211,7 @@ ExperimentSweep read_sweep(const Node& section, VariantBase base, const Experime
         problems.add(item, "expected a JSON pointer such as /limits/0/value, found " +
                                quote_json(out.measure.back().pointer));
     }
-    check_names(*measure, out.measure, problems);
+    check_names(*measure, out.measure, "the name", problems);
   } else {
     out.measure = all_limits(out, experiment);
   }

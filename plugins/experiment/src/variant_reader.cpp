@@ -20,7 +20,7 @@ void set_member(Node& root, const std::string& key, Node value)
 
 VariantBase variant_base(const Node& file, WeaveLookup weaves)
 {
-  constexpr std::array dropped{"stability", "transition", "sweep", "design", "expect"};
+  constexpr std::array dropped{"stability", "transition", "sweep", "chart", "design", "expect"};
   VariantBase base{file, std::move(weaves)};
   std::erase_if(base.file.members, [&dropped](const auto& member) {
     return std::find(dropped.begin(), dropped.end(), member.first) != dropped.end();

@@ -26,6 +26,11 @@ json::object provenance_json(const Provenance& provenance)
   out["seed"] = provenance.seed;
   out["threads"] = provenance.threads;
   out["peak_memory_bytes"] = provenance.peak_memory_bytes;
+  if (const std::optional<Machine>& machine = provenance.machine) {
+    out["machine"] = {{"processor", machine->processor},
+                      {"processors", machine->processors},
+                      {"load_average", number(machine->load_average)}};
+  }
   return out;
 }
 

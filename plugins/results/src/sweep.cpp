@@ -4,10 +4,9 @@
 #include "csv_cells.hpp"
 #include "json_parts.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 
 namespace hauberk {
 namespace {
@@ -58,39 +57,13 @@ json::object row_json(const SweepTable& table, const SweepRow& row)
 
 }  // namespace
 
-std::string to_string(RowStatus status)
-{
-  switch (status) {
-    case RowStatus::done:
-      return "done";
-    case RowStatus::failed:
-      return "failed";
-    case RowStatus::refused:
-      return "refused";
-    case RowStatus::interrupted:
-      return "interrupted";
-  }
-  return "interrupted";
-}
-
 void enter_result(const SweepTable& table, SweepRow& row, const RunResult& run,
                   const std::string& experiment_json, const ResultNames& names)
 {
   json::object document = results_document(run, experiment_json, {}, names);
   for (const char* key : {"provenance", "plan", "files"}) document.erase(key);
-  row.status = RowStatus::done;
-  row.message.clear();
-  for (const LimitResult& limit : run.limits) {
-    if (limit.status == LimitStatus::interrupted) {
-      row.status = RowStatus::interrupted;
-      return;
-    }
-    if (limit.status != LimitStatus::stalled && limit.status != LimitStatus::failed) continue;
-    row.status = RowStatus::failed;
-    if (!row.message.empty()) row.message += "; ";
-    row.message += fmt::format("{} {}: {}", limit_name(limit.sense, limit.direction), to_string(limit.status),
-                               limit.message);
-  }
+  std::tie(row.status, row.message) = status_of(run.limits);
+  if (row.status == RowStatus::interrupted) return;
   row.result = std::move(document);
   row.measured.clear();
   for (const SweepTable::Measure& measure : table.measures)
@@ -121,9 +94,7 @@ bool take_row(const json::value& entry, const SweepTable& table, SweepRow& row)
   for (std::size_t k = 0; k < row.values.size(); ++k) {
     if (entry.at("values").at(table.axes[k].name) != row.values[k]) return false;
   }
-  for (const RowStatus status : row_statuses) {
-    if (entry.at("status").as_string() == to_string(status)) row.status = status;
-  }
+  row.status = row_status(std::string(entry.at("status").as_string())).value_or(row.status);
   if (row.status == RowStatus::interrupted) return true;
   row.message = std::string(entry.at("message").as_string());
   row.result = entry.at("result");

@@ -2,6 +2,7 @@
 #include <hauberk/results/sweep.hpp>
 
 #include "line_panel.hpp"
+#include "strokes.hpp"
 
 #include <fmt/format.h>
 
@@ -14,27 +15,12 @@ namespace {
 using detail::Line;
 using detail::LineFrame;
 using detail::LinePanel;
-using detail::Stroke;
 using detail::Svg;
 namespace json = boost::json;
 
 // In units of the drawing.
 constexpr double left = 78.0, right = 24.0, top = 78.0, between = 46.0, legend_row = 18.0, foot = 52.0,
                  plot_width = 520.0, plot_height = 260.0, legend_column = 260.0;
-
-/// Told apart by dashes as well as by colour; lines beyond the last look alike.
-Stroke stroke(std::size_t k)
-{
-  static const std::array<Stroke, 8> strokes{Stroke{"#1f4e79", 2.0, ""},
-                                             Stroke{"#c55a11", 2.0, "8,4"},
-                                             Stroke{"#2e7d32", 2.0, "2,3"},
-                                             Stroke{"#6a1b9a", 2.0, "10,3,2,3"},
-                                             Stroke{"#111111", 1.0, ""},
-                                             Stroke{"#777777", 3.0, "1,5"},
-                                             Stroke{"#00838f", 1.2, "14,3,4,3,4,3"},
-                                             Stroke{"#ad1457", 1.2, "4,2"}};
-  return strokes[std::min(k, strokes.size() - 1)];
-}
 
 /// Place of a row on the x axis: its number, or its rank among values that are no numbers.
 double place(const SweepTable& table, const SweepRow& row)
@@ -82,7 +68,7 @@ std::vector<Line> lines_of(const SweepTable& table, std::size_t measure, const s
     const std::string label = other.empty() ? name : other;
     auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) { return l.label == label; });
     if (line == lines.end()) {
-      lines.push_back({label, stroke(lines.size()), {}});
+      lines.push_back({label, detail::distinct_stroke(lines.size()), {}});
       line = lines.end() - 1;
     }
     std::optional<double> value;
@@ -106,7 +92,7 @@ std::vector<LinePanel> panels(const SweepTable& table)
       out.push_back({table.measures[m].name, std::move(lines), {}});
       continue;
     }
-    lines.front().stroke = stroke(m);
+    lines.front().stroke = detail::distinct_stroke(m);
     out.front().lines.push_back(std::move(lines.front()));
   }
   return out;

@@ -73,4 +73,18 @@ std::vector<NamedContent> sweep_content(const boost::json::object& document, con
           {results_file, write_json(document)}};
 }
 
+std::vector<std::pair<std::string, std::string>> chart_files()
+{
+  return {{"chart", chart_file}, {"picture", chart_picture_file}, {"work_picture", chart_work_picture_file}};
+}
+
+std::vector<NamedContent> chart_content(const boost::json::object& document, const PrecisionChart& chart,
+                                        const std::string& title)
+{
+  return {{chart_file, chart_csv(chart)},
+          {chart_picture_file, chart_svg(chart, PrecisionCost::seconds, title)},
+          {chart_work_picture_file, chart_svg(chart, PrecisionCost::evaluations, title)},
+          {results_file, write_json(document)}};
+}
+
 }  // namespace hauberk

@@ -45,6 +45,15 @@ VerifyLine check_design(const boost::json::value& results, const std::vector<Lim
 /// values, and how many there are of each status. Throws Malformed.
 VerifyLine check_sweep_table(const boost::json::value& experiment, const boost::json::value& sweep);
 
+/// How many entries there are of each status is what `counts` says; `what` they are called. Throws Malformed.
+void check_counts(const boost::json::value& counts, const std::vector<std::string>& statuses,
+                  const std::string& what, Sentences& problems);
+
+/// The points of a chart are what its experiment asks for; errors, medians and Pareto fronts follow from what
+/// is recorded. A line for the table and one for each point. Throws Malformed.
+void check_chart(const boost::json::value& experiment, const boost::json::value& chart,
+                 std::vector<VerifyLine>& lines);
+
 /// Equal to rounding: |a - b| <= tolerance (1 + |b|).
 bool equal(double a, double b, double tolerance);
 /// Both absent, or both there and equal.

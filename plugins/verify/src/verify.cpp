@@ -141,6 +141,8 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
     lines.push_back(check_sweep_table(experiment, sweep));
     return check_sweep(sweep, tolerances, lines);
   }
+  if (task != nullptr && text(*task, "/experiment/task") == "chart")
+    return check_chart(experiment, member(results, "chart", ""), lines);
   const json::value* none = results.as_object().if_contains("design");
   if (none != nullptr && none->is_null()) return check_scene_and_limits(results, "", tolerances, lines);
 

@@ -89,9 +89,15 @@ TEST(Search, ALoneLimitAsksItsNeighbours)
   Sheet4in1 s;
   ASSERT_NE(poor_seed(s), 0U);
   s.settings.neighbours = 10.0;
-  const std::vector<LimitResult> r = s.limits({0.0});
+  std::vector<LimitResult> asked;
+  LimitsObserver observer;
+  observer.on_unreported = [&asked](const std::vector<LimitResult>& limits) { asked = limits; };
+  const std::vector<LimitResult> r = s.limits({0.0}, observer);
   ASSERT_EQ(r.size(), 1U);
   EXPECT_NEAR(*r[0].value, furthest_fold, 1e-4);
+  ASSERT_EQ(asked.size(), 2U) << "who counts work is told of them";
+  for (const LimitResult& l : asked) EXPECT_GT(l.evaluations, 0);
+  EXPECT_EQ(asked[0].direction.degrees(), -10.0);
   // One that has company within that angle asks nobody else.
   long alone = 0, together = 0;
   s.settings.neighbours = 0.0;

@@ -87,6 +87,8 @@ struct LimitsObserver {
   std::function<void(std::size_t done, std::size_t total)> on_start;
   /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
   std::function<void(const std::vector<LimitResult>&)> on_limit;
+  /// At the end: limits that were solved for their states alone and are not reported (neighbours).
+  std::function<void(const std::vector<LimitResult>&)> on_unreported;
 };
 
 /// By how much one state must be further than another, as scaled value, to count as further: more than the

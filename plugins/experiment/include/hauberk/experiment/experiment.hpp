@@ -25,7 +25,7 @@ using PluginLookup =
 /// it); null and a sentence in `error` when there is none. Empty function: there is no library.
 using WeaveLookup = std::function<std::optional<std::string>(const std::string& name, std::string& error)>;
 
-enum class Task { limits, design, stability, transition, sweep };
+enum class Task { limits, design, stability, transition, sweep, chart };
 
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
@@ -144,6 +144,31 @@ struct ExperimentSweep {
   std::vector<std::size_t> indices(std::size_t row) const;
 };
 
+/// A scene whose limits are known: exactly, or from a solve of higher accuracy.
+struct ChartScene {
+  std::string name;
+  std::vector<Assignment> set;                       ///< what makes it out of the base scene
+  std::vector<std::optional<double>> exact;          ///< by limit, null: not compared; empty: see reference
+  std::optional<std::vector<Assignment>> reference;  ///< settings of that solve, after `set`
+};
+
+/// A way of solving in several settings, for instance from coarse to fine.
+struct ChartMethod {
+  std::string name;
+  std::vector<std::string> labels;                ///< of the settings; "" for one that needs no name
+  std::vector<std::vector<Assignment>> settings;  ///< what each of them sets
+  std::vector<std::size_t> scenes;                ///< that it solves, ascending
+};
+
+/// The section `chart`: error against time of every scene by every method in every setting.
+struct ExperimentChart {
+  int repeats = 3;
+  std::vector<ChartScene> scenes;
+  std::vector<ChartMethod> methods;
+  std::vector<int> threads;  ///< 0: all processors
+  VariantBase base;
+};
+
 /// A rigid motion of one element, linear in time: a rotation about a line and then a translation, from rest.
 struct TransitionPathInput {
   std::string name;
@@ -180,6 +205,7 @@ struct Experiment {
   std::optional<ExperimentStability> stability;    ///< likewise
   std::optional<ExperimentTransition> transition;  ///< likewise
   std::optional<ExperimentSweep> sweep;            ///< likewise
+  std::optional<ExperimentChart> chart;            ///< likewise
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
 };
@@ -219,6 +245,14 @@ VariantReading read_stability_member(const ExperimentStability& stability, std::
 /// One row of a sweep; `name` is the experiment's.
 VariantReading read_sweep_row(const ExperimentSweep& sweep, std::size_t row, const std::string& name,
                               const PluginLookup& lookup, Diagnostics& diagnostics);
+
+/// A scene of a chart, with the settings of its reference where it has one.
+VariantReading read_chart_scene(const ExperimentChart& chart, std::size_t scene, const PluginLookup& lookup,
+                                Diagnostics& diagnostics);
+
+/// A scene of a chart by one method in one setting.
+VariantReading read_chart_setting(const ExperimentChart& chart, std::size_t scene, std::size_t method,
+                                  std::size_t setting, const PluginLookup& lookup, Diagnostics& diagnostics);
 
 /// Text of a file. Throws InputError "cannot read 'x.json': ..." when it cannot be read or is beyond 64 MB.
 std::string read_text_file(const std::string& path);

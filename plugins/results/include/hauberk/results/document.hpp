@@ -15,8 +15,15 @@ namespace hauberk {
 
 inline constexpr const char* results_format = "hauberk-results/1";
 
-/// Where a result comes from. Everything but `threads` and `peak_memory_bytes` must be the same for repeated
-/// runs of one build on one machine, so there is no date, host or path in it.
+/// What times depend on.
+struct Machine {
+  std::string processor;  ///< model name; empty where the system does not tell
+  int processors = 0;
+  std::optional<double> load_average;  ///< of the last minute, before the run; null where not told
+};
+
+/// Where a result comes from. Everything but `threads`, `peak_memory_bytes` and the machine's load must be
+/// the same for repeated runs of one build on one machine, so there is no date, host or path in it.
 struct Provenance {
   struct Plugin {
     std::string id, kind, version;
@@ -30,7 +37,8 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> weaves;
   std::uint64_t seed = 0;
   int threads = 1;
-  std::int64_t peak_memory_bytes = 0;  ///< largest resident size, of all runs that went on from each other
+  std::int64_t peak_memory_bytes = 0;   ///< largest resident size, of all runs that went on from each other
+  std::optional<Machine> machine = {};  ///< where times are the result
 };
 
 /// Names the document needs beyond what the results carry.

@@ -2,11 +2,11 @@
 /// What a sweep found: one table, a row for every combination of the values that were varied.
 
 #include <hauberk/results/document.hpp>
+#include <hauberk/results/row_status.hpp>
 
 #include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -14,17 +14,6 @@
 #include <vector>
 
 namespace hauberk {
-
-enum class RowStatus {
-  done,        ///< every limit has an answer
-  failed,      ///< a limit stalled or failed, or the computation stopped
-  refused,     ///< bad input: there is no such scene
-  interrupted  ///< not computed
-};
-inline constexpr std::array row_statuses{RowStatus::done, RowStatus::failed, RowStatus::refused,
-                                         RowStatus::interrupted};
-/// "done", "failed", "refused", "interrupted".
-std::string to_string(RowStatus status);
 
 struct SweepRow {
   std::vector<boost::json::value> values;  ///< by axis

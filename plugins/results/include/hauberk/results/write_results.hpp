@@ -2,6 +2,7 @@
 /// Everything a run leaves on the disk.
 
 #include <hauberk/results/atomic_file.hpp>
+#include <hauberk/results/chart.hpp>
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/polar_svg.hpp>
 #include <hauberk/results/stability.hpp>
@@ -33,11 +34,27 @@ inline constexpr const char* transition_picture_file = "transition.svg";
 
 inline constexpr const char* sweep_file = "sweep.csv";
 inline constexpr const char* sweep_picture_file = "sweep.svg";
+
+inline constexpr const char* chart_file = "chart.csv";
+inline constexpr const char* chart_picture_file = "chart.svg";
+inline constexpr const char* chart_work_picture_file = "chart_work.svg";
 /// All of them: what a run may leave.
-inline constexpr std::array result_names{
-    results_file,           limits_file,     profile_file,           designed_file,           stability_file,
-    stability_picture_file, transition_file, transition_minima_file, transition_picture_file, sweep_file,
-    sweep_picture_file,     boundary_file,   boundary_picture_file};
+inline constexpr std::array result_names{results_file,
+                                         limits_file,
+                                         profile_file,
+                                         designed_file,
+                                         stability_file,
+                                         stability_picture_file,
+                                         transition_file,
+                                         transition_minima_file,
+                                         transition_picture_file,
+                                         sweep_file,
+                                         sweep_picture_file,
+                                         boundary_file,
+                                         boundary_picture_file,
+                                         chart_file,
+                                         chart_picture_file,
+                                         chart_work_picture_file};
 
 /// The files of `results_content` for `run`, for ResultNames::files: limits, profile and, for a design
 /// of a periodic cell, designed; for limits along components limits, boundary and picture.
@@ -70,5 +87,12 @@ std::vector<std::pair<std::string, std::string>> sweep_files();
 /// sweep.csv, sweep.svg and, last, results.json.
 std::vector<NamedContent> sweep_content(const boost::json::object& document, const SweepTable& table,
                                         const PlotLabels& labels);
+
+/// Those of a chart: chart, picture and work_picture.
+std::vector<std::pair<std::string, std::string>> chart_files();
+
+/// chart.csv, chart.svg, chart_work.svg and, last, results.json.
+std::vector<NamedContent> chart_content(const boost::json::object& document, const PrecisionChart& chart,
+                                        const std::string& title);
 
 }  // namespace hauberk

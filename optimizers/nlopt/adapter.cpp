@@ -16,6 +16,9 @@ using Eigen::VectorXd;
 constexpr double penalty_margin = 1.5;
 /// Steps onto the constraints; each is one of Newton's method.
 constexpr int most_restorations = 5;
+/// So many points in a row that are not evaluated end a run of NLopt: mma and ccsaq would ask for them for ever, as no
+/// model explains a wall.
+constexpr int most_walls = 100;
 
 }  // namespace
 
@@ -47,6 +50,7 @@ const NloptAdapter::Point& NloptAdapter::look(const double* z, bool want_gradien
 {
   const Eigen::Map<const VectorXd> scaled(z, size());
   const VectorXd x = scaled.allFinite() ? problem_.unscaled(scaled) : VectorXd(scaled);
+  if (stop_ == Stop::none && ++walls_ > most_walls) stop(Stop::walls);
   const auto known = [&](const Point& p) { return p.x == x && (!want_gradient || p.derivatives || !p.ok); };
   if (known(accepted_)) return accepted_;
   if (known(last_)) return last_;
@@ -67,6 +71,7 @@ void NloptAdapter::evaluate(Point& p, bool want_gradient)
   blocked_ = problem_.largest_safe_step(accepted_.x, problem_.step_between(accepted_.x, p.x)) < 1.0;
   if (blocked_) return;
   const Trial trial = problem_.evaluate(p.x, want_gradient);
+  walls_ = 0;
   if (!trial.ok) return;
   p.value = trial.value;
   p.at.gradient = trial.gradient;

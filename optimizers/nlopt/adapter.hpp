@@ -23,7 +23,8 @@ namespace hauberk {
 /// merit function; then the observer hears of it. Not thread safe.
 class NloptAdapter {
  public:
-  enum class Stop { none, observer, iterations, evaluations, exception };
+  /// `walls`: of one run of NLopt only.
+  enum class Stop { none, observer, iterations, evaluations, exception, walls };
 
   NloptAdapter(OptimizationProblem& problem, const NloptSettings& settings, OptimizerObserver& observer,
                std::span<const double> start);
@@ -49,6 +50,14 @@ class NloptAdapter {
   /// Ends with an exception, which `rethrow` throws again.
   void fail(std::exception_ptr exception);
   Stop stopped() const { return stop_; }
+  /// True if the run of NLopt was ended because of walls; the next one may begin.
+  bool leave_walls()
+  {
+    if (stop_ != Stop::walls) return false;
+    stop_ = Stop::none;
+    walls_ = 0;
+    return true;
+  }
   void rethrow() const;
 
   /// Moves the accepted point onto the linearised constraints a few times, as methods that come from outside
@@ -95,6 +104,7 @@ class NloptAdapter {
   int iteration_ = 0;
   bool blocked_ = false;  ///< the last point that was asked for is not on a safe way
   Stop stop_ = Stop::none;
+  int walls_ = 0;  ///< points since the last evaluation that were none
   std::exception_ptr exception_;
 };
 

@@ -174,6 +174,7 @@ OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::s
     const double violation = adapter.violation();
     if (adapter.size() > 0) end = run_once(adapter, settings_);
     adapter.rethrow();
+    if (adapter.leave_walls()) end.why = "it only asked for points that cannot be reached";
     adapter.restore();
     adapter.differentiate();
     if (end.failed || adapter.critical() || adapter.infeasible()) break;

@@ -172,5 +172,23 @@ TEST(Nlopt, ResultIsFeasibleAlsoWhereTheMethodComesFromOutside)
   EXPECT_NEAR(r.value, -5.0, 1e-5);
 }
 
+/// Walls all around the start: mma and ccsaq used to ask for such points for ever.
+TEST(NloptOptimizer, EndsWhereNothingCanBeReached)
+{
+  for (const NloptAlgorithm algorithm : {NloptAlgorithm::slsqp, NloptAlgorithm::mma, NloptAlgorithm::ccsaq,
+                                         NloptAlgorithm::lbfgs, NloptAlgorithm::cobyla}) {
+    FunctionProblem problem = bowl();
+    problem.safe = [](const VectorXd&, const VectorXd&) { return 0.5; };
+    NloptSettings settings;
+    settings.algorithm = algorithm;
+    Recorder recorder;
+    const std::vector<double> start{1.5, 1.0};
+    const OptimizerResult result = NloptOptimizer(settings).minimize(problem, start, recorder);
+    EXPECT_EQ(result.status, "small_step");
+    EXPECT_EQ(result.x, start);
+    EXPECT_LE(result.evaluations, 2);
+  }
+}
+
 }  // namespace
 }  // namespace hauberk

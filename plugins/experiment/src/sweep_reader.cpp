@@ -161,8 +161,7 @@ std::string pointer_problem(const ExperimentSweep& sweep, const Node& resolved, 
 {
   if (!pointer.starts_with('/'))
     return "expected a JSON pointer such as /solver/clearance, found " + quote_json(pointer);
-  if (const std::string problem = place_without_effect(pointer, "rows", "vary"); !problem.empty())
-    return problem;
+  if (std::string problem = place_without_effect(pointer, "rows", "vary"); !problem.empty()) return problem;
   if (!leads_somewhere(sweep.base.file, pointer) && !leads_somewhere(resolved, pointer) &&
       !is_weave_parameter(sweep.base.file, pointer))
     return "there is nothing at " + quote_json(pointer) + " of this experiment";

@@ -19,7 +19,7 @@ using detail::Svg;
 
 // In units of the drawing.
 constexpr double left = 56.0, right = 20.0, head = 92.0, foot = 52.0, between = 34.0, legend_row = 18.0,
-                 legend_column = 200.0, note_row = 15.0, bottom = 14.0;
+                 legend_column = 200.0, caption = 20.0, note_row = 15.0, bottom = 14.0;
 constexpr DecadeFrame frame{380.0, 300.0};
 constexpr double panel_width = left + frame.width + right, panel_height = between + frame.height + foot;
 constexpr std::size_t most_columns = 2, most_letters = 130;
@@ -98,8 +98,10 @@ std::size_t rows_of(std::size_t count, std::size_t columns) { return (count + co
 void draw_legend(Svg& svg, const PrecisionChart& chart, double y, std::size_t columns)
 {
   for (std::size_t m = 0; m < chart.methods.size(); ++m) {
-    const auto column = static_cast<double>(m % columns), row = static_cast<double>(m / columns);
-    draw_decade_legend(svg, {left + column * legend_column, y + row * legend_row}, method_line(chart, m));
+    const std::size_t column = m % columns, row = m / columns;
+    const Point2 corner{left + legend_column * static_cast<double>(column),
+                        y + legend_row * static_cast<double>(row)};
+    draw_decade_legend(svg, corner, method_line(chart, m));
   }
 }
 
@@ -121,9 +123,10 @@ std::string chart_svg(const PrecisionChart& chart, PrecisionCost cost, const std
   svg.text({left + 24.0, 63.0}, "Pareto front: nothing else is both as exact and as cheap", 11.0);
   draw_legend(svg, chart, 84.0, legend_columns);
   for (std::size_t k = 0; k < chart.scenes.size(); ++k) {
-    const auto column = static_cast<double>(k % columns), row = static_cast<double>(k / columns);
-    draw_decade_panel(svg, {left + column * panel_width, top + between + row * panel_height - 14.0}, frame,
-                      panel_of(chart, k, cost));
+    const std::size_t column = k % columns, row = k / columns;
+    const Point2 corner{left + panel_width * static_cast<double>(column),
+                        top + caption + panel_height * static_cast<double>(row)};
+    draw_decade_panel(svg, corner, frame, panel_of(chart, k, cost));
   }
   for (std::size_t k = 0; k < unplaced.size(); ++k)
     svg.text({left, below + note_row * static_cast<double>(k)}, unplaced[k], 11.0);

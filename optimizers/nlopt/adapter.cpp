@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 constexpr double penalty_margin = 1.5;
 /// Steps onto the constraints; each is one of Newton's method.
 constexpr int most_restorations = 5;
-/// So many points in a row that are not evaluated end a run of NLopt: mma and ccsaq would ask for them for ever, as no
-/// model explains a wall.
+/// So many points in a row that are not evaluated end a run of NLopt: mma and ccsaq would ask for them for
+/// ever, as no model explains a wall.
 constexpr int most_walls = 100;
 
 }  // namespace

@@ -163,7 +163,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
 }
 
 /// Where both cost about the same: share/doc/speed.md.
-constexpr int most_dense = 150;
+constexpr int most_dense = 250;
 
 bool Model::sparse() const { return dofs() > most_dense; }
 

@@ -49,6 +49,8 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
 void add_meeting_meshes(const SceneSpec& spec, const Model& m, std::vector<std::string>& out)
 {
   const State rest = rest_state(m);
+  std::string first;
+  int others = 0;
   for (const ElementPair& pair : near_pairs(m, rest, 0.0)) {
     const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
@@ -57,15 +59,22 @@ void add_meeting_meshes(const SceneSpec& spec, const Model& m, std::vector<std::
         const PairFrame frame(m.bodies[static_cast<std::size_t>(a)], pi,
                               m.bodies[static_cast<std::size_t>(b)], pj);
         if (!facets_intersect(frame)) continue;
+        if (!first.empty()) {
+          ++others;
+          continue;
+        }
         Gap g;
         g.a = a;
         g.b = b;
         g.image = pair.image;
-        out.push_back(fmt::format("the meshes of {} meet at rest; use more facets, or give them more room",
-                                  pair_name(spec, m, g)));
+        first = pair_name(spec, m, g);
       }
     }
   }
+  if (first.empty()) return;
+  const std::string more = others > 0 ? fmt::format(", and those of {} other pairs", others) : "";
+  out.push_back(
+      fmt::format("the meshes of {} meet at rest{}; use more facets, or give them more room", first, more));
 }
 
 }  // namespace

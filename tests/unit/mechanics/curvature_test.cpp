@@ -31,7 +31,7 @@ class SparseHessian : public ::testing::TestWithParam<bool> {
   SparseHessian()
       : load_(GetParam() ? std::unique_ptr<LoadCase>(std::make_unique<HeldSheet>(3))
                          : std::unique_ptr<LoadCase>(std::make_unique<Sheet>(3))),
-        model_(make_model(chainmail(4, 4), *load_, 0.0)),
+        model_(make_model(chainmail(5, 5), *load_, 0.0)),
         state_(rest_state(model_))
   {
     stage_.contact.g_hat = 0.1;

@@ -36,10 +36,11 @@ struct SceneSpec {
   std::vector<ElementType> types;
   std::vector<PlacedElement> elements;
   std::vector<Vec3> lattice;  ///< two vectors of the supercell when periodic, else empty
-  /// Contact of meshes: every primitive is replaced by facets x facets quadrilaterals; 0: surfaces as they are.
+  /// Contact of meshes: every primitive is replaced by facets x facets quadrilaterals; 0: surfaces as they
+  /// are.
   int facets = 0;
-  double length = 0.0;        ///< characteristic length L; 0: median ring radius of the elements
-  std::string length_unit;    ///< of the file, for messages; may be empty
+  double length = 0.0;      ///< characteristic length L; 0: median ring radius of the elements
+  std::string length_unit;  ///< of the file, for messages; may be empty
 };
 
 /// Median ring radius R over all primitives of the scene, file units.

@@ -27,8 +27,8 @@ struct SafeStep {
 /// because of tau. As tangential sliding enters only through V^2 tau^2, sliding at a small gap costs
 /// V/sqrt(g rho) steps, not V/g. Ends at 2e6 evaluations of one pair.
 ///
-/// Bodies with facets are checked as meshes, by additive advancement of every pair of features (Li, Kaufman, Jiang
-/// 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic.
+/// Bodies with facets are checked as meshes, by additive advancement of every pair of features (Li, Kaufman,
+/// Jiang 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep);
 
 /// The published check (paper equations (6) to (8)), without guarantee. For every pair of bodies the smallest

@@ -50,12 +50,12 @@ class NloptAdapter {
   /// Ends with an exception, which `rethrow` throws again.
   void fail(std::exception_ptr exception);
   Stop stopped() const { return stop_; }
-  /// True if the run of NLopt was ended because of walls; the next one may begin.
+  /// After a run of NLopt: true if it was ended because of walls. The next one may begin.
   bool leave_walls()
   {
+    walls_ = 0;
     if (stop_ != Stop::walls) return false;
     stop_ = Stop::none;
-    walls_ = 0;
     return true;
   }
   void rethrow() const;
@@ -104,7 +104,7 @@ class NloptAdapter {
   int iteration_ = 0;
   bool blocked_ = false;  ///< the last point that was asked for is not on a safe way
   Stop stop_ = Stop::none;
-  int walls_ = 0;  ///< points since the last evaluation that were none
+  int walls_ = 0;  ///< questions since the last evaluation
   std::exception_ptr exception_;
 };
 

@@ -2,6 +2,8 @@
 #include <hauberk/contact/mesh.hpp>
 #include <hauberk/geometry/facets.hpp>
 
+#include <cmath>
+
 namespace hauberk {
 namespace {
 
@@ -105,7 +107,8 @@ void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1
                         std::array<double, primitive_dofs>& d) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {
       const Vec3 by = facets.size_derivative(point.points[k]).transpose() * n;
-      for (int q = 0; q < 3; ++q) d[static_cast<std::size_t>(3 + q)] += w1 * point.weights[k] * by[q];
+      for (std::size_t q = 0; q < 3; ++q)
+        d[3 + q] += w1 * point.weights[k] * by[static_cast<Eigen::Index>(q)];
     }
   };
   for (int k = 0; k < 3; ++k) {
@@ -174,15 +177,17 @@ void add_mesh(const PairFrame& frame, const ContactSettings& settings, const Req
 
 double smallest_feature_distance(const PairFrame& frame, double range)
 {
-  // Few features are near: ranges grow until one is found.
+  // Few features are near: ranges grow until what is found is within what was looked at.
+  constexpr int attempts = 4;
   constexpr double growth = 8.0;
   double smallest = std::numeric_limits<double>::infinity();
-  for (double r = range / (growth * growth * growth); smallest > r; r *= growth) {
-    near_features(frame, std::min(r, range),
+  for (int k = 1; k <= attempts; ++k) {
+    const double r = range * std::pow(growth, k - attempts);
+    near_features(frame, r,
                   [&](const FeaturePair& pair, const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& f) {
                     smallest = std::min(smallest, nearest_features(pair, p, f).distance);
                   });
-    if (r >= range) break;
+    if (smallest <= r) break;
   }
   return smallest < range ? smallest : std::numeric_limits<double>::infinity();
 }

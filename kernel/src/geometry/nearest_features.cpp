@@ -6,8 +6,10 @@
 namespace hauberk {
 namespace {
 
-/// Edges whose angle has a smaller squared sine than this are parallel as far as rounding can tell.
-constexpr double parallel = 1e-24;
+/// Edges whose angle has a smaller squared sine than this are taken for parallel: their two coordinates
+/// cannot be told apart in double precision (their Gram determinant is a difference of such size), and the
+/// mollifier leaves 2e-10 of them.
+constexpr double parallel = 1e-13;
 
 double norm_or(const Vec3& x, const Vec3& fallback, Vec3& unit)
 {

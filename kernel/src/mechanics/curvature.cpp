@@ -78,31 +78,21 @@ class SparseCurvature final : public Curvature {
     solver_.analyzePattern(permuted_);
   }
 
-  Vector times(const Vector& x) const override
-  {
-    return free_part(m_, lower_.selfadjointView<Eigen::Lower>() * free_part(m_, x));
-  }
+  Vector times(const Vector& x) const override { return lower_.selfadjointView<Eigen::Lower>() * x; }
   double scale() const override { return permuted_.diagonal().cwiseAbs().maxCoeff(); }
 
   bool factor(double lambda) override
   {
     solver_.setShift(lambda);
     solver_.factorize(permuted_);
-    if (solver_.info() != Eigen::Success) return false;
-    if (m_.held.cols() > 0) {
-      across_.resize(m_.held.rows(), m_.held.cols());
-      for (Eigen::Index k = 0; k < m_.held.cols(); ++k) across_.col(k) = unconstrained(m_.held.col(k));
-      reaction_ = m_.held.transpose() * across_;
-    }
-    return true;
+    return solver_.info() == Eigen::Success;
   }
 
   Vector solve(const Vector& b) const override
   {
-    Vector x = unconstrained(b);
-    // Multipliers of held^T x = 0.
-    if (m_.held.cols() > 0) x -= across_ * reaction_.llt().solve(m_.held.transpose() * x);
-    return x;
+    const Vector right = p_ * root_.cwiseProduct(b);
+    const Vector left = p_.transpose() * Vector(solver_.solve(right));
+    return root_.cwiseProduct(left);
   }
 
   double lowest(double positive, Vector& direction) override
@@ -132,20 +122,12 @@ class SparseCurvature final : public Curvature {
   }
 
  private:
-  Vector unconstrained(const Vector& b) const
-  {
-    const Vector right = p_ * root_.cwiseProduct(b);
-    const Vector left = p_.transpose() * Vector(solver_.solve(right));
-    return root_.cwiseProduct(left);
-  }
-
   const Model& m_;
   const Sparse& lower_;
   Vector root_;
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> p_;
   Sparse permuted_;
   Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> solver_;
-  Matrix across_, reaction_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace hauberk {
 
-/// Systems with H + lambda M, M the metric, on the directions that the load case does not hold.
+/// Systems with H + lambda M, M the metric.
 class Curvature {
  public:
   virtual ~Curvature() = default;

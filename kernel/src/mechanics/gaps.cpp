@@ -208,8 +208,6 @@ double smallest_gap(const Model& m, const State& s, double range)
   return g;
 }
 
-namespace {
-
 std::string body_name(const SceneSpec& spec, const Body& body)
 {
   const PlacedElement& element = spec.elements[static_cast<std::size_t>(body.element)];
@@ -218,8 +216,6 @@ std::string body_name(const SceneSpec& spec, const Body& body)
   return fmt::format("element {} ({} of {})", body.element,
                      primitives[static_cast<std::size_t>(body.index)].name, type.name);
 }
-
-}  // namespace
 
 std::string pair_name(const SceneSpec& spec, const Model& m, const Gap& g)
 {

@@ -16,6 +16,8 @@ namespace {
 constexpr double most_images = 1e8;
 /// Of fewer elements all pairs are looked at.
 constexpr int few = 64;
+/// Buckets an element, at most: in cells that are nearly empty all pairs are looked at.
+constexpr double few_buckets = 100.0;
 
 double widest_reach(const Model& m) { return *std::max_element(m.reach.begin(), m.reach.end()); }
 
@@ -128,8 +130,11 @@ class LatticeBuckets {
   {
     // 1/row is how far apart lines of the lattice are.
     const double width = 2.0 * widest_reach(m) + margin;
-    count_ = {static_cast<int>(std::min(1e4, 1.0 / (lattice_.row1 * width))),
-              static_cast<int>(std::min(1e4, 1.0 / (lattice_.row2 * width)))};
+    const double most = m.element_count();  // more would be empty
+    count_ = {static_cast<int>(std::min(most, 1.0 / (lattice_.row1 * width))),
+              static_cast<int>(std::min(most, 1.0 / (lattice_.row2 * width)))};
+    // A long cell has many along one side only.
+    if (static_cast<double>(count_[0]) * count_[1] > few_buckets * most) count_ = {0, 0};
   }
 
   /// Fewer than three along a side would meet themselves.
@@ -174,7 +179,8 @@ class LatticeBuckets {
 
   std::vector<int>& bucket(const std::array<int, 2>& at)
   {
-    return buckets_[static_cast<std::size_t>(at[0] * count_[1] + at[1])];
+    const int number = at[0] * count_[1] + at[1];
+    return buckets_[static_cast<std::size_t>(number)];
   }
 
   /// Pairs of i with elements of the bucket d1, d2 away.
@@ -213,6 +219,8 @@ class LatticeBuckets {
 std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margin)
 {
   const std::vector<Pose> p = poses(m, s);
+  const bool finite = std::isfinite(margin) && s.macro.allFinite() && s.e.allFinite();
+  if (!finite) throw ComputationError("the state is not finite: a step went wrong");
   if (m.lattice.empty())
     return m.element_count() < few ? pairs_one_by_one(m, p, margin) : pairs_by_buckets(m, p, margin);
   if (m.element_count() >= few) {

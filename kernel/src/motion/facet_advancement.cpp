@@ -45,15 +45,19 @@ class FacetAdvance {
       // candidates.
       const double edge = std::max(A_.facets->mean_edge(), B_.facets->mean_edge());
       const double part = speed * rest <= edge ? rest : edge / speed;
+      // What is farther than this stays above the target without being followed.
+      const double travel = speed * part;
+      const double range = target < 0.0 ? travel / (1.0 - keep) : travel + (target - clearance);
       std::vector<Followed> near;
-      double smallest = speed * part;  // nearer ones are found, and no others matter
-      find(now, clearance + speed * part, near);
+      find(now, clearance + range, near);
+      double smallest = range;
       for (const Followed& f : near) smallest = std::min(smallest, f.distance - clearance);
       if (smallest <= 0.0 && speed > 0.0) return s;
       if (target < 0.0) target = clearance + keep * smallest;
       double safe = part;
       for (const Followed& f : near) {
-        safe = advance(f, s, safe, now, std::min(target, clearance + keep * (f.distance - clearance)));
+        if (f.distance <= target) return s;
+        safe = advance(f, s, safe, now, target);
         if (safe <= 0.0) return s;
       }
       if (safe < part) return s + safe;

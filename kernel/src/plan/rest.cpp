@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace hauberk {
 namespace {
@@ -45,14 +47,24 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
   }
 }
 
-/// Meshes that meet at rest: facets cut across holes, where surfaces leave room.
-void add_meeting_meshes(const SceneSpec& spec, const Model& m, std::vector<std::string>& out)
+/// What is wrong with the meshes of a state: facets cut across holes, where surfaces leave room. Empty:
+/// nothing.
+std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& state)
 {
-  const State rest = rest_state(m);
+  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
+    // Links are those of core circles, which must be inside of their meshes.
+    const Body& b = m.bodies[k];
+    const double cosine = std::cos(std::numbers::pi / spec.facets);
+    if (b.R * (1.0 - cosine) < std::min(b.r0, b.r1) * cosine) continue;
+    return fmt::format(
+        "the mesh of {} is so coarse that the circle at the middle of its tube leaves it; use more than {} "
+        "facets",
+        body_name(spec, b), spec.facets);
+  }
   std::string first;
   int others = 0;
-  for (const ElementPair& pair : near_pairs(m, rest, 0.0)) {
-    const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
+  for (const ElementPair& pair : near_pairs(m, state, 0.0)) {
+    const Pose pi = image_pose(m, state, pair.i, {0, 0}), pj = image_pose(m, state, pair.j, pair.image);
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
@@ -71,10 +83,9 @@ void add_meeting_meshes(const SceneSpec& spec, const Model& m, std::vector<std::
       }
     }
   }
-  if (first.empty()) return;
-  const std::string more = others > 0 ? fmt::format(", and those of {} other pairs", others) : "";
-  out.push_back(
-      fmt::format("the meshes of {} meet at rest{}; use more facets, or give them more room", first, more));
+  if (first.empty()) return {};
+  const std::string more = others > 0 ? fmt::format(", as do {} other pairs", others) : "";
+  return fmt::format("the meshes of {} meet at rest{}; use more facets, or give them more room", first, more);
 }
 
 }  // namespace
@@ -87,6 +98,10 @@ std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bo
         "nothing is linked: no ring passes through another, so no direction has a limit; check positions, "
         "rotations and the cell's vectors");
     return out;
+  }
+  if (spec.facets > 0) {
+    if (const std::string problem = mesh_problem(spec, m, rest_state(m)); !problem.empty())
+      out.push_back(problem);
   }
   if (relax_allowed) return out;
   // The deepest gap of every pair of bodies.
@@ -102,7 +117,6 @@ std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bo
     }
   }
   add_deep_overlaps(m, worst);
-  if (spec.facets > 0) add_meeting_meshes(spec, m, out);
   const std::string unit = spec.length_unit.empty() ? "" : " " + spec.length_unit;
   for (const Gap& g : worst) {
     if (g.gap >= -touching) continue;
@@ -129,6 +143,10 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
   const State rest = rest_state(m);
   const double gap = smallest_gap(m, rest, opened);
   if (gap > touching) return out;
+  // Relaxation knows distances of meshes, and not on which side of each other they are.
+  const auto meshes = [&](const State& s) {
+    return spec.facets > 0 ? mesh_problem(spec, m, s) : std::string();
+  };
   Relaxed r;
   const auto open = [&](Cell cell) {
     double room = opened;
@@ -142,6 +160,7 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
     const Relaxed fixed = r;
     // What overlaps has no rest state; what touches is one, and a little strain opens it.
     if (gap >= -touching && open(Cell::free)) {
+      if (const std::string problem = meshes(r.state); !problem.empty()) throw InputError(problem);
       out.start = r.state;
       out.moved = r.largest_motion * m.length;
       return out;
@@ -150,6 +169,7 @@ PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double c
   }
   if (!r.problem.empty())
     throw InputError("the rest state has no room nearby: " + r.problem + tightest_pair(spec, m, r.state));
+  if (const std::string problem = meshes(r.state); !problem.empty()) throw InputError(problem);
   const std::vector<Pose> p = poses(m, r.state);
   for (std::size_t k = 0; k < p.size(); ++k)
     out.scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};

@@ -116,6 +116,22 @@ double triangle_separation(const Triangle& a, const Triangle& b)
   return deepest > 0.0 ? -deepest : nearest;
 }
 
+/// True if x is inside of a closed mesh: its triangles, seen from x, fill the whole sphere (van Oosterom,
+/// Strackee 1983).
+bool inside(const std::vector<Sector>& mesh, const Vec3& x)
+{
+  double angle = 0.0;
+  for (const Sector& sector : mesh) {
+    for (const Triangle& t : sector.triangles) {
+      const Vec3 a = t[0] - x, b = t[1] - x, c = t[2] - x;
+      const double la = a.norm(), lb = b.norm(), lc = c.norm();
+      angle +=
+          2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    }
+  }
+  return std::abs(angle) > 2.0 * std::numbers::pi;
+}
+
 }  // namespace
 
 double mesh_separation(const Torus& a, const Torus& b)
@@ -138,7 +154,9 @@ double mesh_separation(const Torus& a, const Torus& b)
         if (apart(c.a->balls[i], c.b->balls[j]) <= std::max(nearest, 0.0))
           nearest = std::min(nearest, triangle_separation(c.a->triangles[i], c.b->triangles[j]));
   }
-  return nearest;
+  const bool within =
+      nearest > 0.0 && (inside(second, first[0].triangles[0][0]) || inside(first, second[0].triangles[0][0]));
+  return within ? -nearest : nearest;
 }
 
 double mesh_distance(const Torus& torus, const Vec3& x)

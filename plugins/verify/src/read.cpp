@@ -214,8 +214,10 @@ Setting read_setting(const json::value& experiment)
       contact != nullptr && text(*contact, "/experiment/solver/contact") == "mesh") {
     const json::value* facets = solver.as_object().if_contains("facets");
     constexpr int absent = 20;
-    out.facets = facets == nullptr ? absent : static_cast<int>(number(*facets, "/experiment/solver/facets"));
-    if (out.facets < 3) throw Malformed("/experiment/solver/facets: at least 3 expected");
+    const double count = facets == nullptr ? absent : number(*facets, "/experiment/solver/facets");
+    if (!(count >= 3.0 && count <= 1000.0) || count != std::floor(count))
+      throw Malformed("/experiment/solver/facets: an integer from 3 to 1000 expected");
+    out.facets = static_cast<int>(count);
   }
   const json::value& load = member(experiment, "load_case", "/experiment");
   const std::string plugin =

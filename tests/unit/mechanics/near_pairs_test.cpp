@@ -17,6 +17,7 @@ using Key = std::tuple<int, int, Image>;
 std::vector<Key> keys(const std::vector<ElementPair>& pairs)
 {
   std::vector<Key> out;
+  out.reserve(pairs.size());
   for (const ElementPair& p : pairs) out.emplace_back(p.i, p.j, p.image);
   return out;
 }

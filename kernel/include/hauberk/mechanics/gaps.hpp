@@ -23,6 +23,9 @@ std::vector<Gap> find_gaps(const Model& model, const State& state, double range,
 /// Smallest gap over all pairs within `range`, infinity if none.
 double smallest_gap(const Model& model, const State& state, double range);
 
+/// "element 3 (side_1 of threefold)": the number as in the results, names as in the experiment.
+std::string body_name(const SceneSpec& spec, const Body& body);
+
 /// "element 3 (side_1 of threefold) and element 0 (ring of link) of image [1, 0]": numbers as in the results,
 /// names as in the experiment.
 std::string pair_name(const SceneSpec& spec, const Model& model, const Gap& gap);

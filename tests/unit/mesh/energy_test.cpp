@@ -155,6 +155,9 @@ TEST(MeshEnergy, SmallestFeatureGap)
       gaps.begin(), gaps.end(), [](const FeatureGap& a, const FeatureGap& b) { return a.gap < b.gap; });
   EXPECT_NEAR(least.gap + 0.01, distance, 1e-15);
   EXPECT_TRUE(std::isinf(smallest_feature_distance(frame, 0.99 * distance)));
+  // Whatever is looked at first.
+  for (double range = 1.01 * distance; range < 600.0 * distance; range *= 1.3)
+    EXPECT_EQ(smallest_feature_distance(frame, range), distance);
   const PairTerms terms = to_world(least.terms, frame.M, pair.pa.position - pair.pb.position, 1);
   std::mt19937_64 rng(9);
   std::normal_distribution<double> normal;

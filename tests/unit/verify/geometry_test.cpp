@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "facets.hpp"
 #include "links.hpp"
 #include "neighbours.hpp"
 #include "separation.hpp"
@@ -187,6 +188,33 @@ TEST(Neighbours, ReachBeyondTheFirstImagesOnce)
     }
   EXPECT_EQ(neighbours(scene, places, F, 0.0).size(), expected);
   EXPECT_GT(expected, 100u);
+}
+
+/// Meshes lie between the surface and what chords cut off, and know which side of each other they are on.
+TEST(MeshSeparation, ApartPiercedAndInside)
+{
+  const auto mesh = [](Torus ring, int facets) {
+    ring.facets = facets;
+    return ring;
+  };
+  const Torus flat = torus(5.0, 0.7, 0.7);
+  for (const double height : {1.6, 3.0}) {
+    const Torus above = torus(5.0, 0.7, 0.7, {0.2, 0.1, height}, {0.0, 0.0, 0.3});
+    const double smooth = separation(flat, above);
+    for (const int facets : {12, 48}) {
+      const Torus a = mesh(flat, facets), b = mesh(above, facets);
+      const double found = mesh_separation(a, b);
+      EXPECT_NEAR(found, smooth, mesh_excess(a) + mesh_excess(b)) << facets;
+      EXPECT_NEAR(mesh_separation(b, a), found, 1e-12);
+      EXPECT_EQ(separation(a, b), found) << "tori with facets are meshes";
+    }
+  }
+  EXPECT_LT(mesh_separation(mesh(flat, 12), mesh(torus(5.0, 0.7, 0.7, {0.5, 0.0, 0.2}), 12)), 0.0);
+  // A thin ring along the middle of the other's tube touches nothing.
+  const Torus thin = mesh(torus(5.0, 0.1, 0.1), 24);
+  EXPECT_LT(mesh_separation(mesh(flat, 24), thin), 0.0);
+  EXPECT_LT(mesh_separation(thin, mesh(flat, 24)), 0.0);
+  EXPECT_NEAR(mesh_distance(mesh(flat, 40), {0.0, 0.0, 0.0}), 4.3, 0.02);
 }
 
 }  // namespace

@@ -51,9 +51,8 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
 /// nothing.
 std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& state)
 {
-  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
+  for (const Body& b : m.bodies) {
     // Links are those of core circles, which must be inside of their meshes.
-    const Body& b = m.bodies[k];
     const double cosine = std::cos(std::numbers::pi / spec.facets);
     if (b.R * (1.0 - cosine) < std::min(b.r0, b.r1) * cosine) continue;
     return fmt::format(

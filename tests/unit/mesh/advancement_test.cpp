@@ -60,7 +60,9 @@ TEST(FacetAdvancement, NothingIsMissedAndLittleGivenAway)
       }
     }
     EXPECT_GT(least, 0.0) << "trial " << trial << ": a collision before " << safe.alpha;
-    if (safe.alpha < 1.0) EXPECT_GE(least, 0.999 * keep * at_rest) << "trial " << trial;
+    if (safe.alpha < 1.0) {
+      EXPECT_GE(least, 0.999 * keep * at_rest) << "trial " << trial;
+    }
     EXPECT_TRUE(links_kept(m, advanced(m, rest, dy, safe.alpha)));
     if (safe.alpha >= 1.0) {
       ++whole;

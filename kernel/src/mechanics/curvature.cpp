@@ -8,8 +8,9 @@
 
 namespace hauberk {
 
-/// Unknowns by elimination: position of each.
+/// Unknowns by elimination: position of each, chosen for a Hessian with so many entries.
 struct EliminationOrder {
+  Eigen::Index entries = 0;
   std::optional<Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>> permutation;
 };
 
@@ -60,8 +61,10 @@ class SparseCurvature final : public Curvature {
       : m_(m), lower_(lower), root_(m.metric.cwiseSqrt().cwiseInverse())
   {
     const Sparse scaled = root_.asDiagonal() * lower * root_.asDiagonal();
-    if (!order.permutation) {
-      // Of the first Hessian of the stage: later ones have nearly the same contacts.
+    // An order for few contacts is a bad one for many: elimination would fill nearly everything.
+    constexpr double more = 1.02;
+    if (static_cast<double>(lower.nonZeros()) > more * static_cast<double>(order.entries)) {
+      order.entries = lower.nonZeros();
       Eigen::AMDOrdering<int> amd;
       Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
       const Sparse full = scaled.selfadjointView<Eigen::Lower>();

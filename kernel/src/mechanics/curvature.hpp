@@ -23,7 +23,8 @@ class Curvature {
   virtual double lowest(double positive, Vector& direction) = 0;
 };
 
-/// What stays from one Hessian of a stage to the next: the order of elimination.
+/// What stays from one Hessian of a stage to the next while contacts do not become more: the order of
+/// elimination.
 struct EliminationOrder;
 struct EliminationOrderDeleter {
   void operator()(EliminationOrder* order) const;

@@ -11,11 +11,16 @@ constexpr int most_local = max_macro + 2 * (max_coordinates + 3);
 class Assembler {
  public:
   Assembler(const Model& model, const State& state, const ContactSettings& settings, const Request& request)
-      : m_(model), s_(state), settings_(settings), request_(request), maps_(model.rest.size())
+      : m_(model),
+        s_(state),
+        settings_(settings),
+        request_(request),
+        maps_(model.rest.size()),
+        sparse_(model.sparse())
   {
     for (int i = 0; i < m_.element_count(); ++i) map(i, {0, 0}, maps_[static_cast<std::size_t>(i)]);
     if (request_.order >= 1) out_.gradient = Vector::Zero(m_.dofs());
-    if (request_.order >= 2 && !m_.sparse()) out_.hessian = Matrix::Zero(m_.dofs(), m_.dofs());
+    if (request_.order >= 2 && !sparse_) out_.hessian = Matrix::Zero(m_.dofs(), m_.dofs());
     if (request_.parameters) {
       int most = 0;
       for (const int n : m_.parameter_count) most = std::max(most, n);
@@ -89,7 +94,7 @@ class Assembler {
 
   ContactEnergy take()
   {
-    if (request_.order >= 2 && m_.sparse()) {
+    if (request_.order >= 2 && sparse_) {
       out_.sparse_hessian.resize(m_.dofs(), m_.dofs());
       // The diagonal is always there: factorisations shift it.
       for (int k = 0; k < m_.dofs(); ++k) second_.emplace_back(k, k, 0.0);
@@ -109,7 +114,7 @@ class Assembler {
 
   void add_second(int row, int column, double value)
   {
-    if (!m_.sparse()) {
+    if (!sparse_) {
       out_.hessian(row, column) += value;
     } else if (row >= column) {
       second_.emplace_back(row, column, value);
@@ -245,6 +250,7 @@ class Assembler {
   const ContactSettings& settings_;
   const Request& request_;
   std::vector<PositionMap> maps_;
+  bool sparse_;
   ContactEnergy out_;
   std::vector<Eigen::Triplet<double>> second_;  ///< of a sparse Hessian
 };

@@ -8,15 +8,6 @@
 
 namespace hauberk {
 
-/// Unknowns by elimination: position of each, chosen for a Hessian with so many entries.
-struct EliminationOrder {
-  Eigen::Index entries = 0;
-  std::optional<Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>> permutation;
-};
-
-void EliminationOrderDeleter::operator()(EliminationOrder* order) const { delete order; }
-EliminationOrderHandle make_elimination_order() { return EliminationOrderHandle(new EliminationOrder); }
-
 namespace {
 
 class DenseCurvature final : public Curvature {
@@ -71,7 +62,7 @@ class SparseCurvature final : public Curvature {
       amd(full, inverse);
       order.permutation = inverse.inverse();
     }
-    p_ = *order.permutation;
+    p_ = order.permutation;
     permuted_.resize(lower.rows(), lower.cols());
     permuted_.selfadjointView<Eigen::Lower>() = scaled.selfadjointView<Eigen::Lower>().twistedBy(p_);
     solver_.cholmod().nmethods = 1;

@@ -23,14 +23,12 @@ class Curvature {
   virtual double lowest(double positive, Vector& direction) = 0;
 };
 
-/// What stays from one Hessian of a stage to the next while contacts do not become more: the order of
-/// elimination.
-struct EliminationOrder;
-struct EliminationOrderDeleter {
-  void operator()(EliminationOrder* order) const;
+/// What stays from one Hessian of a stage to the next while contacts do not become more: positions in the
+/// order of elimination, chosen for a Hessian with so many entries.
+struct EliminationOrder {
+  Eigen::Index entries = 0;
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
 };
-using EliminationOrderHandle = std::unique_ptr<EliminationOrder, EliminationOrderDeleter>;
-EliminationOrderHandle make_elimination_order();
 
 /// Of the energy, with the storage that it has.
 std::unique_ptr<Curvature> curvature_of(const Model& m, const TotalEnergy& e, EliminationOrder& order);

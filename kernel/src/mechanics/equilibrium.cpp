@@ -65,7 +65,7 @@ class Newton {
     result_.evaluations += now.contact.evaluations;
     if (!now.admissible)
       return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
-    curvature_ = curvature_of(m_, now, *order_);
+    curvature_ = curvature_of(m_, now, order_);
     double radius = first_radius, noticed = now.energy;
     int rejected = 0, noticed_at = 0, rescues = 0, escapes_then = 0;
     bool escaping = false;
@@ -165,7 +165,7 @@ class Newton {
       }
       state_ = std::move(trial);
       now = std::move(next);
-      curvature_ = curvature_of(m_, now, *order_);
+      curvature_ = curvature_of(m_, now, order_);
       if (runaway()) return finish(now, StageStatus::unbounded, "the strain leaves every bound");
     }
   }
@@ -270,7 +270,7 @@ class Newton {
   const KeepGoing& keep_going_;
   double load_norm_ = 1.0;
   std::vector<ElementPair> pairs_;
-  EliminationOrderHandle order_ = make_elimination_order();
+  EliminationOrder order_;
   std::unique_ptr<Curvature> curvature_;  ///< of the state's energy
   StageResult result_;
 };

@@ -67,8 +67,8 @@ TEST_F(SparseHessian, IsTheGradientsDerivative)
 TEST_F(SparseHessian, SystemsAgreeWithDenseOnes)
 {
   const Matrix H = full();
-  const EliminationOrderHandle order = make_elimination_order();
-  const std::unique_ptr<Curvature> c = curvature_of(model_, energy_, *order);
+  EliminationOrder order;
+  const std::unique_ptr<Curvature> c = curvature_of(model_, energy_, order);
   std::mt19937_64 rng(6);
   std::normal_distribution<double> normal;
   Vector x(model_.dofs());

@@ -30,6 +30,28 @@ enum class PrimitiveKind {
   /// Ellipse revolved about the local z axis, paper eq. (1): size = (R, r0, r1),
   /// V = ((R + r0 cos v) cos u, (R + r0 cos v) sin u, r1 sin v).
   revolved_ellipse,
+  /// Tube of constant radius around a closed smooth curve: size = (-, r, r), core x(u) = sum of c_k cos k u +
+  /// s_k sin k u over `curve`. The kernel sets size[0] to the mean radius sqrt(sum (|c_k|^2 + |s_k|^2)/2).
+  curve_tube,
+};
+
+/// Its name in results.
+inline const char* name_of(PrimitiveKind kind)
+{
+  switch (kind) {
+    case PrimitiveKind::circle_tube:
+      return "circle_tube";
+    case PrimitiveKind::revolved_ellipse:
+      return "revolved_ellipse";
+    case PrimitiveKind::curve_tube:
+      return "curve_tube";
+  }
+  return "";
+}
+
+/// Coefficients of cos k u and sin k u of a closed curve, in the primitive's frame.
+struct Harmonic {
+  Vec3 c = Vec3::Zero(), s = Vec3::Zero();
 };
 
 /// A closed surface, placed in the element frame. Plain data; thread safe to read.
@@ -39,17 +61,26 @@ struct Primitive {
   Vec3 position = Vec3::Zero();
   Mat3 rotation = Mat3::Identity();  ///< columns are the primitive's axes in the element frame
   std::array<double, 3> size{};      ///< R, r0, r1
+  std::vector<Harmonic> curve;       ///< of a curve tube: k = 1, 2, ...; its mean point is `position`
 
   double R() const { return size[0]; }
   double r0() const { return size[1]; }
   double r1() const { return size[2]; }
 };
 
-/// Number of geometric quantities of a primitive: position (3), then size (3).
+/// Number of geometric quantities that every primitive has: position (3), then size (3).
 inline constexpr int primitive_dofs = 6;
+/// Number of those of a harmonic of its curve: c (3), then s (3).
+inline constexpr int harmonic_dofs = 6;
 
-/// d(position, size)/d(parameters), row-major primitive_dofs x parameter count. Rotations of primitives do
-/// not depend on parameters.
+/// All geometric quantities of a primitive, harmonics last.
+inline int geometric_dofs(const Primitive& primitive)
+{
+  return primitive_dofs + harmonic_dofs * static_cast<int>(primitive.curve.size());
+}
+
+/// d(position, size, curve)/d(parameters), row-major geometric_dofs x parameter count. Rotations of
+/// primitives do not depend on parameters. The row of R of a curve tube is not used.
 using PrimitiveJacobian = std::vector<double>;
 
 /// A parametric element: a union of primitives. Immutable after construction, so all calls are thread safe.
@@ -63,11 +94,12 @@ class Shape {
   const std::vector<ParameterInfo>& parameters() const { return do_parameters(); }
 
   /// Primitives at parameters p (lengths in file units). Number, kind-independent names and order must not
-  /// depend on p. A primitive that is a circle_tube for r0 == r1 may change its kind with p.
+  /// depend on p, nor must the number of harmonics. A primitive that is a circle_tube for r0 == r1 may change
+  /// its kind with p.
   /// Throws InputError naming the parameter when p is inadmissible (for instance r0 >= R).
   std::vector<Primitive> primitives(std::span<const double> p) const;
 
-  /// Jacobian of each primitive's (position, size) with respect to p.
+  /// Jacobian of each primitive's (position, size, curve) with respect to p.
   std::vector<PrimitiveJacobian> jacobians(std::span<const double> p) const;
 
  protected:

@@ -18,6 +18,8 @@ constexpr double reference_radius = 0.5;
 
 /// Surface element du dv in units of L^2, frozen so that parameters act through the gap alone.
 constexpr double surface_element = 0.25;
+/// The same of the product of two cores.
+constexpr double product_element = 1.0;
 
 constexpr double smallest_panel = 1e-12;
 
@@ -197,7 +199,8 @@ class ArcIntegral {
         request_(request),
         out_(out),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
-                                  : surface_element / (2.0 * pi * reference_radius * settings.g_hat)))
+                                  : (frame.difference != nullptr ? product_element : surface_element) /
+                                        (2.0 * pi * reference_radius * settings.g_hat)))
   {
   }
 
@@ -257,11 +260,12 @@ class ArcIntegral {
   /// where surfaces conform (g'' small) panels are large.
   std::array<double, 2> sizes(const Panel& s, const ProbePoint& q, const FieldValue& f, double g) const
   {
-    const SurfaceHessian h = surface_hessian(probe_, q, f);
+    const SecondDerivatives h = surface_hessian(probe_, q, f);
     const double level = level_length(*frame_.F, f);
+    const double narrowest = probe_.frequency / widest_panel;
     const auto size = [&](double half, const Vec3& along, double second) {
       return half * std::max({std::sqrt(std::max(second, 0.0) / (2.0 * g)) / settings_.panel_ratio,
-                              along.norm() / level, 1.0 / widest_panel});
+                              along.norm() / level, narrowest});
     };
     return {size(s.hu, q.pu, h.uu), dim == 2 ? size(s.hv, q.pv, h.vv) : 0.0};
   }
@@ -328,12 +332,12 @@ class ArcIntegral {
     if (g <= 0.0 || g >= settings_.g_hat) return;
     const BarrierValue b = barrier<dim>(g, settings_.g_hat);
     out_.energy += w * b.b;
-    if (request_.order >= 1) out_.add(f, q.p - frame_.o, w * b.db, w * b.ddb, request_.order);
+    if (request_.order >= 1) out_.add(f, q.on_p - frame_.o, w * b.db, w * b.ddb, request_.order);
     if (request_.parameters) out_.template add_parameters<dim>(frame_, f, q, w * b.db);
     if (request_.points) {
       ContactPoint c;
       c.normal = f.n;
-      c.on_f = q.p - f.m.phi * f.n;
+      c.on_f = q.on_p - f.m.phi * f.n;
       c.on_p = c.on_f + (g + settings_.clearance) * f.n;
       c.gap = g;
       c.force = -w * b.db;
@@ -382,9 +386,10 @@ class ArcIntegral {
       ContactPoint c = z.seed;
       c.force = z.force.norm();
       c.normal = z.force / c.force;
-      // Mean points lie inside where the zone bows; along its line of action a force may be moved.
+      // Mean points lie inside where the zone bows; along its line of action a force may be moved. The field
+      // of a curve is not known.
       c.on_f = z.on_f / z.weight;
-      c.on_f -= field_at(*frame_.F, c.on_f).m.phi * c.normal;
+      if (frame_.difference == nullptr) c.on_f -= field_at(*frame_.F, c.on_f).m.phi * c.normal;
       c.on_p = c.on_f + (c.gap + settings_.clearance) * c.normal;
       out_.points.push_back(c);
     }

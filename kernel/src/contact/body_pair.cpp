@@ -1,11 +1,19 @@
 #include <hauberk/contact/body_pair.hpp>
 #include <hauberk/contact/mesh.hpp>
 #include <hauberk/contact/published.hpp>
+#include <hauberk/error.hpp>
+#include <hauberk/geometry/panel_bound.hpp>
 
 #include <cmath>
+#include <string>
 
 namespace hauberk {
 namespace {
+
+[[noreturn]] void refuse_curve(const char* what)
+{
+  throw InputError(std::string(what) + " knows tori only, no tubes around curves; use arc, nearest or auto");
+}
 
 template <int dim>
 void add_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
@@ -15,6 +23,7 @@ void add_terms(const PairFrame& frame, const ContactSettings& settings, const Re
     case Formulation::arc:
       return add_arc<dim>(frame, settings, request, share, out);
     case Formulation::published:
+      if (frame.P->curve) refuse_curve("contact 'published'");
       return add_published<dim>(frame, settings, request, out);
     case Formulation::nearest:
       return add_nearest<dim>(frame, settings, request, out);
@@ -31,18 +40,12 @@ void add_terms(const PairFrame& frame, const ContactSettings& settings, const Re
 /// K is F's curvature at the distance g, K_F (I + g K_F)^-1, and n . V_,ij is P's own, whose normal is -n.
 double smallest_relative_curvature(const PairFrame& frame, double u, double v)
 {
-  const Body& P = *frame.P;
-  const ProbePoint q = Probe<2>(frame).at(u, v);
-  const FieldValue f = field_at(*frame.F, q.p);
-  const auto curved = [&f](const Vec3& x) -> Vec3 {
-    return (f.m.k * f.meridian.dot(x)) * f.meridian + (f.k_azimuth * f.azimuth.dot(x)) * f.azimuth;
-  };
-  const double w = P.R + P.r0 * q.cv, length = q.pv.norm();
-  const double uu = (curved(q.pu).dot(q.pu) - w * f.n.dot(q.radial)) / (w * w);
-  const double uv = (curved(q.pu).dot(q.pv) - P.r0 * q.sv * f.n.dot(q.pu) / w) / (w * length);
-  const double vv =
-      (curved(q.pv).dot(q.pv) - f.n.dot(P.r0 * q.cv * q.radial + P.r1 * q.sv * frame.e3)) / (length * length);
-  return 0.5 * (uu + vv) - std::hypot(0.5 * (uu - vv), uv);
+  const Probe<2> probe(frame);
+  const ProbePoint q = probe.at(u, v);
+  const SecondDerivatives h = surface_hessian(probe, q, field_at(*frame.F, q.p));
+  const double along_u = q.pu.norm(), along_v = q.pv.norm();
+  const double uu = h.uu / (along_u * along_u), vv = h.vv / (along_v * along_v);
+  return 0.5 * (uu + vv) - std::hypot(0.5 * (uu - vv), h.uv / (along_u * along_v));
 }
 
 template <int dim>
@@ -74,16 +77,16 @@ std::span<const PairSide> pair_sides(const Body& A, const Body& B, Formulation f
 {
   static constexpr std::array one{PairSide{false, 1.0}}, other{PairSide{true, 1.0}};
   static constexpr std::array both{PairSide{false, 0.5}, PairSide{true, 0.5}};
-  const int da = probe_dimension(A), db = probe_dimension(B);
-  if (formulation == Formulation::arc && da == db) return both;
-  return da <= db ? one : other;
+  const int a = probe_rank(A), b = probe_rank(B);
+  if (formulation == Formulation::arc && a == b && !A.curve) return both;
+  return a <= b ? one : other;
 }
 
 SideTerms side_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request,
                      double share)
 {
   SideTerms out;
-  if (frame.P->is_tube())
+  if (probe_dimension(frame) == 1)
     add_terms<1>(frame, settings, request, share, out);
   else
     add_terms<2>(frame, settings, request, share, out);
@@ -133,7 +136,8 @@ std::vector<ContactMinimum> contact_minima(const Body& A, const Pose& pose_a, co
 {
   const bool swapped = pair_sides(A, B, Formulation::nearest).front().swapped;
   const PairFrame frame = swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
-  std::vector<ContactMinimum> out = frame.P->is_tube()
+  if (frame.P->curve) refuse_curve("the list of contact minima");
+  std::vector<ContactMinimum> out = probe_dimension(frame) == 1
                                         ? minima_of<1>(frame, threshold, clearance, evaluations)
                                         : minima_of<2>(frame, threshold, clearance, evaluations);
   if (swapped) {

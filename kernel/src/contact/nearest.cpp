@@ -52,17 +52,14 @@ Local local_at(const Probe<dim>& probe, double u, double v)
   Local l;
   l.q = probe.at(u, v);
   l.f = field_at(*probe.f.F, l.q.p);
-  const Body& P = *probe.f.P;
   l.gu = l.f.n.dot(l.q.pu);
   const Vec3 Ku = curvature(l.f, l.q.pu);
-  const double w = dim == 1 ? P.R : P.R + P.r0 * l.q.cv;
-  l.huu = Ku.dot(l.q.pu) - w * l.f.n.dot(l.q.radial);
+  const SecondDerivatives own = probe.second(l.q, l.f.n);
+  l.huu = Ku.dot(l.q.pu) + own.uu;
   if constexpr (dim == 2) {
-    const Vec3 tangent = l.q.pu / w;
     l.gv = l.f.n.dot(l.q.pv);
-    l.huv = Ku.dot(l.q.pv) - P.r0 * l.q.sv * l.f.n.dot(tangent);
-    l.hvv = curvature(l.f, l.q.pv).dot(l.q.pv) -
-            l.f.n.dot(P.r0 * l.q.cv * l.q.radial + P.r1 * l.q.sv * probe.f.e3);
+    l.huv = Ku.dot(l.q.pv) + own.uv;
+    l.hvv = curvature(l.f, l.q.pv).dot(l.q.pv) + own.vv;
   }
   return l;
 }
@@ -116,17 +113,18 @@ class Search {
     const FieldCurvature field = field_curvature(*probe_.f.F, l.f, d);
     if (field.third < std::numeric_limits<double>::infinity()) {
       const double k = field.second;
-      const double uu = probe_.Lu * (probe_.Lu * k + 1.0);
+      const double uu = probe_.Lu * probe_.Lu * k + probe_.Luu;
       if constexpr (dim == 1) {
         if (std::abs(l.gu) > uu * s.hu) return;
-        const double third = probe_.Lu * (probe_.Lu * probe_.Lu * field.third + 3.0 * probe_.Lu * k + 1.0);
+        const double third =
+            probe_.Lu * (probe_.Lu * probe_.Lu * field.third + 3.0 * probe_.Luu * k) + probe_.Luuu;
         if (std::abs(l.huu) > third * s.hu) {
           bracket(s);
           return;
         }
       } else {
         const double uv = probe_.Lu * probe_.Lv * k + probe_.Luv;
-        const double vv = probe_.Lv * (probe_.Lv * k + 1.0);
+        const double vv = probe_.Lv * probe_.Lv * k + probe_.Lvv;
         if (std::abs(l.gu) > uu * s.hu + uv * s.hv || std::abs(l.gv) > uv * s.hu + vv * s.hv) return;
       }
     }
@@ -285,22 +283,25 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
     const Local l = local_at(probe, m.u, m.v);
     const BarrierValue b = barrier<0>(g, settings.g_hat);
     out.energy += b.b;
-    const Vec3 rho = l.q.p - frame.o;
+    const Vec3 rho = l.q.on_p - frame.o;
     if (request.order >= 1) out.add(l.f, rho, b.db, b.ddb, request.order);
     if (request.order >= 2) {
-      // d g / d c of the gradient (n, rho x n), for c = u and v.
-      const auto mixed = [&](const Vec3& t) {
+      // d g / d c of the gradient (n, rho x n), for c = u and v. On a difference v moves no point of P.
+      const auto mixed = [&](const Vec3& t, bool on_p) {
         const Vec3 kn = curvature(l.f, t);
         Vec6 x;
-        x << kn, t.cross(l.f.n) + rho.cross(kn);
+        if (on_p)
+          x << kn, t.cross(l.f.n) + rho.cross(kn);
+        else
+          x << kn, rho.cross(kn);
         return x;
       };
-      const Vec6 xu = mixed(l.q.pu);
+      const Vec6 xu = mixed(l.q.pu, true);
       if constexpr (dim == 1) {
         if (l.huu > 0.0) out.hessian.noalias() -= (b.db / l.huu) * xu * xu.transpose();
         out.regularity = std::min(out.regularity, l.huu / (probe.Lu * probe.Lu));
       } else {
-        const Vec6 xv = mixed(l.q.pv);
+        const Vec6 xv = mixed(l.q.pv, frame.difference == nullptr);
         const double det = l.huu * l.hvv - l.huv * l.huv;
         if (det > 0.0) {
           out.hessian.noalias() -= (b.db / det) * (l.hvv * xu * xu.transpose() + l.huu * xv * xv.transpose() -
@@ -315,8 +316,8 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
     if (request.points) {
       ContactPoint c;
       c.normal = l.f.n;
-      c.on_f = l.q.p - l.f.m.phi * l.f.n;
-      c.on_p = l.q.p - probe.offset * l.f.n;
+      c.on_f = l.q.on_p - l.f.m.phi * l.f.n;
+      c.on_p = l.q.on_p - probe.offset * l.f.n;
       c.gap = g;
       c.force = -b.db;
       out.points.push_back(c);

@@ -25,6 +25,25 @@ void SideTerms::add(const FieldValue& f, const Vec3& rho, double w1, double w2, 
   }
 }
 
+namespace {
+
+/// Adds the derivatives of a core's harmonics at the angle u, where its point moves along `n`.
+void add_harmonics(const ClosedCurve& curve, const Angle& u, const Vec3& n, std::vector<double>& out)
+{
+  out.resize(harmonic_dofs * curve.size(), 0.0);
+  Angle k;
+  double* d = out.data();
+  for (std::size_t h = 0; h < curve.size(); ++h, d += harmonic_dofs) {
+    k = k.turned(u);
+    for (int i = 0; i < 3; ++i) {
+      d[i] += k.c * n[i];
+      d[3 + i] += k.s * n[i];
+    }
+  }
+}
+
+}  // namespace
+
 template <int dim>
 void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, const ProbePoint& q, double w1)
 {
@@ -32,6 +51,18 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
   for (int k = 0; k < 3; ++k) {
     dP[static_cast<std::size_t>(k)] += w1 * f.n[k];
     dF[static_cast<std::size_t>(k)] -= w1 * f.n[k];
+  }
+  if (frame.P->curve) {
+    add_harmonics(*frame.P->curve, q.u, w1 * Vec3(f.n.dot(frame.e1), f.n.dot(frame.e2), f.n.dot(frame.e3)),
+                  curve_P);
+    dP[4] -= w1;  // r1 is r0
+    if (frame.difference != nullptr) {
+      add_harmonics(*frame.difference, q.v, -w1 * f.n, curve_F);
+      dF[4] -= w1;
+      return;
+    }
+    add_field_size(f, w1);
+    return;
   }
   const double nr = f.n.dot(q.radial), nz = f.n.dot(frame.e3);
   dP[3] += w1 * nr;
@@ -45,10 +76,23 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
     dP[4] += w1 * nr * q.cv;
     dP[5] += w1 * nz * q.sv;
   }
+  add_field_size(f, w1);
+}
+
+void SideTerms::add_field_size(const FieldValue& f, double w1)
+{
   dF[3] -= w1 * f.m.nr;
   // At the closest profile point (R + r0 c, r1 s) of F.
   dF[4] -= w1 * f.m.nr * f.m.c;
   dF[5] -= w1 * f.m.nz * f.m.s;
+}
+
+std::vector<double> SideTerms::geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,
+                                        const std::vector<double>& curve)
+{
+  std::vector<double> out{position[0], position[1], position[2], d[3], d[4], d[5]};
+  out.insert(out.end(), curve.begin(), curve.end());
+  return out;
 }
 
 template void SideTerms::add_parameters<1>(const PairFrame&, const FieldValue&, const ProbePoint&, double);

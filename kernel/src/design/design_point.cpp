@@ -1,5 +1,6 @@
 #include <hauberk/design/design_point.hpp>
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/separation.hpp>
 
 #include <algorithm>
@@ -22,6 +23,26 @@ constexpr int most_openings = 12;
 constexpr int most_tries = 24;
 constexpr double shortest_part = 1.0 / 256.0;
 
+std::shared_ptr<const ClosedCurve> mixed(const ClosedCurve& a, const ClosedCurve& b, double t)
+{
+  std::vector<Harmonic> harmonics = a.harmonics();
+  for (std::size_t k = 0; k < harmonics.size(); ++k) {
+    harmonics[k].c += t * (b.harmonics()[k].c - harmonics[k].c);
+    harmonics[k].s += t * (b.harmonics()[k].s - harmonics[k].s);
+  }
+  return std::make_shared<const ClosedCurve>(std::move(harmonics), 1.0);
+}
+
+/// Bound of the distance between points of two curves at the same coordinate.
+double farthest_apart(const ClosedCurve& a, const ClosedCurve& b)
+{
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    sum +=
+        (a.harmonics()[k].c - b.harmonics()[k].c).norm() + (a.harmonics()[k].s - b.harmonics()[k].s).norm();
+  return sum;
+}
+
 /// Model between a and b: bodies interpolated linearly. Kinds follow `b` unless both are tubes.
 Model between(const Model& a, const Model& b, double t)
 {
@@ -37,6 +58,7 @@ Model between(const Model& a, const Model& b, double t)
     q.bound = std::max(q.bound, o.bound);
     q.reach = std::max(q.reach, o.reach);
     if (!o.is_tube()) q.kind = o.kind;
+    if (q.curve) set_core(q, mixed(*q.curve, *o.curve, t), q.r0);
   }
   for (std::size_t i = 0; i < m.reach.size(); ++i) m.reach[i] = std::max(m.reach[i], b.reach[i]);
   return m;
@@ -44,8 +66,8 @@ Model between(const Model& a, const Model& b, double t)
 
 double shape_speed(const Body& a, const Body& b)
 {
-  return std::abs(a.R - b.R) + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) +
-         (a.center - b.center).norm();
+  const double core = a.curve ? farthest_apart(*a.curve, *b.curve) : std::abs(a.R - b.R);
+  return core + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
 }
 
 /// Largest relative motion, strain and change of shape included, of two elements that could meet, over the

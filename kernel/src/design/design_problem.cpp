@@ -86,6 +86,8 @@ void DesignProblem::list_constraints()
 {
   const Model& m = current_->model;
   const auto add_hole = [this](int ring, int thread) {
+    // Of a tube around a curve nobody knows how wide its hole is; links and rest gaps hold it open.
+    if (current_->model.bodies[static_cast<std::size_t>(ring)].curve) return;
     for (const int k : {4, 5}) {
       for (const Hole& h : holes_) {
         if (h.ring == ring && h.thread == thread && h.size_index == k) return;

@@ -1,4 +1,5 @@
 #include <hauberk/geometry/body.hpp>
+#include <hauberk/geometry/closed_curve.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,20 @@
 #include <vector>
 
 namespace hauberk {
+
+void set_core(Body& body, std::shared_ptr<const ClosedCurve> curve, double r)
+{
+  body.R = curve->mean_radius();
+  body.r0 = body.r1 = r;
+  body.bound = curve->radius() + r;
+  body.curve = nullptr;
+  body.point = nullptr;
+  auto point = std::make_shared<Body>(body);
+  point->kind = PrimitiveKind::circle_tube;
+  point->R = 0.0;
+  body.point = std::move(point);
+  body.curve = std::move(curve);
+}
 
 Body make_body(const Primitive& primitive, int element, int index, double length)
 {
@@ -20,6 +35,8 @@ Body make_body(const Primitive& primitive, int element, int index, double length
   b.axes = primitive.rotation;
   // Farthest surface point from the centre: |(R + r0 cos v, r1 sin v)| <= R + max(r0, r1).
   b.bound = b.R + std::max(b.r0, b.r1);
+  if (b.kind == PrimitiveKind::curve_tube)
+    set_core(b, std::make_shared<const ClosedCurve>(primitive.curve, 1.0 / length), b.r0);
   b.reach = b.center.norm() + b.bound;
   return b;
 }

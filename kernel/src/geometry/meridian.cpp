@@ -87,4 +87,18 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
   return d;
 }
 
+FieldValue ball_field(double r0, const Vec3& p)
+{
+  FieldValue f;
+  const double d = std::max(p.norm(), 1e-300);
+  f.rho = d;
+  f.n = p / d;
+  f.meridian = f.n.unitOrthogonal();
+  f.azimuth = f.n.cross(f.meridian);
+  const double across = std::hypot(f.n.x(), f.n.y());
+  f.m = {d - r0, across, f.n.z(), 1.0 / d, across, f.n.z()};
+  f.k_azimuth = 1.0 / d;
+  return f;
+}
+
 }  // namespace hauberk

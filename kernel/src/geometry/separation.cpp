@@ -1,6 +1,10 @@
+#include <hauberk/geometry/closed_curve.hpp>
+#include <hauberk/geometry/panel_bound.hpp>
 #include <hauberk/geometry/separation.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -62,6 +66,46 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
   return s;
 }
 
+/// Corners of a polygon in the tube of a body, world frame: its core may be pulled to it without leaving it.
+std::vector<Vec3> core_polygon(const Body& body, const Pose& pose)
+{
+  // A chord over h radians of a curve is |x_uu| h^2/8 from it at most; half of r is allowed.
+  const double second = body.curve ? body.curve->second() : body.R;
+  const int count = std::max(6, static_cast<int>(std::ceil(2.0 * pi / std::sqrt(4.0 * body.r0 / second))));
+  const Frame frame = world_frame(body, pose);
+  std::vector<Vec3> corners;
+  corners.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const Angle u(2.0 * pi * i / count);
+    const Vec3 local = body.curve ? body.curve->at(u).x : Vec3(body.R * u.c, body.R * u.s, 0.0);
+    corners.push_back(frame.center + frame.axes * local);
+  }
+  return corners;
+}
+
+/// Solid angle of a triangle seen from the origin, with sign (van Oosterom and Strackee 1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+/// Gauss's integral over two polygons in the tubes: the differences of two sides are a parallelogram, and
+/// what it covers of the sphere, seen from inside, is its part of 4 pi times the linking number.
+int linking_of_curves(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
+{
+  const std::vector<Vec3> a = core_polygon(A, pose_a), b = core_polygon(B, pose_b);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vec3 &p = a[i], &pn = a[(i + 1) % a.size()];
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const Vec3 &q = b[j], &qn = b[(j + 1) % b.size()];
+      sum += solid_angle(p - q, pn - q, pn - qn) + solid_angle(p - q, pn - qn, p - qn);
+    }
+  }
+  return static_cast<int>(-std::lround(sum / (4.0 * pi)));
+}
+
 }  // namespace
 
 Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance,
@@ -76,6 +120,12 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
   const double coarse = (ca - cb).norm() - A.bound - B.bound - clearance - rounding * size;
   if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
 
+  if (A.curve || B.curve) {
+    const bool swapped = !A.curve;
+    const PairFrame frame = swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
+    return frame.difference != nullptr ? bound_over_panels<2>(frame, clearance, enough, tightness)
+                                       : bound_over_panels<1>(frame, clearance, enough, tightness);
+  }
   // Of two tubes the smaller ring probes: the field of the larger one is smooth around it, while the core of
   // a ring that is threaded through a small one runs along its axis, where the field is not.
   if (A.is_tube() && !(B.is_tube() && B.R < A.R))
@@ -91,6 +141,7 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
 
 int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
 {
+  if (A.curve || B.curve) return linking_of_curves(A, pose_a, B, pose_b);
   // In B's frame the disc is z = 0, rho < R_B. The core of A is a + R (cos u e1 + sin u e2), so
   // z(u) = a_z + R h cos(u - u0) with h = hypot(e1_z, e2_z).
   const PairFrame f(A, pose_a, B, pose_b);

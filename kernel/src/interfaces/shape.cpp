@@ -1,4 +1,5 @@
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/shape.hpp>
 
 #include <Eigen/LU>
@@ -27,6 +28,22 @@ void check_parameters(const std::vector<ParameterInfo>& infos, std::span<const d
   }
 }
 
+std::string curve_defect(const Primitive& primitive)
+{
+  for (const Harmonic& h : primitive.curve) {
+    if (!h.c.allFinite() || !h.s.allFinite()) return "has a harmonic that is not finite";
+  }
+  if (primitive.r0() != primitive.r1()) return "is a curve tube with two radii";
+  const double bend = ClosedCurve(primitive.curve, 1.0).tightest_bend();
+  if (!(bend > primitive.r0())) {
+    std::ostringstream message;
+    message << "is a tube of radius " << primitive.r0() << " around a curve that bends with a radius of "
+            << bend;
+    return message.str();
+  }
+  return {};
+}
+
 /// Empty when the primitive is sound, else what is wrong with it.
 std::string defect(const Primitive& primitive)
 {
@@ -40,6 +57,10 @@ std::string defect(const Primitive& primitive)
   for (const double s : primitive.size) {
     if (!std::isfinite(s) || s <= 0.0) return "has a size that is not finite and positive";
   }
+  if ((primitive.kind == PrimitiveKind::curve_tube) == primitive.curve.empty())
+    return primitive.curve.empty() ? "is a curve tube without harmonics"
+                                   : "has harmonics, but is no curve tube";
+  if (primitive.kind == PrimitiveKind::curve_tube) return curve_defect(primitive);
   if (primitive.kind == PrimitiveKind::circle_tube && primitive.r0() != primitive.r1()) {
     return "is a circle tube with two radii";
   }
@@ -54,7 +75,8 @@ std::vector<Primitive> Shape::primitives(std::span<const double> p) const
   std::vector<Primitive> out;
   do_primitives(p, out);
   if (out.empty()) throw PluginError("shape: no primitives returned");
-  for (const Primitive& primitive : out) {
+  for (Primitive& primitive : out) {
+    if (!primitive.curve.empty()) primitive.size[0] = ClosedCurve(primitive.curve, 1.0).mean_radius();
     const std::string what = defect(primitive);
     if (!what.empty()) throw PluginError("shape: primitive '" + primitive.name + "' " + what);
   }
@@ -67,8 +89,13 @@ std::vector<PrimitiveJacobian> Shape::jacobians(std::span<const double> p) const
   std::vector<PrimitiveJacobian> out;
   do_jacobians(p, out);
   if (out.empty()) throw PluginError("shape: no Jacobians returned");
-  const std::size_t expected = primitive_dofs * p.size();
+  const std::vector<Primitive> shapes = primitives(p);
+  if (out.size() != shapes.size()) {
+    throw PluginError("shape: " + std::to_string(out.size()) + " Jacobians returned for " +
+                      std::to_string(shapes.size()) + " primitives");
+  }
   for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::size_t expected = static_cast<std::size_t>(geometric_dofs(shapes[i])) * p.size();
     const std::string which = "shape: Jacobian of primitive " + std::to_string(i);
     if (out[i].size() != expected) {
       throw PluginError(which + " has " + std::to_string(out[i].size()) + " entries, expected " +

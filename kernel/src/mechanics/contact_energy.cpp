@@ -229,20 +229,16 @@ class Assembler {
   void add_parameters(int p, int f, const Mat3& M, const Pose& pp, const Pose& pf, const SideTerms& t)
   {
     out_.d_clearance += t.d_clearance;
-    const auto add = [&](int body, const Pose& pose, const std::array<double, primitive_dofs>& d) {
-      const auto k = static_cast<std::size_t>(body);
-      const Vec3 local = pose.rotation.transpose() * (M * Vec3(d[0], d[1], d[2]));
-      const std::array<double, primitive_dofs> full{local[0], local[1], local[2], d[3], d[4], d[5]};
-      const int element = m_.bodies[k].element;
-      const int n = m_.parameter_count[static_cast<std::size_t>(element)];
-      for (int r = 0; r < primitive_dofs; ++r) {
-        for (int c = 0; c < n; ++c) {
-          out_.parameters(c, element) += full[static_cast<std::size_t>(r)] * m_.size_derivative(k, r, c);
-        }
-      }
+    const auto in_element = [&](const Pose& pose, const std::array<double, primitive_dofs>& d) -> Vec3 {
+      return pose.rotation.transpose() * (M * Vec3(d[0], d[1], d[2]));
     };
-    add(p, pp, t.dP);
-    add(f, pf, t.dF);
+    const auto add = [&](int body, const std::vector<double>& geometry) {
+      const Vector gradient = parameter_gradient(m_, body, geometry);
+      out_.parameters.col(m_.bodies[static_cast<std::size_t>(body)].element).head(gradient.size()) +=
+          gradient;
+    };
+    add(p, t.geometry_of_P(in_element(pp, t.dP)));
+    add(f, t.geometry_of_F(in_element(pf, t.dF)));
   }
 
   const Model& m_;

@@ -34,6 +34,12 @@ Gap gap_between(const Side& side, double gap)
   return g;
 }
 
+/// The derivative in a body's position, from F's frame to that of the body's element.
+Vec3 in_element(const PairFrame& frame, const Pose& pose, const std::array<double, primitive_dofs>& d)
+{
+  return pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
+}
+
 /// Derivatives of a gap out of those of its side (terms of weight 1).
 void set_derivatives(const Side& side, const PairFrame& frame, const SideTerms& t, Gap& g)
 {
@@ -49,40 +55,25 @@ void set_derivatives(const Side& side, const PairFrame& frame, const SideTerms& 
   g.dy.segment(m.offset(side.pair.j), nc) -= side.mj.J.middleCols(nm, nc).transpose() * eta;
   g.dy.segment<3>(m.offset(side.pair.i) + nc) += wi;
   g.dy.segment<3>(m.offset(side.pair.j) + nc) += wj;
-  const auto chain = [&](int body, const Pose& pose, const std::array<double, primitive_dofs>& d) {
-    const auto k = static_cast<std::size_t>(body);
-    const Vec3 local = pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
-    const std::array<double, primitive_dofs> full{local[0], local[1], local[2], d[3], d[4], d[5]};
-    const int n = m.parameter_count[static_cast<std::size_t>(m.bodies[k].element)];
-    Vector out_d = Vector::Zero(n);
-    for (int r = 0; r < primitive_dofs; ++r) {
-      for (int c = 0; c < n; ++c) {
-        out_d[c] += full[static_cast<std::size_t>(r)] * m.size_derivative(k, r, c);
-      }
-    }
-    return out_d;
-  };
-  const Vector dp = chain(side.p, side.pp, t.dP), df = chain(side.f, side.pf, t.dF);
+  const Vector dp = parameter_gradient(m, side.p, t.geometry_of_P(in_element(frame, side.pp, t.dP)));
+  const Vector df = parameter_gradient(m, side.f, t.geometry_of_F(in_element(frame, side.pf, t.dF)));
   g.da = side.swapped ? df : dp;
   g.db = side.swapped ? dp : df;
 }
 
 template <int dim>
-void gaps_of(const Side& side, double range, bool derivatives, std::vector<Gap>& out)
+void gaps_of(const Side& side, const PairFrame& frame, double range, bool derivatives, std::vector<Gap>& out)
 {
   const Model& m = side.m;
-  const Body& P = m.bodies[static_cast<std::size_t>(side.p)];
-  const Body& F = m.bodies[static_cast<std::size_t>(side.f)];
-  const PairFrame frame(P, side.pp, F, side.pf);
   const Probe<dim> probe(frame);
   int evaluations = 0;
   for (const Minimum& mm : local_minima<dim>(frame, range + m.clearance, evaluations)) {
     Gap g = gap_between(side, mm.distance - m.clearance);
     if (derivatives) {
       const ProbePoint q = probe.at(mm.u, mm.v);
-      const FieldValue v = field_at(F, q.p);
+      const FieldValue v = field_at(*frame.F, q.p);
       SideTerms t;
-      t.add(v, q.p - frame.o, 1.0, 0.0, 1);
+      t.add(v, q.on_p - frame.o, 1.0, 0.0, 1);
       t.template add_parameters<dim>(frame, v, q, 1.0);
       set_derivatives(side, frame, t, g);
     }
@@ -91,11 +82,10 @@ void gaps_of(const Side& side, double range, bool derivatives, std::vector<Gap>&
 }
 
 /// Of meshes: the smallest gap, or with derivatives those of all features within range.
-void mesh_gaps(const Side& side, double range, bool derivatives, std::vector<Gap>& out)
+void mesh_gaps(const Side& side, const PairFrame& frame, double range, bool derivatives,
+               std::vector<Gap>& out)
 {
   const Model& m = side.m;
-  const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,
-                        m.bodies[static_cast<std::size_t>(side.f)], side.pf);
   if (derivatives) {
     for (const FeatureGap& feature : feature_gaps(frame, range, m.clearance)) {
       Gap g = gap_between(side, feature.gap);
@@ -115,15 +105,17 @@ void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose
 {
   const Body& A = m.bodies[static_cast<std::size_t>(a)];
   const Body& B = m.bodies[static_cast<std::size_t>(b)];
-  const bool swapped = !A.facets && !A.is_tube() && B.is_tube();
+  const bool swapped = !A.facets && probe_rank(B) < probe_rank(A);
   const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
                   mi, mj};
+  const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,
+                        m.bodies[static_cast<std::size_t>(side.f)], side.pf);
   if (A.facets) {
-    mesh_gaps(side, range, derivatives, out);
-  } else if (A.is_tube() || B.is_tube()) {
-    gaps_of<1>(side, range, derivatives, out);
+    mesh_gaps(side, frame, range, derivatives, out);
+  } else if (probe_dimension(frame) == 1) {
+    gaps_of<1>(side, frame, range, derivatives, out);
   } else {
-    gaps_of<2>(side, range, derivatives, out);
+    gaps_of<2>(side, frame, range, derivatives, out);
   }
 }
 

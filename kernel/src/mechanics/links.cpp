@@ -20,7 +20,7 @@ std::vector<Link> find_links(const Model& m, const State& s)
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         const double d =
             (p[i].position + p[i].rotation * A.center - other.position - other.rotation * B.center).norm();
-        if (d >= A.R + B.R) continue;
+        if (d >= A.core_bound() + B.core_bound()) continue;
         const int number = linking_number(A, p[i], B, other);
         if (number != 0) links.push_back({a, b, pair.image, number});
       }

@@ -115,6 +115,10 @@ void set_facets(Model& m, int count)
 {
   std::map<std::array<double, 3>, std::shared_ptr<const Facets>> made;
   for (Body& b : m.bodies) {
+    if (b.curve) {
+      throw InputError(
+          "contact 'mesh' knows tori only, no tubes around curves; use solver.contact auto, arc or nearest");
+    }
     std::shared_ptr<const Facets>& facets = made[{b.R, b.r0, b.r1}];
     if (!facets) facets = std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
     b.facets = facets;
@@ -166,6 +170,16 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
 constexpr int most_dense = 250;
 
 bool Model::sparse() const { return held.cols() == 0 && dofs() > most_dense; }
+
+Vector parameter_gradient(const Model& m, int body, const std::vector<double>& geometry)
+{
+  const auto k = static_cast<std::size_t>(body);
+  Vector out = Vector::Zero(m.parameter_count[static_cast<std::size_t>(m.bodies[k].element)]);
+  for (std::size_t r = 0; r < geometry.size(); ++r) {
+    for (int c = 0; c < out.size(); ++c) out[c] += geometry[r] * m.size_derivative(k, static_cast<int>(r), c);
+  }
+  return out;
+}
 
 State rest_state(const Model& m)
 {

@@ -95,7 +95,7 @@ class PairAdvance {
       const Panel s = open_.back();
       open_.pop_back();
       const ProbePoint q = probe.at(s.u, s.v);
-      const FieldValue f = field_at(F_, q.p);
+      const FieldValue f = field_at(*frame_.F, q.p);
       ++count_.evaluations;
       if (f.m.phi - probe.offset - clearance_ < target) return 0.0;
       Verdict verdict = look(probe, s, q, f, tau, target);
@@ -132,20 +132,20 @@ class PairAdvance {
     const double second = size.second + (d + travel) * (d + travel) / rho;
     if (rho > 0.0 && g - slope - time - angular_ * d * tau - 0.5 * second >= target) return Verdict::holds;
     const PanelSize path = path_size(size, tau);
-    if (!F_.is_tube()) {
-      const RolledField rolled(F_, f);
+    if (!frame_.F->is_tube()) {
+      const RolledField rolled(*frame_.F, f);
       const FieldCurvature field = rolled.curvature(path.first);
       if (g + expanded(probe, s, q, rolled.f, motion_of(q, rolled.f), field, path, tau) >= target)
         return Verdict::holds;
     }
-    if (g + expanded(probe, s, q, f, motion, field_curvature(F_, f, path.first), path, tau) >= target)
+    if (g + expanded(probe, s, q, f, motion, field_curvature(*frame_.F, f, path.first), path, tau) >= target)
       return Verdict::holds;
 
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
     const PanelSize moved = path_size({}, tau);
     if (g - std::min(alone, travel) < target &&
-        g - lost(motion, field_curvature(F_, f, moved.first), moved, tau) < target)
+        g - lost(motion, field_curvature(*frame_.F, f, moved.first), moved, tau) < target)
       return Verdict::too_long;
     return s.hu < smallest_panel || count_.evaluations >= last_ ? Verdict::too_long : Verdict::too_wide;
   }
@@ -161,7 +161,7 @@ class PairAdvance {
   {
     // x = R_F^T (x_P - o_F) with R_F = exp(w_F t), x_P = o_P + exp(w_P t) arm:
     //   x' = v + w_P x arm - w_F x y,  x'' = w_P x (w_P x arm) + w_F x (w_F x y) - 2 w_F x (v + w_P x arm).
-    const Vec3 arm = q.p - frame_.o, y = q.p - of_;
+    const Vec3 arm = q.on_p - frame_.o, y = q.on_p - of_;
     const Vec3 own = v_ + wp_.cross(arm);
     Motion out;
     out.velocity = own - wf_.cross(y);
@@ -171,10 +171,11 @@ class PairAdvance {
     return out;
   }
 
-  /// d^2 phi/(du dt), p_u or p_v given.
-  double mixed_derivative(const FieldValue& f, const Vec3& along, const Motion& motion) const
+  /// d^2 phi/(du dt), p_u or p_v given; `turns` as P does, not so along F's own core.
+  double mixed_derivative(const FieldValue& f, const Vec3& along, const Motion& motion, bool turns) const
   {
-    return field_hessian(f, along, motion.velocity) + f.n.dot((wp_ - wf_).cross(along));
+    const double curved = field_hessian(f, along, motion.velocity);
+    return turns ? curved + f.n.dot((wp_ - wf_).cross(along)) : curved;
   }
 
   /// Bounds of the paths of points over a panel of this size and a time tau.
@@ -193,8 +194,9 @@ class PairAdvance {
   {
     if (!(field.third < std::numeric_limits<double>::infinity()))
       return -std::numeric_limits<double>::infinity();
-    double cross = std::abs(mixed_derivative(f, q.pu, motion)) * s.hu * tau;
-    if constexpr (dim == 2) cross += std::abs(mixed_derivative(f, q.pv, motion)) * s.hv * tau;
+    double cross = std::abs(mixed_derivative(f, q.pu, motion, true)) * s.hu * tau;
+    if constexpr (dim == 2)
+      cross += std::abs(mixed_derivative(f, q.pv, motion, frame_.difference == nullptr)) * s.hv * tau;
     return least_to_second_order(probe, s, q, f) - cross - lost(motion, field, path, tau);
   }
 
@@ -252,11 +254,10 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
         ++out.tight_pairs;
         const double target = keep * gap;
         // Of equal kinds the smaller ring probes, see separation().
-        const bool swap = probe_dimension(B) < probe_dimension(A) ||
-                          (probe_dimension(B) == probe_dimension(A) && B.R < A.R);
+        const bool swap = probe_rank(B) < probe_rank(A) || (probe_rank(B) == probe_rank(A) && B.R < A.R);
         const Body &P = swap ? B : A, &F = swap ? A : B;
         const Track &tp = swap ? tj : ti, &tf = swap ? ti : tj;
-        out.alpha = probe_dimension(P) == 1
+        out.alpha = probe_dimension(PairFrame(P, pair.pi, F, pair.pj)) == 1
                         ? PairAdvance<1>(P, tp, F, tf, m.clearance, out).run(out.alpha, target)
                         : PairAdvance<2>(P, tp, F, tf, m.clearance, out).run(out.alpha, target);
         if (out.alpha <= 0.0) return out;

@@ -15,13 +15,11 @@ namespace {
 constexpr std::size_t most_tight_pairs = 10;
 constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 
-std::string kind_name(PrimitiveKind k)
-{
-  return k == PrimitiveKind::circle_tube ? "circle_tube" : "revolved_ellipse";
-}
-
 std::string reduction(const Body& a, const Body& b)
 {
+  if (a.curve && b.curve) return "distance of two curves minus radii: both coordinates searched";
+  if (a.curve || b.curve)
+    return "one coordinate of the curve searched, the distance to the torus in closed form or by one angle";
   if (a.is_tube() && b.is_tube())
     return "distance of two circles minus radii: one angle searched, the other in closed form";
   if (a.is_tube() || b.is_tube())
@@ -37,7 +35,8 @@ bool spins(const Model& m, std::size_t element)
   for (int k = m.first_body[element]; k < m.first_body[element + 1]; ++k) {
     const Body& b = m.bodies[static_cast<std::size_t>(k)];
     const Vec3 axis = first.axes.col(2);
-    if (b.axes.col(2).cross(axis).norm() > 1e-12 || (b.center - first.center).cross(axis).norm() > 1e-12)
+    if (b.curve || b.axes.col(2).cross(axis).norm() > 1e-12 ||
+        (b.center - first.center).cross(axis).norm() > 1e-12)
       return false;
   }
   return true;
@@ -80,7 +79,7 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
   }
   if (m.coordinate_count == 2) p.decisions.emplace_back("z is fixed: one unknown less per element");
   const bool smooth_only =
-      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
+      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube() || b.curve; });
   if (smooth_only)
     p.decisions.emplace_back("every cross-section is a circle: no surface is searched in two angles");
   switch (settings.contact) {
@@ -157,7 +156,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
-        std::string x = kind_name(A.kind), y = kind_name(B.kind);
+        std::string x = name_of(A.kind), y = name_of(B.kind);
         if (y < x) std::swap(x, y);
         const std::string name = fmt::format("{} / {}", x, y);
         PairPlan& k = kinds[name];

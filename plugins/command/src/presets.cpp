@@ -81,6 +81,15 @@ std::string paper_problem(const SceneSpec& scene, const std::string& unit)
   return {};
 }
 
+bool has_curve_tube(const SceneSpec& scene)
+{
+  return std::any_of(scene.elements.begin(), scene.elements.end(), [&scene](const PlacedElement& e) {
+    const auto primitives = scene.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters);
+    return std::any_of(primitives.begin(), primitives.end(),
+                       [](const Primitive& p) { return p.kind == PrimitiveKind::curve_tube; });
+  });
+}
+
 }  // namespace
 
 std::vector<Problem> solver_problems(const Experiment& e)
@@ -113,6 +122,12 @@ std::vector<Problem> solver_problems(const Experiment& e)
     out.push_back({"/solver/contact", 0, "contact 'mesh' is for limits only; use auto or arc for a design"});
   }
   const bool published = contact_choice(solver) == ContactChoice::published;
+  const bool tori_only = published || solver.contact == "mesh" || solver.ccd == "sampled";
+  if ((tori_only || e.task == Task::transition) && has_curve_tube(e.scene)) {
+    out.push_back({tori_only ? "/solver" : "/task", 0,
+                   "this scene has tubes around curves, and contact 'published' or 'mesh', ccd 'sampled', "
+                   "preset 'paper' and task 'transition' know tori only; use contact auto, arc or nearest"});
+  }
   if (!published && solver.closest_points == "sampled") {
     out.push_back(
         {"/solver/closest_points", 0,

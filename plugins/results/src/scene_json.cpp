@@ -7,26 +7,19 @@ namespace {
 
 namespace json = boost::json;
 
-std::string_view kind_name(PrimitiveKind kind)
-{
-  switch (kind) {
-    case PrimitiveKind::circle_tube:
-      return "circle_tube";
-    case PrimitiveKind::revolved_ellipse:
-      return "revolved_ellipse";
-  }
-  throw std::logic_error("primitive kind without a name in results");
-}
-
 json::object primitive_json(const Primitive& primitive)
 {
   json::object out;
   out["name"] = primitive.name;
-  out["kind"] = kind_name(primitive.kind);
+  out["kind"] = name_of(primitive.kind);
   out["parameters"] = {
       {"R", number(primitive.R())}, {"r0", number(primitive.r0())}, {"r1", number(primitive.r1())}};
   out["position"] = vector_json(primitive.position);
   out["quaternion"] = quaternion_json(primitive.rotation);
+  if (primitive.curve.empty()) return out;
+  json::array& curve = out["curve"].emplace_array();
+  for (const Harmonic& h : primitive.curve)
+    curve.push_back(json::object{{"cos", vector_json(h.c)}, {"sin", vector_json(h.s)}});
   return out;
 }
 

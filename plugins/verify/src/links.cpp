@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hauberk::verification {
 namespace {
@@ -33,10 +34,37 @@ int number_in(const std::vector<Link>& list, const Link& pair)
   return it == list.end() ? 0 : it->number;
 }
 
+/// Gauss's integral of two cores that do not meet, 1/(4 pi) of that of (x - y) . (dx cross dy)/|x - y|^3, by
+/// ever finer sums, which for closed smooth curves converge faster than any power.
+int gauss_number(const Torus& a, const Torus& b)
+{
+  const auto sum = [&](int count) {
+    const double width = 2.0 * std::numbers::pi / count;
+    double total = 0.0;
+    for (int i = 0; i < count; ++i) {
+      const Vec3 x = core_point(a, i * width), dx = core_tangent(a, i * width);
+      for (int j = 0; j < count; ++j) {
+        const Vec3 d = x - core_point(b, (j + 0.5) * width), dy = core_tangent(b, (j + 0.5) * width);
+        total += d.dot(dx.cross(dy)) / std::pow(d.squaredNorm(), 1.5);
+      }
+    }
+    return total * width * width / (4.0 * std::numbers::pi);
+  };
+  double last = sum(32);
+  for (int count = 64; count <= 2048; count *= 2) {
+    const double now = sum(count);
+    if (std::abs(now - last) < 0.05 && std::abs(now - std::round(now)) < 0.05)
+      return static_cast<int>(std::lround(now));
+    last = now;
+  }
+  return static_cast<int>(std::lround(last));
+}
+
 }  // namespace
 
 int linking_number(const Torus& a, const Torus& b)
 {
+  if (!a.curve.empty() || !b.curve.empty()) return gauss_number(a, b);
   // Height of b's circle above a's plane: alpha cos u + beta sin u + gamma.
   const Vec3 n = a.place.rotation.col(2);
   const double alpha = b.R * n.dot(b.place.rotation.col(0)), beta = b.R * n.dot(b.place.rotation.col(1));

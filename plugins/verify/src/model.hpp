@@ -27,11 +27,13 @@ struct Place {
   Mat3 rotation = Mat3::Identity();
 };
 
-/// An ellipse with half-axes r0 (radial) and r1 (axial), revolved at distance R about its own z axis.
+/// An ellipse with half-axes r0 (radial) and r1 (axial), revolved at distance R about its own z axis; or a
+/// tube of radius r0 = r1 around a curve, the sum of c cos k u + s sin k u over k = 1, 2, ...
 struct Torus {
   std::string name;
   Place place;  ///< in its element's frame, or in space
   double R = 0.0, r0 = 0.0, r1 = 0.0;
+  std::vector<std::array<Vec3, 2>> curve;  ///< (c, s) of each k; none: a torus
   int facets = 0;  ///< its surface is a mesh of facets x facets quadrilaterals; 0: the surface itself
 };
 

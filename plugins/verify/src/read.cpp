@@ -1,5 +1,7 @@
 #include "read.hpp"
 
+#include "surface.hpp"
+
 #include <Eigen/Geometry>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
@@ -51,8 +53,8 @@ Torus read_torus(const json::value& v, const std::string& where)
   out.name = text(member(v, "name", where), where + "/name");
   out.place = read_place(v, where);
   const std::string kind = text(member(v, "kind", where), where + "/kind");
-  if (kind != "circle_tube" && kind != "revolved_ellipse")
-    throw Malformed(where + "/kind: circle_tube or revolved_ellipse expected, found " + kind);
+  if (kind != "circle_tube" && kind != "revolved_ellipse" && kind != "curve_tube")
+    throw Malformed(where + "/kind: circle_tube, revolved_ellipse or curve_tube expected, found " + kind);
   const std::string at = where + "/parameters";
   const json::value& parameters = member(v, "parameters", where);
   out.R = number(member(parameters, "R", at), at + "/R");
@@ -60,7 +62,16 @@ Torus read_torus(const json::value& v, const std::string& where)
   out.r1 = number(member(parameters, "r1", at), at + "/r1");
   if (!(out.R > out.r0 && out.r0 > 0.0 && out.r1 > 0.0))
     throw Malformed(at + ": not a torus (R > r0 > 0, r1 > 0)");
-  if (kind == "circle_tube" && out.r0 != out.r1) throw Malformed(at + ": a circle_tube has r0 = r1");
+  if (kind != "revolved_ellipse" && out.r0 != out.r1) throw Malformed(at + ": a " + kind + " has r0 = r1");
+  if (kind == "curve_tube") {
+    const std::string place = where + "/curve";
+    for (const json::value& term : array(member(v, "curve", where), place)) {
+      const std::string of = place + '/' + std::to_string(out.curve.size());
+      out.curve.push_back({read_vector(member(term, "cos", of), of + "/cos"),
+                           read_vector(member(term, "sin", of), of + "/sin")});
+    }
+    if (out.curve.empty()) throw Malformed(place + ": empty");
+  }
   return out;
 }
 
@@ -145,8 +156,8 @@ Scene read_scene(const json::value& scene, const std::string& where)
     for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
       element.tori.push_back(read_torus(p, at + "/primitives/" + std::to_string(element.tori.size())));
       const Torus& torus = element.tori.back();
-      element.reach =
-          std::max(element.reach, torus.place.position.norm() + torus.R + std::max(torus.r0, torus.r1));
+      element.reach = std::max(
+          element.reach, torus.place.position.norm() + core_reach(torus) + std::max(torus.r0, torus.r1));
     }
     out.elements.push_back(std::move(element));
   }

@@ -146,7 +146,8 @@ double torus_minimum(const F& f, double slope_u, double slope_v)
 /// A tube of constant radius is an offset of its core: its distance is that of the core less the radius.
 double tube_separation(const Torus& tube, const Torus& other)
 {
-  return circle_minimum([&](double u) { return signed_distance(other, core_point(tube, u)); }, tube.R) -
+  return circle_minimum([&](double u) { return signed_distance(other, core_point(tube, u)); },
+                        core_speed(tube)) -
          tube.r0;
 }
 

@@ -29,6 +29,46 @@ double closest_angle(double a, double b, double p, double q)
   return v;
 }
 
+/// Bound of the length of the derivative of this order of a curve.
+double sum_of_terms(const Torus& torus, int order)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < torus.curve.size(); ++i)
+    sum +=
+        std::pow(static_cast<double>(i + 1), order) * (torus.curve[i][0].norm() + torus.curve[i][1].norm());
+  return sum;
+}
+
+/// Tries points so close to each other that between two of them there is one lowest at most, as long as x is
+/// not at a centre of curvature; then halves the bracket of the slope around each that is lower than its
+/// neighbours.
+double distance_from_curve(const Torus& torus, const Vec3& x, Vec3* outward)
+{
+  const int count = 48 * static_cast<int>(torus.curve.size());
+  const double width = 2.0 * std::numbers::pi / count;
+  const auto at = [&](int i) { return (core_point(torus, i * width) - x).squaredNorm(); };
+  const auto slope = [&](double u) { return (core_point(torus, u) - x).dot(core_tangent(torus, u)); };
+  Vec3 nearest = core_point(torus, 0.0);
+  double before = at(-1), now = at(0);
+  for (int i = 0; i < count; ++i) {
+    const double after = at(i + 1);
+    if (now <= before && now <= after) {
+      double low = (i - 1) * width, high = (i + 1) * width;
+      for (int k = 0; k < 50; ++k) {
+        const double middle = 0.5 * (low + high);
+        (slope(middle) < 0.0 ? low : high) = middle;
+      }
+      const Vec3 found = core_point(torus, 0.5 * (low + high));
+      if ((found - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = found;
+    }
+    before = now;
+    now = after;
+  }
+  const double core = (x - nearest).norm();
+  if (outward != nullptr) *outward = core > 0.0 ? Vec3((x - nearest) / core) : Vec3::UnitX();
+  return core - torus.r0;
+}
+
 }  // namespace
 
 Place compose(const Place& a, const Place& b)
@@ -45,6 +85,7 @@ Torus placed(const Torus& torus, const Place& element)
 
 double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward)
 {
+  if (!torus.curve.empty()) return distance_from_curve(torus, x, outward);
   const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
   const double rho = std::hypot(local.x(), local.y());
   const double p = rho - torus.R, q = local.z(), a = torus.r0, b = torus.r1;
@@ -73,9 +114,32 @@ double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward)
 
 Vec3 core_point(const Torus& torus, double u)
 {
+  if (!torus.curve.empty()) {
+    Vec3 local = Vec3::Zero();
+    for (std::size_t i = 0; i < torus.curve.size(); ++i) {
+      const double ku = static_cast<double>(i + 1) * u;
+      local += std::cos(ku) * torus.curve[i][0] + std::sin(ku) * torus.curve[i][1];
+    }
+    return torus.place.position + torus.place.rotation * local;
+  }
   return torus.place.position +
          torus.place.rotation * Vec3(torus.R * std::cos(u), torus.R * std::sin(u), 0.0);
 }
+
+Vec3 core_tangent(const Torus& torus, double u)
+{
+  Vec3 local(-torus.R * std::sin(u), torus.R * std::cos(u), 0.0);
+  if (!torus.curve.empty()) local.setZero();
+  for (std::size_t i = 0; i < torus.curve.size(); ++i) {
+    const double k = static_cast<double>(i + 1);
+    local += k * (std::cos(k * u) * torus.curve[i][1] - std::sin(k * u) * torus.curve[i][0]);
+  }
+  return torus.place.rotation * local;
+}
+
+double core_reach(const Torus& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 0); }
+
+double core_speed(const Torus& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 1); }
 
 Vec3 surface_point(const Torus& torus, double u, double v)
 {

@@ -25,7 +25,20 @@ Eigen::Vector2d angles(const Torus& torus, const Vec3& x)
   return {std::atan2(local.y(), local.x()), std::atan2(local.z() * torus.r0, p * torus.r1)};
 }
 
-/// Distance of b to the core circle of a tube at u, and its derivative.
+/// Coordinate of the point of a tube's core that is nearest to x, close enough to start from.
+double core_angle(const Torus& tube, const Vec3& x)
+{
+  if (tube.curve.empty()) return angles(tube, x)[0];
+  const int count = 48 * static_cast<int>(tube.curve.size());
+  int nearest = 0;
+  for (int i = 1; i < count; ++i) {
+    const auto distance = [&](int k) { return (core_point(tube, k * full_turn / count) - x).norm(); };
+    if (distance(i) < distance(nearest)) nearest = i;
+  }
+  return nearest * full_turn / count;
+}
+
+/// Distance of b to the core of a tube at u, and its derivative.
 struct OnCore {
   double value, slope;
   Vec3 outward;
@@ -34,9 +47,8 @@ struct OnCore {
 OnCore on_core(const Torus& tube, const Torus& b, double u)
 {
   OnCore out{};
-  const Vec3 tangent = tube.place.rotation * Vec3(-tube.R * std::sin(u), tube.R * std::cos(u), 0.0);
   out.value = signed_distance(b, core_point(tube, u), &out.outward);
-  out.slope = out.outward.dot(tangent);
+  out.slope = out.outward.dot(core_tangent(tube, u));
   return out;
 }
 
@@ -110,8 +122,8 @@ Touching descend_surface(const Torus& a, const Torus& b, Eigen::Vector2d at)
 
 Touching touching_near(const Torus& a, const Torus& b, const Vec3& near)
 {
-  if (a.r0 == a.r1) return descend_tube(a, b, angles(a, near)[0]);
-  if (b.r0 == b.r1) return flipped(descend_tube(b, a, angles(b, near)[0]));
+  if (a.r0 == a.r1) return descend_tube(a, b, core_angle(a, near));
+  if (b.r0 == b.r1) return flipped(descend_tube(b, a, core_angle(b, near)));
   return descend_surface(a, b, angles(a, near));
 }
 
@@ -133,7 +145,7 @@ std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
     return f[static_cast<std::size_t>(k)];
   };
   // A minimum between samples is lower than they are by at most half a cell.
-  const double cell = 0.5 * (a.R + a.r0) * full_turn / around;
+  const double cell = 0.5 * (core_speed(a) + a.r0) * full_turn / around;
   for (int i = 0; i < around; ++i) {
     const double core = signed_distance(b, core_point(a, u(i)));
     // No point of a section is farther from its core than this, and the distance changes by no more.

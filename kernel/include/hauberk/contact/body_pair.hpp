@@ -18,7 +18,7 @@ struct PairSide {
 };
 
 /// The sides that make up the energy of a pair: the cheaper probe set; both, half each, for an arc between
-/// equals, so that labels do not matter.
+/// equals, so that labels do not matter. The difference of two curves is one side, which knows no order.
 std::span<const PairSide> pair_sides(const Body& A, const Body& B, Formulation formulation);
 
 /// Terms of one side by the formulation of `settings`, weight `share`.
@@ -57,7 +57,7 @@ struct ContactMinimum {
 };
 
 /// All local minima with a surface distance below `threshold` (certified: none is missed), nearest first;
-/// those of overlapping surfaces are left out. Scaled lengths. Thread safe.
+/// those of overlapping surfaces are left out. Of tori only. Scaled lengths. Thread safe.
 std::vector<ContactMinimum> contact_minima(const Body& A, const Pose& pose_a, const Body& B,
                                            const Pose& pose_b, double threshold, double clearance,
                                            int& evaluations);

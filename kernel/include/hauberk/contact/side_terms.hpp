@@ -36,6 +36,8 @@ struct SideTerms {
   double d_clearance = 0.0;
   /// d energy / d(position in the element frame, R, r0, r1) of P and F; positions in F's frame here.
   std::array<double, primitive_dofs> dP{}, dF{};
+  /// d energy / d(harmonics of the core), in the frame of its body; empty for other bodies.
+  std::vector<double> curve_P, curve_F;
   double min_gap = std::numeric_limits<double>::infinity();
   double regularity = std::numeric_limits<double>::infinity();  ///< see `relative_curvature` in nearest
   int evaluations = 0;
@@ -53,6 +55,15 @@ struct SideTerms {
   /// Adds w1 times the derivatives of the gap in the geometry of both bodies, at fixed probe coordinates.
   template <int dim>
   void add_parameters(const PairFrame& frame, const FieldValue& f, const ProbePoint& q, double w1);
+
+  /// d energy / d(all geometric quantities of P or F), positions as given in the frame of its element.
+  std::vector<double> geometry_of_P(const Vec3& position) const { return geometry(position, dP, curve_P); }
+  std::vector<double> geometry_of_F(const Vec3& position) const { return geometry(position, dF, curve_F); }
+
+ private:
+  void add_field_size(const FieldValue& f, double w1);
+  static std::vector<double> geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,
+                                      const std::vector<double>& curve);
 };
 
 /// Terms in the world frame for (eta, w_P, w_F), eta = shift of P's element minus shift of F's.

@@ -6,6 +6,7 @@
 
 namespace hauberk {
 
+class ClosedCurve;
 class Facets;
 
 /// A primitive of a placed element, lengths scaled by L, placed in the element frame.
@@ -20,11 +21,20 @@ struct Body {
   double reach = 0.0;  ///< radius of a sphere about the element's origin that holds the surface
   /// Mesh that stands for the surface in contact; null: the surface itself.
   std::shared_ptr<const Facets> facets;
+  /// Core of a curve tube, in the frame of the body; else null.
+  std::shared_ptr<const ClosedCurve> curve;
+  /// Of a curve tube: a tube as thick around a circle of no radius, which is a ball. See PairFrame.
+  std::shared_ptr<const Body> point;
 
   bool is_tube() const { return kind == PrimitiveKind::circle_tube; }
-  /// Radius of the largest ball that passes through the hole.
-  double hole() const { return R - r0; }
+  /// A ball of radius r0.
+  bool is_point() const { return R == 0.0; }
+  /// Radius of a ball about `center` that holds the core.
+  double core_bound() const { return curve ? bound - r0 : R; }
 };
+
+/// Gives a body the core `curve` (scaled lengths) of a tube of radius r.
+void set_core(Body& body, std::shared_ptr<const ClosedCurve> curve, double r);
 
 /// Scales a primitive by 1/length.
 Body make_body(const Primitive& primitive, int element, int index, double length);

@@ -50,8 +50,13 @@ struct FieldValue {
   double k_azimuth = 0.0;
 };
 
+/// The field of a ball: |p| - r0, whose level surfaces bend by 1/|p| in all directions. `rho` is the distance
+/// from the centre, the only place where the field is not smooth.
+FieldValue ball_field(double r0, const Vec3& p);
+
 inline FieldValue field_at(const Body& body, const Vec3& p)
 {
+  if (body.is_point()) return ball_field(body.r0, p);
   FieldValue f;
   f.rho = std::max(std::sqrt(p.x() * p.x() + p.y() * p.y()), 1e-300);
   const double ex = p.x() / f.rho;

@@ -2,10 +2,12 @@
 /// Two bodies seen from one of them: probe points of body P in the distance field of body F.
 ///
 /// Every exact distance that is needed reduces to "points that ride on P, in the closed-form distance field
-/// of F": a circle tube is probed along its core circle (one angle u, offset r), any other body over its
-/// surface (two angles u, v, no offset). Both contact formulations, the certified lower bound and the
-/// collision check are written once, on this reduction.
+/// of F": a tube is probed along its core (one coordinate u, offset r), any other body over its surface (two
+/// angles u, v, no offset). Two curve tubes are their difference x_P(u) - x_F(v), a surface, in the distance
+/// field of a point. The contact formulations, the certified lower bound and the collision check are written
+/// once, on this reduction.
 
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/meridian.hpp>
 
 #include <array>
@@ -20,6 +22,9 @@ struct PairFrame {
   Vec3 a;           ///< centre of P
   Vec3 e1, e2, e3;  ///< axes of P
   Vec3 o;           ///< origin of P's element: rotations of that element turn about it
+  /// Of two curve tubes: F's core; then F is the point that the difference of both cores is probed against,
+  /// with the radius of F's tube. Else null.
+  const ClosedCurve* difference = nullptr;
 
   PairFrame(const Body& p, const Pose& pose_p, const Body& f, const Pose& pose_f);
 };
@@ -27,61 +32,70 @@ struct PairFrame {
 /// A probe point and its derivatives with respect to the probe coordinates.
 struct ProbePoint {
   Vec3 p, pu, pv;
-  Vec3 radial;  ///< outward in the ring's plane of P, at angle u
+  Vec3 on_p;    ///< point that rides on P; p itself, unless it is a difference
+  Vec3 radial;  ///< outward in the ring's plane of P, at angle u; of a curve -p_uu/R
+  Vec3 pvv;     ///< of differences only
+  Angle u, v;   ///< of curves only
   double cv = 0.0, sv = 0.0;
 };
 
-/// An angle by its cosine and sine.
-struct Angle {
-  double c = 1.0, s = 0.0;
-
-  Angle() = default;
-  /// To a few units of rounding, by a table and series: a third of the time of the library's functions.
-  explicit Angle(double radians);
-
-  /// This angle and `by` more; for |by| <= 1/4 by series of which nothing above rounding is left out.
-  Angle turned(double by) const
-  {
-    Angle t;
-    if (std::abs(by) > 0.25) {
-      t = Angle(by);
-    } else {
-      const double q = by * by;
-      const auto term = [q](double rest, double n) { return 1.0 - q / n * rest; };
-      t.s = by * term(term(term(term(term(term(1.0, 156.0), 110.0), 72.0), 42.0), 20.0), 6.0);
-      t.c = term(term(term(term(term(term(1.0, 132.0), 90.0), 56.0), 30.0), 12.0), 2.0);
-    }
-    return turned(t);
-  }
-  Angle turned(const Angle& by) const { return {c * by.c - s * by.s, s * by.c + c * by.s}; }
-
- private:
-  Angle(double cosine, double sine) : c(cosine), s(sine) {}
+/// n . p_uu, n . p_uv, n . p_vv for a vector n; only uu in dimension 1.
+struct SecondDerivatives {
+  double uu = 0.0, uv = 0.0, vv = 0.0;
 };
 
-/// Probe set of dimension 1 (core circle of a tube) or 2 (surface).
+/// Probe set of dimension 1 (core of a tube) or 2 (surface, or difference of two cores).
 template <int dim>
 struct Probe {
   const PairFrame& f;
-  double Lu, Lv, Luv;  ///< bounds of |p_u| and |p_uu|, of |p_v| and |p_vv|, and of |p_uv|
-  double offset;       ///< gap = field - offset - clearance
+  double Lu, Lv;           ///< bounds of |p_u| and |p_v|
+  double Luu, Luv, Lvv;    ///< of second derivatives
+  double Luuu, Lvvv;       ///< of third derivatives; mixed ones are bounded by Luv
+  double offset;           ///< gap = field - offset - clearance
+  double frequency = 1.0;  ///< how much faster than on a torus the probe set turns
 
   explicit Probe(const PairFrame& frame);
   ProbePoint at(const Angle& u, const Angle& v) const;
   ProbePoint at(double u, double v) const { return at(Angle(u), dim == 1 ? Angle() : Angle(v)); }
+  SecondDerivatives second(const ProbePoint& q, const Vec3& n) const;
+
+ private:
+  /// The core of P, in F's frame.
+  CurvePoint core(const Angle& u) const
+  {
+    const CurvePoint c = f.P->curve->at(u);
+    const auto turned = [this](const Vec3& x) -> Vec3 { return x[0] * f.e1 + x[1] * f.e2 + x[2] * f.e3; };
+    return {f.a + turned(c.x), turned(c.xu), turned(c.xuu)};
+  }
 };
+
+/// How fast the direction of a curve turns, by its derivatives, sqrt(|x_uuu|/|x_u|); 1 for a circle.
+inline double turning(const ClosedCurve& curve) { return std::sqrt(curve.third() / curve.first()); }
 
 template <int dim>
 Probe<dim>::Probe(const PairFrame& frame) : f(frame)
 {
   const Body& b = *f.P;
-  if constexpr (dim == 1) {
-    Lu = b.R;
-    Lv = Luv = 0.0;
+  if (b.curve) {
+    Lu = b.curve->first();
+    Luu = b.curve->second();
+    Luuu = b.curve->third();
+    Lv = Luv = Lvv = Lvvv = 0.0;
+    offset = b.r0;
+    frequency = turning(*b.curve);
+    if (dim == 2) {
+      Lv = f.difference->first();
+      Lvv = f.difference->second();
+      Lvvv = f.difference->third();
+      frequency = std::max(frequency, turning(*f.difference));
+    }
+  } else if constexpr (dim == 1) {
+    Lu = Luu = Luuu = b.R;
+    Lv = Luv = Lvv = Lvvv = 0.0;
     offset = b.r0;
   } else {
-    Lu = b.R + b.r0;
-    Lv = std::max(b.r0, b.r1);
+    Lu = Luu = Luuu = b.R + b.r0;
+    Lv = Lvv = Lvvv = std::max(b.r0, b.r1);
     Luv = b.r0;
     offset = 0.0;
   }
@@ -92,6 +106,23 @@ ProbePoint Probe<dim>::at(const Angle& u, const Angle& v) const
 {
   const Body& b = *f.P;
   ProbePoint q;
+  if (b.curve) {
+    const CurvePoint c = core(u);
+    q.p = q.on_p = c.x;
+    q.pu = c.xu;
+    q.radial = (-1.0 / b.R) * c.xuu;
+    q.u = u;
+    if constexpr (dim == 1) {
+      q.pv.setZero();
+    } else {
+      const CurvePoint other = f.difference->at(v);
+      q.p -= other.x;
+      q.pv = -other.xu;
+      q.pvv = -other.xuu;
+      q.v = v;
+    }
+    return q;
+  }
   q.radial = u.c * f.e1 + u.s * f.e2;
   const Vec3 tangent = -u.s * f.e1 + u.c * f.e2;
   if constexpr (dim == 1) {
@@ -106,7 +137,22 @@ ProbePoint Probe<dim>::at(const Angle& u, const Angle& v) const
     q.pu = w * tangent;
     q.pv = -b.r0 * q.sv * q.radial + b.r1 * q.cv * f.e3;
   }
+  q.on_p = q.p;
   return q;
+}
+
+template <int dim>
+SecondDerivatives Probe<dim>::second(const ProbePoint& q, const Vec3& n) const
+{
+  const Body& P = *f.P;
+  const double nr = n.dot(q.radial);
+  if constexpr (dim == 1) {
+    return {-P.R * nr};
+  } else {
+    if (f.difference != nullptr) return {-P.R * nr, 0.0, n.dot(q.pvv)};
+    const double w = P.R + P.r0 * q.cv;
+    return {-w * nr, -P.r0 * q.sv / w * n.dot(q.pu), -P.r0 * q.cv * nr - P.r1 * q.sv * n.dot(f.e3)};
+  }
 }
 
 /// A box of probe coordinates: centre and half-widths (v and hv unused for dimension 1).
@@ -139,7 +185,15 @@ inline void split(const Probe<dim>& probe, const Panel& s, Panel& first, Panel& 
   second = half[1];
 }
 
-/// True if P is probed along its core circle.
-inline int probe_dimension(const Body& P) { return P.is_tube() ? 1 : 2; }
+/// Which body of a pair probes the other: the one of the lower rank. A curve always does, as its field has no
+/// closed form; a surface does only where both are.
+inline int probe_rank(const Body& b) { return b.curve ? 0 : b.is_tube() ? 1 : 2; }
+
+/// Dimension of the probe set of a frame.
+inline int probe_dimension(const PairFrame& frame)
+{
+  if (frame.P->curve) return frame.difference != nullptr ? 2 : 1;
+  return frame.P->is_tube() ? 1 : 2;
+}
 
 }  // namespace hauberk

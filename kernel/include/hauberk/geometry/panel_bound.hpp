@@ -127,11 +127,11 @@ struct PanelSize {
 template <int dim>
 PanelSize panel_size(const Probe<dim>& probe, const Panel& s)
 {
-  PanelSize r{probe.Lu * s.hu, probe.Lu * s.hu * s.hu, probe.Lu * s.hu * s.hu * s.hu};
+  PanelSize r{probe.Lu * s.hu, probe.Luu * s.hu * s.hu, probe.Luuu * s.hu * s.hu * s.hu};
   if constexpr (dim == 2) {
     r.first += probe.Lv * s.hv;
-    r.second += probe.Lv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
-    r.third += probe.Lv * s.hv * s.hv * s.hv + 3.0 * probe.Luv * s.hu * s.hv * (s.hu + s.hv);
+    r.second += probe.Lvv * s.hv * s.hv + 2.0 * probe.Luv * s.hu * s.hv;
+    r.third += probe.Lvvv * s.hv * s.hv * s.hv + 3.0 * probe.Luv * s.hu * s.hv * (s.hu + s.hv);
   }
   return r;
 }
@@ -159,23 +159,16 @@ inline double field_hessian(const FieldValue& f, const Vec3& x, const Vec3& y)
 }
 
 /// Second derivatives of the field along the probe set, D^2 phi[p_i, p_j] + n . p_ij; only uu in dimension 1.
-struct SurfaceHessian {
-  double uu = 0.0, uv = 0.0, vv = 0.0;
-};
-
 template <int dim>
-SurfaceHessian surface_hessian(const Probe<dim>& probe, const ProbePoint& q, const FieldValue& f)
+SecondDerivatives surface_hessian(const Probe<dim>& probe, const ProbePoint& q, const FieldValue& f)
 {
-  const Body& P = *probe.f.P;
-  const double nr = f.n.dot(q.radial);
-  if constexpr (dim == 1) {
-    return {field_hessian(f, q.pu, q.pu) - P.R * nr};
-  } else {
-    const double w = P.R + P.r0 * q.cv;
-    return {field_hessian(f, q.pu, q.pu) - w * nr,
-            field_hessian(f, q.pu, q.pv) - P.r0 * q.sv / w * f.n.dot(q.pu),
-            field_hessian(f, q.pv, q.pv) - P.r0 * q.cv * nr - P.r1 * q.sv * f.n.dot(probe.f.e3)};
+  SecondDerivatives h = probe.second(q, f.n);
+  h.uu += field_hessian(f, q.pu, q.pu);
+  if constexpr (dim == 2) {
+    h.uv += field_hessian(f, q.pu, q.pv);
+    h.vv += field_hessian(f, q.pv, q.pv);
   }
+  return h;
 }
 
 /// Least sum of the terms of first and second order over a panel: phi >= phi_mid + least - (third order),
@@ -186,7 +179,7 @@ template <int dim>
 double least_to_second_order(const Probe<dim>& probe, const Panel& s, const ProbePoint& q,
                              const FieldValue& f)
 {
-  const SurfaceHessian h = surface_hessian(probe, q, f);
+  const SecondDerivatives h = surface_hessian(probe, q, f);
   const double gu = f.n.dot(q.pu);
   if constexpr (dim == 1) return std::min(0.0, least_on_line(gu, h.uu, s.hu));
   return least_over_box({gu, f.n.dot(q.pv), h.uu, h.uv, h.vv}, s.hu, s.hv);

@@ -36,14 +36,16 @@ struct Model {
   std::vector<LinearInequality> walls;
   Matrix held;              ///< dofs x equalities: orthonormal directions that no motion has
   std::vector<Link> links;  ///< at rest
-  /// Per body: d(position, R, r0, r1)/d(element parameters), row-major, file units (dimensionless ratios).
+  /// Per body: d(position, R, r0, r1, harmonics)/d(element parameters), row-major, file units (dimensionless
+  /// ratios).
   std::vector<PrimitiveJacobian> jacobians;
   std::vector<int> parameter_count;  ///< per element
 
   int macro_count = 0, coordinate_count = 0;
   Vector metric;  ///< squared displacement per squared unknown: weights of the norm of a step
 
-  /// d (scaled position, R, r0, r1 of a body; quantity 0 to 5) / d parameter of its element (file units).
+  /// d (scaled position, R, r0, r1, harmonics of a body; quantity 0, 1, ...) / d parameter of its element
+  /// (file units).
   double size_derivative(std::size_t body, int quantity, int parameter) const
   {
     const int n = parameter_count[static_cast<std::size_t>(bodies[body].element)];
@@ -64,6 +66,10 @@ struct Model {
     return t;
   }
 };
+
+/// Derivatives in the parameters of a body's element from those in its scaled geometric quantities, in the
+/// order of `size_derivative`.
+Vector parameter_gradient(const Model& m, int body, const std::vector<double>& geometry);
 
 /// Unknowns: macro, element coordinates, rotations.
 struct State {

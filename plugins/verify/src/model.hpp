@@ -33,7 +33,7 @@ struct Torus {
   std::string name;
   Place place;  ///< in its element's frame, or in space
   double R = 0.0, r0 = 0.0, r1 = 0.0;
-  std::vector<std::array<Vec3, 2>> curve;  ///< (c, s) of each k; none: a torus
+  std::vector<std::array<Vec3, 2>> curve{};  ///< (c, s) of each k; none: a torus
   int facets = 0;  ///< its surface is a mesh of facets x facets quadrilaterals; 0: the surface itself
 };
 

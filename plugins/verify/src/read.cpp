@@ -70,7 +70,10 @@ Torus read_torus(const json::value& v, const std::string& where)
       out.curve.push_back({read_vector(member(term, "cos", of), of + "/cos"),
                            read_vector(member(term, "sin", of), of + "/sin")});
     }
-    if (out.curve.empty()) throw Malformed(place + ": empty");
+    double squares = 0.0;
+    for (const auto& [c, s] : out.curve) squares += c.squaredNorm() + s.squaredNorm();
+    if (!(std::abs(out.R - std::sqrt(0.5 * squares)) <= unit_tolerance * out.R))
+      throw Malformed(at + "/R: not the mean radius of the curve");
   }
   return out;
 }

@@ -168,6 +168,62 @@ TEST(Links, MatchGaussIntegralOnRandomPairs)
   EXPECT_GT(linked, 10);
 }
 
+/// The core of a torus as a curve of one harmonic.
+Torus as_curve(Torus ring)
+{
+  ring.curve = {{Vec3(ring.R, 0.0, 0.0), Vec3(0.0, ring.R, 0.0)}};
+  return ring;
+}
+
+TEST(Curves, CirclesAsCurvesAreTori)
+{
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<> unit(-1.0, 1.0);
+  int linked = 0;
+  for (int i = 0; i < 120; ++i) {
+    Torus a = random_torus(random, true), b = random_torus(random, i % 2 == 0);
+    a.place.position *= 0.4;
+    b.place.position *= 0.4;
+    const Vec3 x = 5.0 * Vec3(unit(random), unit(random), unit(random));
+    Vec3 outward, of_curve;
+    EXPECT_NEAR(signed_distance(a, x, &outward), signed_distance(as_curve(a), x, &of_curve), 1e-12);
+    EXPECT_LT((outward - of_curve).norm(), 1e-6);
+    EXPECT_LT((core_tangent(a, 0.3) - core_tangent(as_curve(a), 0.3)).norm(), 1e-14);
+    const double apart = separation(a, b);
+    if (!(apart > 0.05)) continue;
+    EXPECT_NEAR(separation(as_curve(a), b), apart, 1e-11);
+    if (i % 2 == 0) {
+      EXPECT_NEAR(separation(as_curve(a), as_curve(b)), apart, 1e-11);
+    }
+    EXPECT_EQ(std::abs(linking_number(as_curve(a), b)), std::abs(linking_number(a, b)));
+    linked += linking_number(a, b) != 0;
+  }
+  EXPECT_GT(linked, 5);
+}
+
+TEST(Curves, OfAKnotTheNearestStrandCounts)
+{
+  // ((4 + cos 3u) cos 2u, (4 + cos 3u) sin 2u, sin 3u) crosses the x axis at 5 (u = 0) and 3 (u = pi).
+  Torus knot = torus(4.0, 0.2, 0.2);
+  knot.curve.resize(5, {Vec3::Zero(), Vec3::Zero()});
+  knot.curve[1] = {Vec3(4.0, 0.0, 0.0), Vec3(0.0, 4.0, 0.0)};
+  knot.curve[4] = {Vec3(0.5, 0.0, 0.0), Vec3(0.0, 0.5, 0.0)};
+  knot.curve[0] = {Vec3(0.5, 0.0, 0.0), Vec3(0.0, -0.5, 0.0)};
+  knot.curve[2][1].z() = 1.0;
+  Vec3 outward;
+  EXPECT_NEAR(signed_distance(knot, {5.5, 0.0, 0.0}, &outward), 0.3, 0.05);
+  EXPECT_GT(outward.x(), 0.9);
+  for (const double side : {-0.3, 0.3}) {
+    const double found = signed_distance(knot, {4.0 + side, 0.0, 0.0}, &outward);
+    double least = 10.0;
+    for (int i = 0; i < 100000; ++i)
+      least = std::min(least, (core_point(knot, 2.0 * pi * i / 100000) - Vec3(4.0 + side, 0.0, 0.0)).norm());
+    EXPECT_NEAR(found, least - 0.2, 1e-8);
+  }
+  const Torus ring = torus(4.0, 0.1, 0.1, {4.0, 0.0, 0.0}, {pi / 2.0, 0.0, 0.0});
+  EXPECT_EQ(std::abs(linking_number(knot, ring)), 2) << "both strands through the ring's disc";
+}
+
 TEST(Neighbours, ReachBeyondTheFirstImagesOnce)
 {
   Scene scene;

@@ -1,0 +1,127 @@
+/// Tubes around curves in experiments: sensitivities and designs against exact ones, the independent check,
+/// symmetry of a fabric of knots, and what does not know them.
+
+#include "program.hpp"
+
+#include <hauberk/results/json_text.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/json/object.hpp>
+
+namespace hauberk::test {
+namespace {
+
+namespace json = boost::json;
+
+/// A chain of an oval link and a racetrack: its period locks at 2 (a1 + a2) - 2 (r1 + r2).
+std::string links_text()
+{
+  return R"({
+  "name": "links",
+  "elements": {
+    "oval": { "shape": "closed_tube", "curve": "oval",
+              "parameters": { "half_length": 10, "half_width": 4, "r": 0.75 } },
+    "track": { "shape": "closed_tube", "curve": "racetrack",
+               "parameters": { "half_length": 9, "half_width": 4, "r": 0.7 } } },
+  "cell": { "vectors": [[32, 0], [0, 100]],
+    "place": [
+      { "element": "oval", "position": [0, 0, 0] },
+      { "element": "track", "position": [16, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } } ] },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "solver": { "preset": "accurate" }
+})";
+}
+
+constexpr double period = 2.0 * (10.0 + 9.0) - 2.0 * (0.75 + 0.7);
+
+TEST(Curves, SensitivitiesOfAChainAreExact)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("links.json", links_text()), "-o", folder / "out"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json::value results = read_results(folder / "out");
+  EXPECT_NEAR(number_at(results, "/limits/0/value"), period / 32.0 - 1.0, 1e-9);
+  const std::string at = "/limits/0/sensitivity";
+  EXPECT_NEAR(number_at(results, at + "/clearance"), -2.0 / 32.0, 1e-6);
+  const auto parameter = [&](const std::string& name) {
+    return results.at_pointer(at + "/parameters").as_object().at(name).to_number<double>();
+  };
+  EXPECT_NEAR(parameter("0/half_length"), 2.0 / 32.0, 1e-6);
+  EXPECT_NEAR(parameter("1/half_length"), 2.0 / 32.0, 1e-6);
+  EXPECT_NEAR(parameter("0/r"), -2.0 / 32.0, 1e-6);
+  EXPECT_NEAR(parameter("1/r"), -2.0 / 32.0, 1e-6);
+  EXPECT_NEAR(parameter("1/half_width"), 0.0, 1e-6);
+  EXPECT_EQ(run_program({"verify", folder / "out/results.json"}).code, 0);
+}
+
+TEST(Curves, ResultsWithAnotherCurveFailTheCheck)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"run", folder.write("links.json", links_text()), "-o", folder / "out"}).code, 0);
+  const json::value results = read_results(folder / "out");
+  const auto verdict = [&](const std::string& pointer, double value) {
+    json::value other = results;
+    other.at_pointer(pointer) = value;
+    return run_program({"verify", folder.write("results.json", write_json(other))});
+  };
+  const std::string first = "/scene/elements/0/primitives/0";
+  const Outcome o = verdict(first + "/curve/0/cos/0", 10.2);
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.out.find("not the mean radius of the curve"), std::string::npos) << o.out;
+  // A limit that was moved on: the tubes overlap.
+  EXPECT_EQ(verdict("/limits/0/poses/1/position/0", 16.5).code, 1);
+}
+
+TEST(Curves, ADesignFindsTheLengthThatGivesALimit)
+{
+  std::string text = with(links_text(), R"("name": "links",)", R"("name": "links", "task": "design",)");
+  text = with(text, R"("solver": { "preset": "accurate" })", R"("solver": { "preset": "accurate" },
+  "design": {
+    "optimizer": { "plugin": "sqp", "max_iterations": 20 },
+    "quantity": "stretch",
+    "variables": [ { "parameters": "0/half_length", "lower": 8, "upper": 14 } ],
+    "targets": [ { "direction_deg": 0, "value": 0.15 } ] })");
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("design.json", text), "-o", folder / "out"});
+  ASSERT_EQ(o.code, 0) << o.err << o.out;
+  const json::value results = read_results(folder / "out");
+  // 2 (a + 9) - 2 (0.75 + 0.7) = 1.15 x 32
+  EXPECT_NEAR(number_at(results, "/design/variables/0/final"), 0.5 * 1.15 * 32.0 + 1.45 - 9.0, 1e-3);
+  EXPECT_NEAR(number_at(results, "/limits/0/value"), 0.15, 1e-4);
+  const Outcome check = run_program({"verify", folder / "out/results.json"});
+  EXPECT_EQ(check.code, 0) << check.out;
+}
+
+TEST(Curves, TrefoilsRepeatEverySixtyDegrees)
+{
+  const TemporaryFolder folder;
+  const std::string file = std::string(HAUBERK_SOURCE_DIR) + "/share/experiments/trefoils.json";
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=accurate"}).code, 0);
+  const json::value results = read_results(folder / "out");
+  const double at_0 = number_at(results, "/limits/0/value"), at_60 = number_at(results, "/limits/2/value");
+  EXPECT_NEAR(at_0, at_60, 1e-7);
+  EXPECT_GT(at_0, number_at(results, "/limits/1/value"));
+  const Outcome check = run_program({"verify", folder / "out/results.json"});
+  EXPECT_EQ(check.code, 0) << check.out;
+}
+
+TEST(Curves, WhatKnowsToriOnlySaysSo)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("links.json", links_text());
+  for (const char* setting :
+       {"/solver/contact=published", "/solver/contact=mesh", "/solver/ccd=sampled", "/solver/preset=paper"}) {
+    const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", setting});
+    EXPECT_EQ(o.code, 2) << setting;
+    EXPECT_NE(o.err.find("know tori only"), std::string::npos) << setting << o.err;
+  }
+  const Outcome thick = run_program({"check", file, "--set", "/elements/oval/parameters/r=1.7"});
+  EXPECT_EQ(thick.code, 2);
+  EXPECT_NE(thick.err.find("parameter 'r' = 1.7 is too thick: the curve bends with a radius of 1.6"),
+            std::string::npos)
+      << thick.err;
+}
+
+}  // namespace
+}  // namespace hauberk::test

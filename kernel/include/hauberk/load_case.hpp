@@ -72,6 +72,8 @@ class LoadCase {
   int coordinate_count() const { return do_coordinate_count(); }
   /// True if images of the cell exist (lattice vectors are needed).
   bool periodic() const { return do_periodic(); }
+  /// Lattice vectors of the cell: 2 (a sheet) or 3; 0 for patches.
+  int lattice_vectors() const { return do_periodic() ? do_lattice_vectors() : 0; }
 
   /// Position of the element with rest position X, in the image displaced by the lattice translation T at
   /// rest (zero for the element itself). At macro = 0 and e = 0 this must be X + T.
@@ -150,6 +152,7 @@ class LoadCase {
   virtual const std::vector<MacroInfo>& do_macros() const = 0;
   virtual int do_coordinate_count() const = 0;
   virtual bool do_periodic() const = 0;
+  virtual int do_lattice_vectors() const { return 2; }
   virtual void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
                            const Vec3& T, PositionMap& out) const = 0;
   virtual double do_acceleration_bound(std::span<const double>, std::span<const double>,

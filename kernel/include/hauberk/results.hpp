@@ -20,7 +20,7 @@ std::string to_string(LimitStatus status);
 struct ContactForce {
   std::array<int, 2> elements{};                           ///< placed elements; walls: second is -1
   std::array<int, 2> primitives{};                         ///< index within the element; walls: -1
-  std::array<int, 2> image{};                              ///< lattice image of the second element
+  std::array<int, 3> image{};                              ///< lattice image of the second element
   std::array<Vec3, 2> points{Vec3::Zero(), Vec3::Zero()};  ///< on the two surfaces, absolute
   Vec3 normal = Vec3::Zero();                              ///< unit, from first to second element
   double gap = 0.0;                                        ///< surface distance minus clearance

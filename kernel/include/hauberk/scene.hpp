@@ -35,7 +35,7 @@ struct PlacedElement {
 struct SceneSpec {
   std::vector<ElementType> types;
   std::vector<PlacedElement> elements;
-  std::vector<Vec3> lattice;  ///< two vectors of the supercell when periodic, else empty
+  std::vector<Vec3> lattice;  ///< two or three vectors of the supercell when periodic, else empty
   /// Contact of meshes: every primitive is replaced by facets x facets quadrilaterals; 0: surfaces as they
   /// are.
   int facets = 0;

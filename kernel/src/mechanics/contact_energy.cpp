@@ -32,7 +32,7 @@ class Assembler {
   {
     PositionMap image;
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-    const bool shifted = pair.image != Image{0, 0};
+    const bool shifted = pair.image != Image{};
     if (shifted) map(pair.j, pair.image, image);
     const PositionMap& mj = shifted ? image : maps_[j];
     const Pose pi{maps_[i].x, s_.rotation[i]}, pj{mj.x, s_.rotation[j]};

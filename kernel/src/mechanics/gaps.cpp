@@ -213,7 +213,7 @@ std::string pair_name(const SceneSpec& spec, const Model& m, const Gap& g)
 {
   std::string text = body_name(spec, m.bodies[static_cast<std::size_t>(g.a)]) + " and " +
                      body_name(spec, m.bodies[static_cast<std::size_t>(g.b)]);
-  if (g.image != Image{0, 0}) text += fmt::format(" of image [{}, {}]", g.image[0], g.image[1]);
+  if (g.image != Image{}) text += fmt::format(" of image [{}]", fmt::join(shown(g.image), ", "));
   return text;
 }
 

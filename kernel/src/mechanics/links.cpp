@@ -72,14 +72,16 @@ std::vector<Vec3> cycle_translations(const Model& m)
           if ((forward ? a : b) != i) continue;
           const std::size_t j = forward ? b : a;
           const int sign = forward ? 1 : -1;
-          const Image to{at[i][0] + sign * l.image[0], at[i][1] + sign * l.image[1]};
+          Image to = at[i];
+          for (std::size_t c = 0; c < to.size(); ++c) to[c] += sign * l.image[c];
           if (!seen[j]) {
             seen[j] = true;
             at[j] = to;
             queue.push_back(j);
           } else {
-            const Image d{to[0] - at[j][0], to[1] - at[j][1]};
-            if (d[0] != 0 || d[1] != 0) cycles.push_back(m.translation(d));
+            Image d = to;
+            for (std::size_t c = 0; c < d.size(); ++c) d[c] -= at[j][c];
+            if (d != Image{}) cycles.push_back(m.translation(d));
           }
         }
       }

@@ -4,10 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 namespace hauberk {
 namespace {
@@ -33,25 +34,27 @@ constexpr double most_images_at_rest = 1e4;
 /// Lattice translations to either side that may bring a pair within its reach.
 class ImageRange {
  public:
-  explicit ImageRange(const Model& m)
+  explicit ImageRange(const Model& m) : vectors_(m.lattice.size())
   {
-    const Vec3 &t1 = m.lattice[0], &t2 = m.lattice[1];
-    const double area = t1.cross(t2).norm();
-    b1_ = t2.norm() / area;
-    b2_ = t1.norm() / area;
+    Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(vectors_));
+    for (std::size_t k = 0; k < vectors_; ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
+    const Matrix inverse = (T.transpose() * T).inverse() * T.transpose();
+    for (std::size_t k = 0; k < vectors_; ++k)
+      reciprocal_[k] = inverse.row(static_cast<Eigen::Index>(k)).norm();
   }
 
-  /// Largest |k| and |l| of translations k T1 + l T2 that are at most `far` long, as |T| >= |k|/|b1| with b1
-  /// the reciprocal vector; null when they are more than `most`.
-  std::optional<Image> within(double far, double most) const
+  /// Whether the translations k T1 + l T2 (+ m T3) that are at most `far` long, which have |k| <= |b1| far
+  /// with b1 the reciprocal vector, are at most `most`.
+  bool within(double far, double most) const
   {
-    const double k = std::floor(far * b1_), l = std::floor(far * b2_);
-    if (!((2.0 * k + 1.0) * (2.0 * l + 1.0) <= most)) return std::nullopt;
-    return Image{static_cast<int>(k), static_cast<int>(l)};
+    double images = 1.0;
+    for (std::size_t k = 0; k < vectors_; ++k) images *= 2.0 * std::floor(far * reciprocal_[k]) + 1.0;
+    return images <= most;
   }
 
  private:
-  double b1_, b2_;
+  std::size_t vectors_;
+  std::array<double, 3> reciprocal_{};
 };
 
 /// Refuses scenes whose images would take forever to look at.
@@ -170,6 +173,13 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
 constexpr int most_dense = 250;
 
 bool Model::sparse() const { return held.cols() == 0 && dofs() > most_dense; }
+
+std::vector<int> shown(const Image& image)
+{
+  std::vector<int> indices(image.begin(), image.end());
+  if (image[2] == 0) indices.pop_back();
+  return indices;
+}
 
 Vector parameter_gradient(const Model& m, int body, const std::vector<double>& geometry)
 {

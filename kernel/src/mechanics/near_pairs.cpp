@@ -30,7 +30,7 @@ std::vector<ElementPair> pairs_one_by_one(const Model& m, const std::vector<Pose
     for (int j = i + 1; j < n; ++j) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
-        pairs.push_back({i, j, {0, 0}});
+        pairs.push_back({i, j, {}});
     }
   }
   return pairs;
@@ -60,7 +60,7 @@ std::vector<ElementPair> pairs_by_buckets(const Model& m, const std::vector<Pose
       for (const int j : found->second) {
         const auto b = static_cast<std::size_t>(j);
         if (j > i && (p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
-          pairs.push_back({i, j, {0, 0}});
+          pairs.push_back({i, j, {}});
       }
     }
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
@@ -69,24 +69,30 @@ std::vector<ElementPair> pairs_by_buckets(const Model& m, const std::vector<Pose
   return pairs;
 }
 
-/// The deformed lattice in the plane: images are x + k t1 + l t2.
+/// The deformed lattice: images are x + k t1 + l t2, in the plane, or with a third vector in space.
 struct DeformedLattice {
-  Vec3 t1, t2;
-  Eigen::Matrix2d inverse;
-  double row1 = 0.0,
-         row2 = 0.0;  ///< norms of its rows: coordinates of a vector are at most that times its length
+  Mat3 inverse;                 ///< of (t1, t2, t3); of a sheet t3 = e_z
+  std::array<double, 3> row{};  ///< norms of its rows: coordinates of a vector are at most that times its
+                                ///< length; 0 where there is no vector
 
   DeformedLattice(const Model& m, const State& s, const std::vector<Pose>& p)
-      : t1(image_pose(m, s, 0, {1, 0}).position - p.front().position),
-        t2(image_pose(m, s, 0, {0, 1}).position - p.front().position)
   {
-    Eigen::Matrix2d lattice;
-    lattice << t1.head<2>(), t2.head<2>();
+    Mat3 lattice = Mat3::Identity();
+    for (std::size_t k = 0; k < m.lattice.size(); ++k) {
+      Image image{};
+      image[k] = 1;
+      const auto column = static_cast<Eigen::Index>(k);
+      lattice.col(column) = image_pose(m, s, 0, image).position - p.front().position;
+      if (m.lattice.size() < 3) lattice(2, column) = 0.0;
+    }
     inverse = lattice.inverse();
-    row1 = inverse.row(0).norm();
-    row2 = inverse.row(1).norm();
+    for (std::size_t k = 0; k < m.lattice.size(); ++k)
+      row[k] = inverse.row(static_cast<Eigen::Index>(k)).norm();
   }
 };
+
+/// Of an element and its own images, one of each two that are opposite.
+bool counts(const Image& image) { return image > Image{}; }
 
 /// All pairs of a cell and its images, looked at one by one: those images of which x_i is within reach.
 std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const std::vector<Pose>& p,
@@ -100,20 +106,28 @@ std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const
     for (int j = i; j < n; ++j) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       const double r = m.reach[a] + m.reach[b] + margin;
-      const Eigen::Vector2d at = lattice.inverse * (p[a].position - p[b].position).head<2>();
-      const double w1 = r * lattice.row1 + slack, w2 = r * lattice.row2 + slack;
-      if (!((2.0 * w1 + 1.0) * (2.0 * w2 + 1.0) <= most_images)) {
-        throw ComputationError(
-            fmt::format("elements {} and {}: more than {:g} images of the cell are within their reach", i, j,
-                        most_images));
+      const Vec3 at = lattice.inverse * (p[a].position - p[b].position);
+      Image first{}, last{};
+      double images = 1.0;
+      for (std::size_t k = 0; k < m.lattice.size(); ++k) {
+        const double width = r * lattice.row[k] + slack, middle = at[static_cast<Eigen::Index>(k)];
+        images *= 2.0 * width + 1.0;
+        if (!(images <= most_images)) {
+          throw ComputationError(
+              fmt::format("elements {} and {}: more than {:g} images of the cell are within their reach", i,
+                          j, most_images));
+        }
+        first[k] = static_cast<int>(std::ceil(middle - width));
+        last[k] = static_cast<int>(std::floor(middle + width));
       }
-      const int last1 = static_cast<int>(std::floor(at[0] + w1)),
-                last2 = static_cast<int>(std::floor(at[1] + w2));
-      for (int k = static_cast<int>(std::ceil(at[0] - w1)); k <= last1; ++k) {
-        for (int l = static_cast<int>(std::ceil(at[1] - w2)); l <= last2; ++l) {
-          if (i == j && (k < 0 || (k == 0 && l <= 0))) continue;  // an image pair counts once
-          const Vec3 x = image_pose(m, s, j, {k, l}).position;
-          if ((p[a].position - x).norm() < r) pairs.push_back({i, j, {k, l}});
+      Image image;
+      for (image[0] = first[0]; image[0] <= last[0]; ++image[0]) {
+        for (image[1] = first[1]; image[1] <= last[1]; ++image[1]) {
+          for (image[2] = first[2]; image[2] <= last[2]; ++image[2]) {
+            if (i == j && !counts(image)) continue;
+            const Vec3 x = image_pose(m, s, j, image).position;
+            if ((p[a].position - x).norm() < r) pairs.push_back({i, j, image});
+          }
         }
       }
     }
@@ -131,14 +145,14 @@ class LatticeBuckets {
     // 1/row is how far apart lines of the lattice are.
     const double width = 2.0 * widest_reach(m) + margin;
     const double most = m.element_count();  // more would be empty
-    count_ = {static_cast<int>(std::min(most, 1.0 / (lattice_.row1 * width))),
-              static_cast<int>(std::min(most, 1.0 / (lattice_.row2 * width)))};
+    count_ = {static_cast<int>(std::min(most, 1.0 / (lattice_.row[0] * width))),
+              static_cast<int>(std::min(most, 1.0 / (lattice_.row[1] * width)))};
     // A long cell has many along one side only.
     if (static_cast<double>(count_[0]) * count_[1] > few_buckets * most) count_ = {0, 0};
   }
 
-  /// Fewer than three along a side would meet themselves.
-  bool pay() const { return count_[0] >= 3 && count_[1] >= 3; }
+  /// Fewer than three along a side would meet themselves. In space all pairs are looked at.
+  bool pay() const { return m_.lattice.size() == 2 && count_[0] >= 3 && count_[1] >= 3; }
 
   std::vector<ElementPair> pairs()
   {
@@ -165,7 +179,7 @@ class LatticeBuckets {
   {
     buckets_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]));
     for (int i = 0; i < m_.element_count(); ++i) {
-      const Eigen::Vector2d x = lattice_.inverse * p_[static_cast<std::size_t>(i)].position.head<2>();
+      const Vec3 x = lattice_.inverse * p_[static_cast<std::size_t>(i)].position;
       Place place;
       for (std::size_t k = 0; k < 2; ++k) {
         const double coordinate = x[static_cast<Eigen::Index>(k)], cell = std::floor(coordinate);
@@ -197,8 +211,8 @@ class LatticeBuckets {
       if (j < i) continue;
       const auto b = static_cast<std::size_t>(j);
       const Image image{beyond[0] - places_[b].cell[0] + at.cell[0],
-                        beyond[1] - places_[b].cell[1] + at.cell[1]};
-      if (i == j && (image[0] < 0 || (image[0] == 0 && image[1] <= 0))) continue;
+                        beyond[1] - places_[b].cell[1] + at.cell[1], 0};
+      if (i == j && !counts(image)) continue;
       const Vec3 x = image_pose(m_, s_, j, image).position;
       if ((p_[a].position - x).norm() < m_.reach[a] + m_.reach[b] + margin_) out.push_back({i, j, image});
     }

@@ -148,7 +148,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   std::map<std::string, PairPlan> kinds;
   for (const ElementPair& pair : near_pairs(m, rest, m.clearance + settings.schedule.first)) {
     ++p.image_pairs;
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < pair.image.size(); ++k) {
       if (std::abs(pair.image[k]) > std::abs(p.farthest_image[k])) p.farthest_image[k] = pair.image[k];
     }
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);

@@ -69,13 +69,13 @@ json::object plan_json(const Loaded& loaded)
   for (const PairPlan& k : p.pairs)
     pairs.push_back({{"kinds", k.kinds}, {"distance", k.distance}, {"pairs", k.pairs}});
   out["image_pairs"] = p.image_pairs;
-  out["farthest_image"] = {p.farthest_image[0], p.farthest_image[1]};
+  out["farthest_image"] = boost::json::value_from(shown(p.farthest_image));
   out["links_per_element"] = json::array(p.links_per_element.begin(), p.links_per_element.end());
   json::array& tightest = out["tightest"].emplace_array();
   for (const TightPair& t : p.tightest)
     tightest.push_back({{"elements", {t.elements[0], t.elements[1]}},
                         {"primitives", {t.primitives[0], t.primitives[1]}},
-                        {"image", {t.image[0], t.image[1]}},
+                        {"image", boost::json::value_from(shown(t.image))},
                         {"distance", t.distance},
                         {"linked", t.linked}});
   json::array& decisions = out["decisions"].emplace_array();
@@ -101,8 +101,8 @@ std::string plan_text(const Loaded& loaded)
                       p.elements, p.primitives, p.length, unit);
   text += fmt::format("  {} unknowns; {} of them inert; linear solver: {}\n", p.unknowns, p.inert,
                       p.linear_solver);
-  text += fmt::format("  {} pairs of elements within reach at rest; farthest image [{}, {}]\n", p.image_pairs,
-                      p.farthest_image[0], p.farthest_image[1]);
+  text += fmt::format("  {} pairs of elements within reach at rest; farthest image [{}]\n", p.image_pairs,
+                      fmt::join(shown(p.farthest_image), ", "));
   for (const PairPlan& k : p.pairs) text += fmt::format("  {} pairs {}: {}\n", k.pairs, k.kinds, k.distance);
   for (const std::string& d : p.decisions) text += fmt::format("  {}\n", d);
   text += "\nLimits, as far as links decide\n" + bounded_text(loaded);
@@ -114,8 +114,8 @@ std::string plan_text(const Loaded& loaded)
   text += fmt::format("  links per element: {}\n", links_text(p.links_per_element));
   if (!p.tightest.empty()) text += "  tightest pairs (element.primitive):\n";
   for (const TightPair& t : p.tightest)
-    text += fmt::format("    {}.{} - {}.{} of image [{}, {}]: {:.6g} {}{}\n", t.elements[0], t.primitives[0],
-                        t.elements[1], t.primitives[1], t.image[0], t.image[1], t.distance, unit,
+    text += fmt::format("    {}.{} - {}.{} of image [{}]: {:.6g} {}{}\n", t.elements[0], t.primitives[0],
+                        t.elements[1], t.primitives[1], fmt::join(shown(t.image), ", "), t.distance, unit,
                         t.linked ? ", linked" : "");
   return text;
 }

@@ -32,34 +32,56 @@ bool applies(const Node& section, const Node& directions, const Experiment& expe
            "direction for the other one");
   if (experiment.task == Task::design)
     refuse(directions, "targets and profiles of a design are taken at angles: use directions_deg");
-  if (experiment.load_case &&
-      (experiment.load_case->macro_count() != 3 || !experiment.load_case->takes_components())) {
-    refuse(directions, fmt::format("'{}' does not have three unknowns in the unit of its value: use "
-                                   "directions_deg",
-                                   experiment.load_case_plugin));
+  if (experiment.load_case && !experiment.load_case->takes_components()) {
+    refuse(directions,
+           fmt::format("the unknowns of '{}' do not have the unit of its value: use directions_deg",
+                       experiment.load_case_plugin));
+  } else if (experiment.load_case && directions.is(Node::Type::object) &&
+             experiment.load_case->macro_count() != 3) {
+    refuse(directions, fmt::format("'{}' has {} unknowns, and a sphere of directions needs three: list them",
+                                   experiment.load_case_plugin, experiment.load_case->macro_count()));
   }
   return good;
+}
+
+/// Of unit length in the metric.
+std::vector<double> unit_vector(std::vector<double> d, const std::vector<double>& metric)
+{
+  double largest = 0.0, length = 0.0;
+  for (const double x : d) largest = std::max(largest, std::abs(x));
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    d[k] *= std::sqrt(metric[k]) / largest;
+    length = std::hypot(length, d[k]);
+  }
+  for (double& x : d) x /= length;
+  return d;
 }
 
 std::vector<Direction> read_list(const Node& list, const LoadCase& load_case, Problems& problems)
 {
   std::vector<Direction> out;
-  std::vector<Vec3> units;
-  std::array<double, 3> metric{};
+  std::vector<std::vector<double>> units;
+  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  std::vector<double> metric(count);
   load_case.metric(metric);
   for (const Node& item : list.items) {
     const std::vector<double> d = item.numbers();
-    if (d.size() != 3) continue;  // reported
+    if (d.size() != count) {
+      problems.add(item,
+                   fmt::format("expected {} components, one for each unknown, found {}", count, d.size()));
+      continue;
+    }
     if (std::all_of(d.begin(), d.end(), [](double x) { return x == 0.0; })) {
       problems.add(item, "expected a direction, found all zeros");
       continue;
     }
     out.push_back(Direction::along(d));
-    Vec3 x = Vec3(d[0], d[1], d[2]) / Vec3(d[0], d[1], d[2]).cwiseAbs().maxCoeff();
-    for (int k = 0; k < 3; ++k) x[k] *= std::sqrt(metric[static_cast<std::size_t>(k)]);
-    x.normalize();
-    const bool repeated = std::any_of(units.begin(), units.end(),
-                                      [&x](const Vec3& o) { return (o - x).norm() < same_components; });
+    const std::vector<double> x = unit_vector(d, metric);
+    const bool repeated = std::any_of(units.begin(), units.end(), [&x](const std::vector<double>& o) {
+      double apart = 0.0;
+      for (std::size_t k = 0; k < x.size(); ++k) apart = std::hypot(apart, o[k] - x[k]);
+      return apart < same_components;
+    });
     if (repeated)
       problems.add(item, fmt::format("direction {} is given twice: lengths do not count", out.back().text()));
     units.push_back(x);

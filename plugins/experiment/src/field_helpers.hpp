@@ -138,11 +138,14 @@ inline Field integers(std::string name, std::string doc, std::size_t count, doub
   return field;
 }
 
-/// Two vectors in the plane.
-inline Field vectors_field(std::string name, std::string doc)
+/// Two vectors in the plane, or with most = 3 three in space.
+inline Field vectors_field(std::string name, std::string doc, std::size_t most)
 {
-  Field field = list(std::move(name), std::move(doc), in_unit(numbers("vector", "x and y.", 2), "length"));
-  field.min_items = field.max_items = 2;
+  Field vector = numbers("vector", most == 2 ? "x and y." : "x and y, or x, y and z.", most);
+  vector.min_items = 2;
+  Field field = list(std::move(name), std::move(doc), in_unit(std::move(vector), "length"));
+  field.min_items = 2;
+  field.max_items = most;
   return in_unit(std::move(field), "length");
 }
 

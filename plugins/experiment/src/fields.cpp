@@ -60,7 +60,7 @@ Field patch_field()
       "patch",
       "A finite patch instead of vectors and repeat, laid out so that the mean of its elements is above the "
       "origin.",
-      {required(vectors_field("vectors", "The two vectors that the patch is laid out with.")),
+      {required(vectors_field("vectors", "The two vectors that the patch is laid out with.", 2)),
        required(std::move(outline)),
        with_default(integers("tile", "Period, in cells, with which element parameters repeat.", 2, 1),
                     "[1, 1]")});
@@ -70,8 +70,14 @@ Field cell_field()
 {
   return required(object(
       "cell", "What is simulated: a periodic cell, or a finite patch.",
-      {vectors_field("vectors", "The two lattice vectors (x, y) of the cell before it is repeated."),
-       with_default(integers("repeat", "m and n: the m x n supercell becomes the cell.", 2, 1), "[1, 1]"),
+      {vectors_field("vectors",
+                     "The two lattice vectors (x, y) of the cell before it is repeated; three (x, y, z) for "
+                     "load cases of solids.",
+                     3),
+       with_default(
+           at_least_items(
+               integers("repeat", "m and n (and l): the m x n (x l) supercell becomes the cell.", 3, 1), 2),
+           "[1, 1]"),
        patch_field(), place_field(), weave_field(),
        with_default(
            boolean("relax", "Allow a rest state that violates the clearance, to be relaxed before loading."),
@@ -82,8 +88,9 @@ Field directions_field()
 {
   Field list_of = at_least_items(
       list("list",
-           "Triples in the load case's unknowns: (exx, eyy, exy), or (A, B, C). Their lengths do not count.",
-           numbers("direction", "Components.", 3)),
+           "Components in the load case's unknowns: (exx, eyy, exy), or (A, B, C). Their lengths do not "
+           "count.",
+           any_numbers("direction", "Components, one for each unknown.")),
       1);
   Field parts = at_least(
       integer(

@@ -70,7 +70,15 @@ void check_extent(const Node& root, const Node& section, const LoadCase& load_ca
   const Node* plugin = section.find("plugin");
   if (cell == nullptr || plugin == nullptr) return;
   const bool patch = cell->find("patch") != nullptr;
-  if (load_case.periodic() != patch) return;
+  if (load_case.periodic() != patch) {
+    const Node* vectors = find_typed(*cell, "vectors", Node::Type::array);
+    const auto needed = static_cast<std::size_t>(load_case.lattice_vectors());
+    if (!patch && vectors != nullptr && vectors->items.size() != needed) {
+      problems.add(*vectors, "'" + plugin->string + "' loads cells with " + std::to_string(needed) +
+                                 " vectors, and there are " + std::to_string(vectors->items.size()));
+    }
+    return;
+  }
   problems.add(*plugin, patch ? "'" + plugin->string +
                                     "' loads a cell that repeats, and cell.patch is finite: use "
                                     "cell.vectors and cell.repeat, or a load case for patches"

@@ -46,7 +46,10 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
   Node cell = object_node();
   if (!scene.lattice.empty()) {
     std::vector<Node> vectors;
-    for (const Vec3& v : scene.lattice) vectors.push_back(numbers_node(std::array{v.x(), v.y()}));
+    for (const Vec3& v : scene.lattice) {
+      vectors.push_back(scene.lattice.size() == 2 ? numbers_node(std::array{v.x(), v.y()})
+                                                  : numbers_node(std::array{v.x(), v.y(), v.z()}));
+    }
     set_default(cell, "vectors", array_node(std::move(vectors)));
     set_default(cell, "repeat", numbers_node(std::array{1.0, 1.0}));
   } else {  // a patch: one cell that holds every element

@@ -151,28 +151,34 @@ class SceneReader {
         problems_.add(cell, "missing key 'vectors': expected an array of 2 arrays of 2 numbers");
       }
     }
-    std::array<Vec3, 2> v{Vec3::Zero(), Vec3::Zero()};
-    const bool lattice = read_vectors(cell.find("vectors"), v);
-    std::array<int, 2> repeat{1, 1};
+    std::vector<Vec3> v = read_vectors(cell.find("vectors"));
+    std::array<int, 3> repeat{1, 1, 1};
     const Node* counts = cell.find("repeat");
     if (counts != nullptr) {
-      for (std::size_t k = 0; k < 2; ++k) repeat[k] = static_cast<int>(counts->items[k].number);
+      for (std::size_t k = 0; k < counts->items.size(); ++k)
+        repeat[k] = static_cast<int>(counts->items[k].number);
+      if (!v.empty() && counts->items.size() > v.size())
+        problems_.add(*counts, "expected two numbers for two vectors, found three");
     }
     const std::vector<PlacedElement> placed = read_place(cell);
-    const double total = static_cast<double>(repeat[0]) * repeat[1] * static_cast<double>(placed.size());
+    const double total =
+        static_cast<double>(repeat[0]) * repeat[1] * repeat[2] * static_cast<double>(placed.size());
     if (total > largest_scene) {
       problems_.add(*counts, "expected at most " + format_number(largest_scene) + " placed elements, found " +
                                  format_number(total));
       return;
     }
-    if (lattice) spec_.lattice = {repeat[0] * v[0], repeat[1] * v[1]};
-    // Element k = (j m + i) |place| + index in place.
-    for (int j = 0; j < repeat[1]; ++j) {
-      for (int i = 0; i < repeat[0]; ++i) {
+    for (std::size_t k = 0; k < v.size(); ++k) spec_.lattice.emplace_back(repeat[k] * v[k]);
+    v.resize(3, Vec3::Zero());
+    // Element k = ((l n + j) m + i) |place| + index in place.
+    for (int cell_index = 0; cell_index < repeat[0] * repeat[1] * repeat[2]; ++cell_index) {
+      const int i = cell_index % repeat[0], j = cell_index / repeat[0] % repeat[1],
+                l = cell_index / (repeat[0] * repeat[1]);
+      {
         for (std::size_t k = 0; k < placed.size(); ++k) {
           PlacedElement element = placed[k];
-          element.rest.position += i * v[0] + j * v[1];
-          if (i > 0 || j > 0) element.copy_of = static_cast<int>(k);
+          element.rest.position += i * v[0] + j * v[1] + l * v[2];
+          if (cell_index > 0) element.copy_of = static_cast<int>(k);
           tile_of_.push_back(static_cast<int>(spec_.elements.size()));
           spec_.elements.push_back(std::move(element));
         }
@@ -181,7 +187,7 @@ class SceneReader {
   }
 
   /// Cells (i, j) of the outline by rows; empty when something is wrong with it.
-  std::vector<std::array<int, 2>> outlined(const Node& outline, const std::array<Vec3, 2>& v)
+  std::vector<std::array<int, 2>> outlined(const Node& outline, const std::vector<Vec3>& v)
   {
     std::vector<std::array<int, 2>> cells;
     if (outline.members.size() != 1) {
@@ -231,9 +237,9 @@ class SceneReader {
     const Node* repeat = cell.find("repeat");
     if (repeat != nullptr && repeat->numbers() != std::vector<double>{1.0, 1.0})
       problems_.add(*repeat, "a patch has an outline instead; remove this");
-    std::array<Vec3, 2> v{Vec3::Zero(), Vec3::Zero()};
     const Node* outline = find_typed(patch, "outline", Node::Type::object);
-    if (!read_vectors(patch.find("vectors"), v) || outline == nullptr) return;
+    const std::vector<Vec3> v = read_vectors(patch.find("vectors"));
+    if (v.empty() || outline == nullptr) return;
     const std::vector<PlacedElement> placed = read_place(cell);
     const std::vector<std::array<int, 2>> cells = outlined(*outline, v);
     const double total = static_cast<double>(cells.size()) * static_cast<double>(placed.size());
@@ -267,20 +273,35 @@ class SceneReader {
     for (PlacedElement& element : spec_.elements) element.rest.position -= mean;
   }
 
-  bool read_vectors(const Node* node, std::array<Vec3, 2>& v)
+  /// Two vectors in the plane, or three in space; none where they are missing.
+  std::vector<Vec3> read_vectors(const Node* node)
   {
-    if (node == nullptr) return false;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const std::vector<double> xy = node->items[k].numbers();
-      v[k] = Vec3(xy[0], xy[1], 0.0);
+    std::vector<Vec3> v;
+    if (node == nullptr) return v;
+    for (const Node& item : node->items) {
+      std::vector<double> x = item.numbers();
+      if (x.size() != node->items.size()) {
+        problems_.add(item,
+                      "expected as many numbers as there are vectors: two of x and y, or three of x, y "
+                      "and z");
+      }
+      x.resize(3, 0.0);
+      v.emplace_back(x[0], x[1], x[2]);
     }
-    const double area = std::abs(v[0].x() * v[1].y() - v[0].y() * v[1].x());
+    const bool space = v.size() == 3;
+    const double size =
+        space ? std::abs(v[0].dot(v[1].cross(v[2]))) : std::abs(v[0].x() * v[1].y() - v[0].y() * v[1].x());
+    double product = 1.0;
+    for (const Vec3& x : v) product *= x.norm();
     // Below an angle of 1e-9 rounding decides about the cell.
-    if (!(area > 1e-9 * v[0].norm() * v[1].norm()) || !std::isfinite(area)) {
-      problems_.add(*node, "expected two vectors that span the plane, found " + write_json(node->items[0]) +
-                               " and " + write_json(node->items[1]) + ", which are linearly dependent");
+    if (!(size > 1e-9 * product) || !std::isfinite(size)) {
+      problems_.add(*node, space ? std::string("expected three vectors that span space, found linearly "
+                                               "dependent ones")
+                                 : "expected two vectors that span the plane, found " +
+                                       write_json(node->items[0]) + " and " + write_json(node->items[1]) +
+                                       ", which are linearly dependent");
     }
-    return true;
+    return v;
   }
 
   std::vector<PlacedElement> read_place(const Node& cell)

@@ -65,7 +65,12 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
     patch["tile"] = {1, 1};
   } else {
     json::array vectors;
-    for (const Vec3& v : scene.lattice) vectors.push_back({number(v.x()), number(v.y())});
+    for (const Vec3& v : scene.lattice) {
+      if (scene.lattice.size() == 2)
+        vectors.push_back({number(v.x()), number(v.y())});
+      else
+        vectors.push_back(detail::vector_json(v));
+    }
     cell["vectors"] = std::move(vectors);
     cell["repeat"] = {1, 1};
   }

@@ -32,7 +32,7 @@ json::object contact_json(const ContactForce& contact)
   json::object out;
   out["elements"] = {contact.elements[0], contact.elements[1]};
   out["primitives"] = {contact.primitives[0], contact.primitives[1]};
-  out["image"] = {contact.image[0], contact.image[1]};
+  out["image"] = json::value_from(shown(contact.image));
   if (!contact.wall.empty()) out["wall"] = contact.wall;
   out["points"] = {vector_json(contact.points[0]), vector_json(contact.points[1])};
   out["normal"] = vector_json(contact.normal);

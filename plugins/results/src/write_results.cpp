@@ -5,8 +5,19 @@
 #include <hauberk/results/write_results.hpp>
 
 namespace hauberk {
+namespace {
+
+/// A boundary of three unknowns is a surface.
+bool has_surface(const RunResult& run)
+{
+  return run.boundary && run.limits.front().direction.components().size() == 3;
+}
+
+}  // namespace
+
 std::vector<std::pair<std::string, std::string>> result_files(const RunResult& run)
 {
+  if (run.boundary && !has_surface(run)) return {{"limits", limits_file}};
   if (run.boundary)
     return {{"limits", limits_file}, {"boundary", boundary_file}, {"picture", boundary_picture_file}};
   std::vector<std::pair<std::string, std::string>> out{{"limits", limits_file}, {"profile", profile_file}};
@@ -19,10 +30,10 @@ std::vector<NamedContent> results_content(const boost::json::object& document, c
                                           const PlotLabels& labels)
 {
   std::vector<NamedContent> files{{limits_file, limits_csv(run.limits, names.macro)}};
-  if (run.boundary) {
+  if (has_surface(run)) {
     files.push_back({boundary_file, boundary_ply(run, labels.unit, names.macro)});
     files.push_back({boundary_picture_file, boundary_svg(run, labels, names.macro)});
-  } else {
+  } else if (!run.boundary) {
     files.push_back({profile_file, polar_svg(run, labels)});
   }
   if (run.design)

@@ -13,7 +13,8 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 /// Integer combination of the two lattice vectors.
-using Image = std::array<int, 2>;
+/// The third index is 0 where there are two lattice vectors.
+using Image = std::array<int, 3>;
 
 /// A pair of linked bodies: A of the cell, B of the cell's image `image`.
 struct Link {
@@ -66,6 +67,9 @@ struct Model {
     return t;
   }
 };
+
+/// The indices of an image for people: two, or three where the third is not 0.
+std::vector<int> shown(const Image& image);
 
 /// Derivatives in the parameters of a body's element from those in its scaled geometric quantities, in the
 /// order of `size_derivative`.

@@ -22,6 +22,7 @@ struct Side {
   bool swapped;
   const Pose &pp, &pf;
   const PositionMap &mi, &mj;
+  long& evaluations;
 };
 
 Gap gap_between(const Side& side, double gap)
@@ -88,6 +89,7 @@ void gaps_of(const Side& side, double range, bool derivatives, std::vector<Gap>&
     }
     out.push_back(std::move(g));
   }
+  side.evaluations += evaluations;
 }
 
 /// Of meshes: the smallest gap, or with derivatives those of all features within range.
@@ -111,13 +113,13 @@ void mesh_gaps(const Side& side, double range, bool derivatives, std::vector<Gap
 /// All gaps of a pair of bodies a, b.
 void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose& pi, const Pose& pj,
                const PositionMap& mi, const PositionMap& mj, double range, bool derivatives,
-               std::vector<Gap>& out)
+               long& evaluations, std::vector<Gap>& out)
 {
   const Body& A = m.bodies[static_cast<std::size_t>(a)];
   const Body& B = m.bodies[static_cast<std::size_t>(b)];
   const bool swapped = !A.facets && !A.is_tube() && B.is_tube();
   const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
-                  mi, mj};
+                  mi, mj,   evaluations};
   if (A.facets) {
     mesh_gaps(side, range, derivatives, out);
   } else if (A.is_tube() || B.is_tube()) {
@@ -176,8 +178,9 @@ Penalty penalty(const Model& m, const State& start, const State& s, double targe
 
 }  // namespace
 
-std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool derivatives)
+std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool derivatives, long* evaluations)
 {
+  long count = 0;
   std::vector<Gap> out;
   const double reach = range + m.clearance;
   PositionMap mi, mj;
@@ -194,10 +197,11 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         const double d = (pi.position + pi.rotation * A.center - pj.position - pj.rotation * B.center).norm();
         if (d >= A.bound + B.bound + reach) continue;
-        body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, out);
+        body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, count, out);
       }
     }
   }
+  if (evaluations != nullptr) *evaluations += count;
   return out;
 }
 

@@ -124,7 +124,8 @@ class SparseCurvature final : public Curvature {
       const Vector wanted = without_held(right);
       x = constrained(wanted);
       // Soft motions that are held make K nearly singular; what that costs in digits is got back once.
-      const Vector reached = permuted_.selfadjointView<Eigen::Lower>() * x;
+      const Vector y = root_.cwiseProduct(p_.transpose() * x);
+      const Vector reached = p_ * root_.cwiseProduct(lower_.selfadjointView<Eigen::Lower>() * y);
       x += constrained(wanted - without_held(reached + shift_ * x));
     }
     const Vector left = p_.transpose() * x;

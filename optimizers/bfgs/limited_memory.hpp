@@ -1,7 +1,7 @@
 #pragma once
 /// BFGS that forgets.
 
-#include <common/damped_bfgs.hpp>
+#include <quadratic/damped_bfgs.hpp>
 
 #include <Eigen/Core>
 #include <deque>

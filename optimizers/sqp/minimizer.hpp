@@ -5,10 +5,10 @@
 
 #include <common/best_point.hpp>
 #include <common/criticality.hpp>
-#include <common/damped_bfgs.hpp>
 #include <common/scaled_problem.hpp>
 #include <common/search_settings.hpp>
 #include <hauberk/optimizer.hpp>
+#include <quadratic/damped_bfgs.hpp>
 
 #include <span>
 #include <string>

@@ -70,6 +70,27 @@ double energy_imbalance(const Model& m, const Vector& load, const ContactEnergy&
   return free_part(m, rest).cwiseAbs().maxCoeff();
 }
 
+/// Contacts of the last stage, with what forces and sensitivities need.
+ContactEnergy contacts_of(const Model& m, const Locked& l)
+{
+  Request request;
+  request.order = 1;
+  request.parameters = request.points = true;
+  return contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), l.stage.contact, request);
+}
+
+/// How the way from rest was checked.
+const char* certificate_of_path(const Locked& l)
+{
+  if (l.pressed)
+    return "no part of the path from rest certified: surfaces may have overlapped a little on the way";
+  if (l.stage.contact.formulation == Formulation::mesh)
+    return "path of the meshes from rest free of intersections";
+  return l.stage.ccd == CollisionCheck::certified
+             ? "path from rest certified free of intersections"
+             : "path from rest checked for intersections at sampled points, nothing certified";
+}
+
 /// Largest component by which the gradient of arc's energy changes with panels half as long, whose quadrature
 /// is better by orders of magnitude; times the stiffness. At the last stages rounding of the gap is part of
 /// it.
@@ -195,10 +216,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   Vec3 shift;
   r.poses = reported_poses(m, s, shift);
 
-  Request request;
-  request.order = 1;
-  request.parameters = request.points = true;
-  const ContactEnergy e = contact_energy(m, s, stage_pairs(m, s, l.stage), l.stage.contact, request);
+  const ContactEnergy e = l.pressed ? *l.pressed : contacts_of(m, l);
   for (const ContactEnergy::Point& p : e.points)
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   // A finite target drives the strain less the nearer it is; imbalance is a part of the full load.
@@ -211,7 +229,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
     r.message = fmt::format(
         "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   }
-  r.contact = name_of(l.stage.contact.formulation);
+  r.contact = l.pressed ? "constrained" : name_of(l.stage.contact.formulation);
   if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, l, e) / full;
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
@@ -224,13 +242,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                             sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
     }
   }
-  r.certificate = fmt::format(
-      "{}; {} links kept; smallest gap {:.3g}",
-      l.stage.contact.formulation == Formulation::mesh ? "path of the meshes from rest free of intersections"
-      : l.stage.ccd == CollisionCheck::certified
-          ? "path from rest certified free of intersections"
-          : "path from rest checked for intersections at sampled points, nothing certified",
-      m.links.size(), *r.min_gap);
+  r.certificate = fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l),
+                              m.links.size(), *r.min_gap);
   if (r.status == LimitStatus::locked && !(driving > least_drive)) {
     r.status = LimitStatus::failed;
     r.message = fmt::format(

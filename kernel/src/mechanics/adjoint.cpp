@@ -1,3 +1,5 @@
+#include "curvature.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/mechanics/adjoint.hpp>
 
@@ -59,8 +61,11 @@ AdjointGradient adjoint_gradient(const Model& model, const State& state, const V
     out.parameters = Matrix::Zero(explicit_at(state).rows(), model.element_count());
     return out;
   }
-  const Matrix hessian =
-      model.sparse() ? Matrix(Matrix(e.sparse_hessian).selfadjointView<Eigen::Lower>()) : e.hessian;
+  Matrix hessian = e.hessian;
+  if (model.sparse()) {
+    hessian = Matrix(e.sparse_hessian).selfadjointView<Eigen::Lower>();
+    if (model.held.cols() > 0) hold(model, hessian);
+  }
   const Vector a = solve(hessian, free_part(model, quantity), model.metric, load.norm(), out.residual);
   // What elements move by themselves, and by the macroscopic unknowns, whose metric is that displacement's.
   const int nm = model.macro_count;

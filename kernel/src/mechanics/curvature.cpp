@@ -2,6 +2,7 @@
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
 
 #include <cmath>
 #include <optional>
@@ -46,6 +47,15 @@ class DenseCurvature final : public Curvature {
 using Sparse = Eigen::SparseMatrix<double>;
 
 /// In unknowns scaled by the root of the metric, P D H D P^T with D = M^(-1/2) and an elimination order P.
+///
+/// What is held, Q^T x = 0 with k columns, couples all elements, so it is not put into the matrix. With
+/// K = H + lambda M, Y = K^-1 Q and S = Q^T Y
+///
+///     x = K^-1 b - Y S^-1 Q^T K^-1 b
+///
+/// solves K x + Q n = b, Q^T x = 0 (range-space method). K itself may have negative curvature, along the very
+/// motions that are held: it is definite on the others if and only if its negative eigenvalues and the
+/// positive ones of S are k together (inertia of the bordered matrix, counted both ways; Gould 1985).
 class SparseCurvature final : public Curvature {
  public:
   SparseCurvature(const Model& m, const Sparse& lower, EliminationOrder& order)
@@ -63,6 +73,7 @@ class SparseCurvature final : public Curvature {
       order.permutation = inverse.inverse();
     }
     p_ = order.permutation;
+    held_ = p_ * m.held;  // the metric is 1 there
     permuted_.resize(lower.rows(), lower.cols());
     permuted_.selfadjointView<Eigen::Lower>() = scaled.selfadjointView<Eigen::Lower>().twistedBy(p_);
     solver_.cholmod().nmethods = 1;
@@ -72,20 +83,52 @@ class SparseCurvature final : public Curvature {
     solver_.analyzePattern(permuted_);
   }
 
-  Vector times(const Vector& x) const override { return lower_.selfadjointView<Eigen::Lower>() * x; }
+  Vector times(const Vector& x) const override
+  {
+    return free_part(m_, lower_.selfadjointView<Eigen::Lower>() * free_part(m_, x));
+  }
   double scale() const override { return permuted_.diagonal().cwiseAbs().maxCoeff(); }
 
   bool factor(double lambda) override
   {
+    shift_ = lambda;
     solver_.setShift(lambda);
     solver_.factorize(permuted_);
-    return solver_.info() == Eigen::Success;
+    definite_ = solver_.info() == Eigen::Success;
+    if (held_.cols() == 0) return definite_;
+    Eigen::Index negative = 0;
+    if (!definite_) {
+      if (!analyzed_) indefinite_.analyzePattern(permuted_);
+      analyzed_ = true;
+      indefinite_.setShift(lambda);
+      indefinite_.factorize(permuted_);
+      if (indefinite_.info() != Eigen::Success) return false;
+      negative = (indefinite_.vectorD().array() < 0.0).count();
+      if (negative > held_.cols()) return false;
+    }
+    moved_ = unconstrained(held_);
+    const Matrix S = held_.transpose() * moved_;
+    const Eigen::SelfAdjointEigenSolver<Matrix> inertia(0.5 * (S + S.transpose()));
+    if (negative + (inertia.eigenvalues().array() > 0.0).count() != held_.cols()) return false;
+    reaction_.compute(S);
+    return true;
   }
 
   Vector solve(const Vector& b) const override
   {
     const Vector right = p_ * root_.cwiseProduct(b);
-    const Vector left = p_.transpose() * Vector(solver_.solve(right));
+    Vector x;
+    if (held_.cols() == 0) {
+      x = solver_.solve(right);
+    } else {
+      const Vector wanted = without_held(right);
+      x = constrained(wanted);
+      // Soft motions that are held make K nearly singular; what that costs in digits is got back once.
+      const Vector y = root_.cwiseProduct(p_.transpose() * x);
+      const Vector reached = p_ * root_.cwiseProduct(lower_.selfadjointView<Eigen::Lower>() * y);
+      x += constrained(wanted - without_held(reached + shift_ * x));
+    }
+    const Vector left = p_.transpose() * x;
     return root_.cwiseProduct(left);
   }
 
@@ -116,15 +159,43 @@ class SparseCurvature final : public Curvature {
   }
 
  private:
+  Matrix unconstrained(const Matrix& right) const
+  {
+    if (definite_) return solver_.solve(right);
+    return indefinite_.solve(right);
+  }
+
+  Vector without_held(const Vector& x) const { return x - held_ * (held_.transpose() * x); }
+
+  Vector constrained(const Vector& right) const
+  {
+    const Vector x = unconstrained(right);
+    return without_held(x - moved_ * reaction_.solve(held_.transpose() * x));
+  }
+
   const Model& m_;
   const Sparse& lower_;
   Vector root_;
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> p_;
   Sparse permuted_;
   Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> solver_;
+
+  // Of what is held:
+  Matrix held_, moved_;                ///< Q and Y, permuted
+  Eigen::FullPivLU<Matrix> reaction_;  ///< S
+  double shift_ = 0.0;
+  bool definite_ = false, analyzed_ = false;
+  Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> indefinite_;
 };
 
 }  // namespace
+
+void hold(const Model& m, Matrix& hessian)
+{
+  hessian -= m.held * (m.held.transpose() * hessian).eval();
+  hessian -= (hessian * m.held).eval() * m.held.transpose();
+  hessian += std::max(1.0, hessian.diagonal().maxCoeff()) * m.held * m.held.transpose();
+}
 
 std::unique_ptr<Curvature> curvature_of(const Model& m, const TotalEnergy& e, EliminationOrder& order)
 {

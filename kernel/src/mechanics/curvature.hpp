@@ -7,7 +7,12 @@
 
 namespace hauberk {
 
-/// Systems with H + lambda M, M the metric.
+/// Held directions Q of a dense Hessian become directions without coupling, and stiff ones, so that rounding
+/// moves nothing there: P H P + s Q Q^T with P = I - Q Q^T.
+void hold(const Model& m, Matrix& hessian);
+
+/// Systems with H + lambda M, M the metric, on the motions that the load case leaves: solutions have no held
+/// part.
 class Curvature {
  public:
   virtual ~Curvature() = default;
@@ -15,7 +20,7 @@ class Curvature {
   virtual Vector times(const Vector& x) const = 0;
   /// Largest |H_kk| / M_kk.
   virtual double scale() const = 0;
-  /// Prepares `solve`; false: H + lambda M is not positive definite.
+  /// Prepares `solve`; false: H + lambda M is not positive definite on these motions.
   virtual bool factor(double lambda) = 0;
   virtual Vector solve(const Vector& b) const = 0;
   /// Smallest eigenvalue of H against M and its direction, of unit length in the step norm. `positive`: a

@@ -317,13 +317,8 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
       (m.sparse() ? t.sparse_hessian.coeffRef(k, k) : t.hessian(k, k)) += 1.0 / stage.target;
   }
   if (m.held.cols() > 0) {
-    // Held directions become directions without force, and stiff ones, so that rounding moves nothing there.
     if (order >= 1) t.gradient = free_part(m, t.gradient);
-    if (order >= 2 && !m.sparse()) {
-      t.hessian -= m.held * (m.held.transpose() * t.hessian).eval();
-      t.hessian -= (t.hessian * m.held).eval() * m.held.transpose();
-      t.hessian += std::max(1.0, t.hessian.diagonal().maxCoeff()) * m.held * m.held.transpose();
-    }
+    if (order >= 2 && !m.sparse()) hold(m, t.hessian);
   }
   return t;
 }

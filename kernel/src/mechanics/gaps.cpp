@@ -22,6 +22,7 @@ struct Side {
   bool swapped;
   const Pose &pp, &pf;
   const PositionMap &mi, &mj;
+  long& evaluations;
 };
 
 Gap gap_between(const Side& side, double gap)
@@ -79,6 +80,7 @@ void gaps_of(const Side& side, const PairFrame& frame, double range, bool deriva
     }
     out.push_back(std::move(g));
   }
+  side.evaluations += evaluations;
 }
 
 /// Of meshes: the smallest gap, or with derivatives those of all features within range.
@@ -101,13 +103,13 @@ void mesh_gaps(const Side& side, const PairFrame& frame, double range, bool deri
 /// All gaps of a pair of bodies a, b.
 void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose& pi, const Pose& pj,
                const PositionMap& mi, const PositionMap& mj, double range, bool derivatives,
-               std::vector<Gap>& out)
+               long& evaluations, std::vector<Gap>& out)
 {
   const Body& A = m.bodies[static_cast<std::size_t>(a)];
   const Body& B = m.bodies[static_cast<std::size_t>(b)];
   const bool swapped = !A.facets && probe_rank(B) < probe_rank(A);
   const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
-                  mi, mj};
+                  mi, mj,   evaluations};
   const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,
                         m.bodies[static_cast<std::size_t>(side.f)], side.pf);
   if (A.facets) {
@@ -168,8 +170,9 @@ Penalty penalty(const Model& m, const State& start, const State& s, double targe
 
 }  // namespace
 
-std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool derivatives)
+std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool derivatives, long* evaluations)
 {
+  long count = 0;
   std::vector<Gap> out;
   const double reach = range + m.clearance;
   PositionMap mi, mj;
@@ -186,10 +189,11 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
         const double d = (pi.position + pi.rotation * A.center - pj.position - pj.rotation * B.center).norm();
         if (d >= A.bound + B.bound + reach) continue;
-        body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, out);
+        body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, count, out);
       }
     }
   }
+  if (evaluations != nullptr) *evaluations += count;
   return out;
 }
 

@@ -1,4 +1,4 @@
-#include <hauberk/mechanics/locking.hpp>
+#include "constrained.hpp"
 
 #include <fmt/format.h>
 
@@ -219,6 +219,7 @@ ContactChoice contact_named(std::string_view name)
   if (name == "nearest") return ContactChoice::nearest;
   if (name == "arc") return ContactChoice::arc;
   if (name == "mesh") return ContactChoice::mesh;
+  if (name == "constrained") return ContactChoice::constrained;
   return name == "published" ? ContactChoice::published : ContactChoice::automatic;
 }
 
@@ -239,6 +240,7 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
 {
   switch (choice) {
     case ContactChoice::nearest:
+    case ContactChoice::constrained:
       return Formulation::nearest;
     case ContactChoice::arc:
       return Formulation::arc;
@@ -252,6 +254,8 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
   // Slack for the rounding of powers.
   return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
 }
+
+double constrained_margin(const Schedule& schedule) { return 0.1 * schedule.last; }
 
 double least_regular_curvature(double g_hat) { return 2.0 * std::sqrt(g_hat); }
 
@@ -273,6 +277,7 @@ Vector load_vector(const Model& m, const Direction& direction, Sense sense)
 Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
             const Schedule& schedule, const KeepGoing& keep_going)
 {
+  if (choice == ContactChoice::constrained) return constrained_lock(model, start, load, schedule, keep_going);
   return Path(model, start, load, choice, schedule, keep_going).run();
 }
 

@@ -172,7 +172,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
 /// Where both cost about the same: share/doc/speed.md.
 constexpr int most_dense = 250;
 
-bool Model::sparse() const { return held.cols() == 0 && dofs() > most_dense; }
+bool Model::sparse() const { return dofs() > most_dense; }
 
 std::vector<int> shown(const Image& image)
 {

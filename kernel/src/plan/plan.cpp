@@ -105,6 +105,12 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
                       "those of the meshes",
                       m.bodies.front().facets->triangles().size(), m.bodies.front().facets->edges().size()));
       break;
+    case ContactChoice::constrained:
+      p.decisions.push_back(fmt::format(
+          "contact: gaps of at least {:g} L as constraints of quadratic programs, no energy; nothing is "
+          "certified on the way",
+          constrained_margin(settings.schedule)));
+      break;
   }
   if (settings.schedule.search == MinimaSearch::sampled)
     p.decisions.emplace_back("closest points: Newton's method from samples, a minimum may be missed");
@@ -116,9 +122,11 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
         "carries no load",
         settings.schedule.target));
   }
-  const std::vector<double> stages = activation_distances(settings.schedule);
-  p.decisions.push_back(fmt::format("stages: {}, activation distances {:g} L to {:g} L", stages.size(),
-                                    stages.front(), stages.back()));
+  if (settings.contact != ContactChoice::constrained) {
+    const std::vector<double> stages = activation_distances(settings.schedule);
+    p.decisions.push_back(fmt::format("stages: {}, activation distances {:g} L to {:g} L", stages.size(),
+                                      stages.front(), stages.back()));
+  }
   const std::size_t neighbours = with_neighbours(m, tasks, settings.neighbours).size() - tasks.size();
   if (neighbours > 0) {
     p.decisions.push_back(

@@ -3,8 +3,8 @@
 #include "../sqp.hpp"
 
 #include <gtest/gtest.h>
-#include <common/damped_bfgs.hpp>
 #include <common/subproblem.hpp>
+#include <quadratic/damped_bfgs.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <random>

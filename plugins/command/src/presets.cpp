@@ -118,9 +118,14 @@ std::vector<Problem> solver_problems(const Experiment& e)
     out.push_back(
         {"/solver/facets", 0, "facets belong to contact 'mesh'; remove this or choose that contact"});
   }
-  if (e.task == Task::design && solver.contact == "mesh") {
-    out.push_back({"/solver/contact", 0, "contact 'mesh' is for limits only; use auto or arc for a design"});
+  const bool constrained = solver.contact == "constrained";
+  if (e.task == Task::design && (constrained || solver.contact == "mesh")) {
+    out.push_back(
+        {"/solver/contact", 0,
+         fmt::format("contact '{}' is for limits only; use auto or arc for a design", solver.contact)});
   }
+  if (constrained && solver.ccd)
+    out.push_back({"/solver/ccd", 0, "contact 'constrained' checks no steps for collisions; remove this"});
   const bool published = contact_choice(solver) == ContactChoice::published;
   const bool tori_only = published || solver.contact == "mesh" || solver.ccd == "sampled";
   if ((tori_only || e.task == Task::transition) && has_curve_tube(e.scene)) {

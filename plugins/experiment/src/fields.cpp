@@ -138,10 +138,13 @@ Field solver_field()
                                  0.0),
                         "0"),
            with_default(
-               choice("contact",
-                      "Contact formulation; auto: arc, then nearest, with preset paper published; mesh: of "
-                      "triangle meshes, what others compute, for comparison.",
-                      {"auto", "nearest", "arc", "published", "mesh"}),
+               choice(
+                   "contact",
+                   "Contact formulation; auto: arc, then nearest, with preset paper published; for "
+                   "comparison, "
+                   "mesh: of triangle meshes, what others compute, and constrained: gaps as constraints of "
+                   "sequential quadratic programs, without energy or certificate.",
+                   {"auto", "nearest", "arc", "published", "mesh", "constrained"}),
                "\"auto\""),
            at_most(at_least(integer("facets",
                                     "Of contact mesh: every primitive is a mesh of facets x facets "

@@ -93,5 +93,60 @@ TEST_F(SparseHessian, SystemsAgreeWithDenseOnes)
   EXPECT_NEAR(direction.dot(H * direction), found, 1e-9 * std::abs(found));
 }
 
+/// Directions that are held, among them the one of most negative curvature, which may leave the rest
+/// definite.
+TEST_F(SparseHessian, HeldDirectionsAreLeftOutAsInDenseAlgebra)
+{
+  const Matrix M = model_.metric.asDiagonal();
+  const Matrix free_hessian = full();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eig(free_hessian, M);
+  std::mt19937_64 rng(7);
+  std::normal_distribution<double> normal;
+  // What coordinates have of the most negative curvature, and two more: all held directions are of
+  // coordinates.
+  Matrix rows = Matrix::Zero(model_.dofs(), 3);
+  for (int k = 0; k < model_.element_count(); ++k) {
+    for (int c = 0; c < 3; ++c) {
+      const int at = model_.offset(k) + c;
+      rows(at, 0) = eig.eigenvectors()(at, 0);
+      rows(at, 1) = c == 0 ? 1.0 : 0.0;
+      rows(at, 2) = normal(rng);
+    }
+  }
+  const Eigen::HouseholderQR<Matrix> qr(rows);
+  model_.held = qr.householderQ() * Matrix::Identity(model_.dofs(), 3);
+  energy_ = total_energy(model_, state_, pull_, stage_, pairs_, 2);
+  ASSERT_LT(free_part(model_, energy_.gradient).norm(), energy_.gradient.norm() * (1.0 + 1e-12));
+
+  Matrix H = free_hessian;
+  hold(model_, H);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> held(H, M);
+  const double least = held.eigenvalues()[0];
+  ASSERT_GT(least, eig.eigenvalues()[0] + 1e-4) << "what is held should make a difference";
+  EliminationOrder order;
+  const std::unique_ptr<Curvature> c = curvature_of(model_, energy_, order);
+  int indefinite = 0;
+  // Between the two spectra K is indefinite and the rest is not; below, neither is.
+  for (const double part : {-0.5, 0.02, 0.3, 0.7, 0.98, 1.02, 3.0}) {
+    const double shift = -least + part * (least - eig.eigenvalues()[0]);
+    const bool definite = (H + shift * M).llt().info() == Eigen::Success;
+    EXPECT_EQ(c->factor(shift), definite) << part;
+    if (!definite) continue;
+    indefinite += (free_hessian + shift * M).llt().info() == Eigen::Success ? 0 : 1;
+    const Vector expected = free_part(model_, (H + shift * M).llt().solve(energy_.gradient));
+    EXPECT_LT((c->solve(energy_.gradient) - expected).norm(), 1e-9 * expected.norm()) << part;
+    EXPECT_LT((model_.held.transpose() * c->solve(energy_.gradient)).norm(), 1e-12 * expected.norm()) << part;
+  }
+  EXPECT_GE(indefinite, 3);
+  Vector direction;
+  const double found = c->lowest(1.0 - least, direction);
+  EXPECT_NEAR(found, least, 0.01 * std::abs(least));
+  EXPECT_LT((model_.held.transpose() * direction).norm(), 1e-12);
+  Vector x(model_.dofs());
+  for (double& v : x) v = normal(rng);
+  EXPECT_LT((c->times(x) - free_part(model_, free_hessian * free_part(model_, x))).norm(),
+            1e-12 * H.norm() * x.norm());
+}
+
 }  // namespace
 }  // namespace hauberk::test

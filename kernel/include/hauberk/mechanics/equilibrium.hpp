@@ -63,7 +63,7 @@ struct TotalEnergy {
   double energy = 0.0;
   Vector gradient;
   Matrix hessian;  ///< with what the load case holds made stiff
-  /// Lower triangle, of models with many unknowns (Model::sparse).
+  /// Lower triangle, of models with many unknowns (Model::sparse), with nothing held.
   Eigen::SparseMatrix<double> sparse_hessian;
   ContactEnergy contact;
   bool admissible = false;  ///< all gaps positive

@@ -18,7 +18,9 @@ struct Gap {
 };
 
 /// All local minima closer than `range` (scaled, after clearance), in a fixed order; derivatives on request.
-std::vector<Gap> find_gaps(const Model& model, const State& state, double range, bool derivatives);
+/// `evaluations` grows by the closest-point evaluations that it took (of surfaces; meshes count none).
+std::vector<Gap> find_gaps(const Model& model, const State& state, double range, bool derivatives,
+                           long* evaluations = nullptr);
 
 /// Smallest gap over all pairs within `range`, infinity if none.
 double smallest_gap(const Model& model, const State& state, double range);

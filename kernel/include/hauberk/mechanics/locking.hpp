@@ -14,11 +14,14 @@ enum class ContactChoice {
   automatic,  ///< arc while contacts may merge and split, nearest to finish; arc again where nearest stalls
   nearest,
   arc,
-  published,  ///< the paper's, in every stage
-  mesh        ///< of triangle meshes, in every stage; the model must have facets
+  published,   ///< the paper's, in every stage
+  mesh,        ///< of triangle meshes, in every stage; the model must have facets
+  constrained  ///< no energy: gaps are constraints of an optimisation, the schedule's last distance sets its
+               ///< margin
 };
 
-/// The choice of that name in experiments: nearest, arc, published, mesh; automatic for any other.
+/// The choice of that name in experiments: nearest, arc, published, mesh, constrained; automatic for any
+/// other.
 ContactChoice contact_named(std::string_view name);
 
 /// Stages of activation distances from `first` to `last` (L), falling by equal factors that are not smaller
@@ -46,6 +49,9 @@ std::vector<double> activation_distances(const Schedule& schedule);
 /// The formulation that a choice means at an activation distance, before anything has stalled: `automatic` is
 /// arc above schedule.change, else nearest.
 Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule);
+
+/// Gap (L) that `constrained` leaves: a tenth of the last activation distance, as barriers do.
+double constrained_margin(const Schedule& schedule);
 
 /// Relative curvature (1/L) below which a contact is not regular at the activation distance g_hat (L). Near a
 /// merge the gap along the surface is g0 - a t^2/2 + b t^4/24; its two minima have the curvature 2 a, and the
@@ -78,13 +84,15 @@ struct Locked {
   long evaluations = 0;
   std::vector<State> trail;  ///< states at the ends of `stages`, for warm starts
   std::optional<double> error_estimate;
+  /// Of `constrained`: contacts with the multipliers of the problem as forces (stage.mu is 1).
+  std::optional<ContactEnergy> pressed;
 };
 
 /// The load on the macroscopic unknowns for a direction and sense.
 Vector load_vector(const Model& model, const Direction& direction, Sense sense);
 
-/// Runs all stages from `start`. Later stages start from the extrapolation of the last two, along which
-/// positions are linear in g_hat. Thread safe; deterministic.
+/// Runs all stages from `start`, or solves the constrained problem. Later stages start from the extrapolation
+/// of the last two, along which positions are linear in g_hat. Thread safe; deterministic.
 Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
             const Schedule& schedule, const KeepGoing& keep_going);
 

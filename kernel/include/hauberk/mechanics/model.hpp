@@ -56,8 +56,8 @@ struct Model {
   int element_count() const { return static_cast<int>(rest.size()); }
   int element_dofs() const { return coordinate_count + 3; }
   int dofs() const { return macro_count + element_count() * element_dofs(); }
-  /// Its Hessian is stored sparse: it has more unknowns than pay for a dense one, and none are held (what is
-  /// held couples all elements).
+  /// Its Hessian is stored sparse: it has more unknowns than pay for a dense one. What is held couples all
+  /// elements, and is left to whoever solves with it.
   bool sparse() const;
   int offset(int element) const { return macro_count + element * element_dofs(); }
   Vec3 translation(const Image& image) const

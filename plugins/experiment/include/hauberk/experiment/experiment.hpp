@@ -31,7 +31,7 @@ enum class Task { limits, design, stability, transition, sweep, chart };
 struct ExperimentSolver {
   std::string preset;                              ///< "fast", "accurate", "paper"
   double clearance = 0.0;                          ///< file units
-  std::string contact;                             ///< "auto", "nearest", "arc", "published", "mesh"
+  std::string contact;                             ///< "auto", or as contact_named
   std::optional<int> facets;                       ///< of contact "mesh"
   std::optional<std::string> closest_points, ccd;  ///< "certified", "sampled"
   std::optional<double> finite_target;

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <common/quadratic_program.hpp>
+#include <quadratic/quadratic_program.hpp>
 
 #include <Eigen/LU>
 #include <cmath>

@@ -84,8 +84,7 @@ void fields(const PluginTable& table)
 bool names_a_field(const std::string& text, const std::vector<Field>& fields)
 {
   return std::any_of(fields.begin(), fields.end(), [&](const Field& field) {
-    return (!field.name.empty() && text.find(field.name) != std::string::npos) ||
-           names_a_field(text, field.children);
+    return (!field.name.empty() && mentions(text, field.name)) || names_a_field(text, field.children);
   });
 }
 

@@ -147,9 +147,13 @@ void boundedness(Trial& trial)
       unchanged("another order of the cycles");
       for (Vec3& T : cycles) T = -T;
       unchanged("the other sense of the cycles");
-      cycles.push_back(given == 0 ? Vec3(Vec3::Zero()) : Vec3(2.0 * cycles.front()));
-      unchanged("a cycle that was there already");
-      cycles.pop_back();
+      const std::vector<Vec3> before = cycles;
+      cycles.insert(cycles.begin(), Vec3::Zero());
+      unchanged("a cycle that closes without a translation");
+      cycles = before;
+      if (given > 0) cycles.push_back(2.0 * cycles.front());
+      unchanged("a cycle that is twice another one");
+      cycles = before;
       cycles.push_back(draw_translation(load_case, random));
     }
   }

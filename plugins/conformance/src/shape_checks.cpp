@@ -67,7 +67,7 @@ void bounds(Trial& trial)
       const auto message = refused(*object.shape, p);
       require(message.has_value(), "parameter '{}' = {} is accepted outside [{}, {}]", infos[k].name, bad,
               infos[k].lower, infos[k].upper);
-      require(message->find(infos[k].name) != std::string::npos,
+      require(mentions(*message, infos[k].name),
               "'{}' = {} is refused without the name of the parameter: '{}'", infos[k].name, bad, *message);
     }
   }
@@ -90,9 +90,8 @@ void refusals(Trial& trial)
   const Object object = trial.make();
   const std::vector<ParameterInfo>& infos = object.shape->parameters();
   const auto named = [&](const std::string& message) {
-    return std::any_of(infos.begin(), infos.end(), [&](const ParameterInfo& info) {
-      return message.find(info.name) != std::string::npos;
-    });
+    return std::any_of(infos.begin(), infos.end(),
+                       [&](const ParameterInfo& info) { return mentions(message, info.name); });
   };
   for (int draw = 0; draw < points; ++draw) {
     const Point inside = draw_point(*object.shape, trial);

@@ -66,6 +66,19 @@ std::string refusal(const Shape& shape, const Point& point)
 
 }  // namespace
 
+bool mentions(std::string_view text, std::string_view name)
+{
+  const auto in_name = [&](std::size_t at) {
+    const auto c = static_cast<unsigned char>(text[at]);
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+  };
+  for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !in_name(at - 1)) && (end == text.size() || !in_name(end))) return true;
+  }
+  return false;
+}
+
 Object Trial::make(const Node& values, Problems& problems, double length) const
 {
   Object object;

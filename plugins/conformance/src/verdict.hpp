@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace hauberk::conformance {
@@ -35,5 +36,8 @@ template <class... Args>
 {
   throw Skip{fmt::format(format, std::forward<Args>(args)...)};
 }
+
+/// Whether `name` stands in `text` as a word of its own: not as a part of another name.
+bool mentions(std::string_view text, std::string_view name);
 
 }  // namespace hauberk::conformance

@@ -3,14 +3,14 @@
 #include "../bfgs.hpp"
 
 #include <gtest/gtest.h>
-#include <common/test/known_problems.hpp>
+#include <hauberk/conformance/known_problems.hpp>
 
 #include <cmath>
 
 namespace hauberk {
 namespace {
 
-using namespace testing_problems;
+using namespace conformance;
 
 TEST(LimitedMemory, IsBfgsWhileNothingIsForgotten)
 {
@@ -50,7 +50,7 @@ OptimizerResult minimise(FunctionProblem& problem, const std::vector<double>& st
 {
   settings.tolerance = 1e-10;
   OptimizerResult result = Bfgs(settings).minimize(problem, start, recorder);
-  EXPECT_EQ(problem.broken_protocol, 0);
+  EXPECT_EQ(problem.breach, "");
   return result;
 }
 

@@ -3,14 +3,14 @@
 #include "../adapter.hpp"
 
 #include <gtest/gtest.h>
-#include <common/test/known_problems.hpp>
+#include <hauberk/conformance/known_problems.hpp>
 
 #include <cmath>
 
 namespace hauberk {
 namespace {
 
-using namespace testing_problems;
+using namespace conformance;
 
 /// An adapter for a problem within [0, 10] or so, begun at its start.
 struct Begun {

@@ -3,7 +3,7 @@
 #include "../sqp.hpp"
 
 #include <gtest/gtest.h>
-#include <common/test/known_problems.hpp>
+#include <hauberk/conformance/known_problems.hpp>
 
 #include <cmath>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace hauberk {
 namespace {
 
-using namespace testing_problems;
+using namespace conformance;
 
 SqpSettings accurate()
 {
@@ -24,7 +24,7 @@ OptimizerResult minimise(FunctionProblem& problem, const std::vector<double>& st
                          const SqpSettings& settings = accurate())
 {
   OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
-  EXPECT_EQ(problem.broken_protocol, 0);
+  EXPECT_EQ(problem.breach, "");
   EXPECT_EQ(result.evaluations, static_cast<int>(problem.evaluated.size()));
   EXPECT_EQ(recorder.iterates.size(), static_cast<std::size_t>(result.iterations) + 1);
   return result;

@@ -3,7 +3,7 @@
 #include "../sqp.hpp"
 
 #include <gtest/gtest.h>
-#include <common/test/known_problems.hpp>
+#include <hauberk/conformance/known_problems.hpp>
 #include <hauberk/error.hpp>
 
 #include <cmath>
@@ -12,13 +12,13 @@
 namespace hauberk {
 namespace {
 
-using namespace testing_problems;
+using namespace conformance;
 
 OptimizerResult minimise(FunctionProblem& problem, const std::vector<double>& start, Recorder& recorder,
                          const SqpSettings& settings = {})
 {
   OptimizerResult result = Sqp(settings).minimize(problem, start, recorder);
-  EXPECT_EQ(problem.broken_protocol, 0);
+  EXPECT_EQ(problem.breach, "");
   return result;
 }
 

@@ -32,8 +32,8 @@ constexpr std::array sub_commands{
     SubCommand{"verify", "RESULTS.json", "recheck a result from its file alone", verify_command},
     SubCommand{"report", "RESULT... -o DIR [--force] [--recheck FOLDER]",
                "a table and a page of plots of many results", report_command},
-    SubCommand{"plugins", "[list | describe ID]", "shapes, load cases and optimizers that are found",
-               plugins_command},
+    SubCommand{"plugins", "[list | describe ID | conform FILE.so]",
+               "shapes, load cases and optimizers that are found", plugins_command},
 };
 
 std::string help()

@@ -24,5 +24,6 @@ int room_command(const std::vector<std::string>& words);
 int verify_command(const std::vector<std::string>& words);
 int report_command(const std::vector<std::string>& words);
 int plugins_command(const std::vector<std::string>& words);
+int conform_command(const std::vector<std::string>& words);  ///< plugins conform
 
 }  // namespace hauberk::command

@@ -1,10 +1,11 @@
-#include "known_problems.hpp"
+#include <hauberk/conformance/known_problems.hpp>
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
-namespace hauberk::testing_problems {
+namespace hauberk::conformance {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -281,4 +282,12 @@ std::vector<KnownProblem> known_problems()
   return all;
 }
 
-}  // namespace hauberk::testing_problems
+KnownProblem known_problem(const std::string& name)
+{
+  for (KnownProblem& problem : known_problems()) {
+    if (problem.name == name) return std::move(problem);
+  }
+  throw std::out_of_range("no known problem " + name);
+}
+
+}  // namespace hauberk::conformance

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hauberk::testing_problems {
+namespace hauberk::conformance {
 
 /// n variables within the same bounds; functions are still to be set.
 FunctionProblem box(std::size_t n, double lower, double upper);
@@ -66,5 +66,7 @@ inline void PrintTo(const KnownProblem& k, std::ostream* out) { *out << k.name; 
 /// - short_way: no step longer than 0.2 is safe
 /// - wall: nothing beyond x0 = 0.4 can be reached
 std::vector<KnownProblem> known_problems();
+/// The one of that name; throws std::out_of_range when there is none.
+KnownProblem known_problem(const std::string& name);
 
-}  // namespace hauberk::testing_problems
+}  // namespace hauberk::conformance

@@ -1,0 +1,79 @@
+#pragma once
+/// The checks of `hauberk plugins conform` as tests of GoogleTest:
+///
+///     HAUBERK_CONFORMANCE_TESTS(MyShape, MY_SHAPE_FILE, R"({"parameters": {"ring.R": 5}})");
+///
+/// at namespace scope of a test program that links hauberk::conformance and GTest::gtest_main, where
+/// MY_SHAPE_FILE is the plugin's library (CMake: $<TARGET_FILE:my_shape>). Tests are named
+/// MyShape.shape_jacobians and so on. They run in the test's process: use the command to survive a crash.
+
+#include <hauberk/conformance/check.hpp>
+#include <hauberk/error.hpp>
+#include <hauberk/host/plugin_library.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace hauberk::conformance {
+
+/// One check of one plugin.
+class ConformanceTest : public testing::Test {
+ public:
+  ConformanceTest(Check check, const PluginTable& table, conformance::Setup setup, std::uint64_t seed)
+      : check_(std::move(check)), table_(table), setup_(std::move(setup)), seed_(seed)
+  {
+  }
+  void TestBody() override
+  {
+    const Outcome outcome = run(check_, table_, setup_, seed_);
+    if (outcome.status == Outcome::Status::skipped) GTEST_SKIP() << outcome.text;
+    EXPECT_EQ(outcome.status, Outcome::Status::passed) << check_.about << ": " << outcome.text;
+  }
+
+ private:
+  Check check_;
+  const PluginTable& table_;
+  conformance::Setup setup_;  // testing::Test has a trap of that name
+  std::uint64_t seed_;
+};
+
+/// A plugin that could not be loaded.
+class LoadTest : public testing::Test {
+ public:
+  explicit LoadTest(std::string why) : why_(std::move(why)) {}
+  void TestBody() override { ADD_FAILURE() << why_; }
+
+ private:
+  std::string why_;
+};
+
+/// Registers the checks of the plugin in `file` as tests of suite `suite`. Returns true.
+inline bool register_tests(const char* suite, const std::string& file, const std::string& section = {},
+                           std::uint64_t seed = 1)
+{
+  try {
+    const PluginTable& table = PluginLibrary::load(file).table();
+    for (const Check& check : checks(table.kind)) {
+      std::string name = check.name;
+      std::replace(name.begin(), name.end(), '.', '_');
+      testing::RegisterTest(suite, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+                            [check, &table, section, seed]() -> testing::Test* {
+                              return new ConformanceTest(check, table, Setup{section}, seed);
+                            });
+    }
+  } catch (const PluginError& error) {
+    testing::RegisterTest(
+        suite, "load", nullptr, nullptr, __FILE__, __LINE__,
+        [why = std::string(error.what())]() -> testing::Test* { return new LoadTest(why); });
+  }
+  return true;
+}
+
+}  // namespace hauberk::conformance
+
+#define HAUBERK_CONFORMANCE_TESTS(suite, ...)        \
+  static const bool hauberk_conformance_of_##suite = \
+      ::hauberk::conformance::register_tests(#suite, __VA_ARGS__)

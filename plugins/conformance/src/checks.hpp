@@ -1,0 +1,26 @@
+#pragma once
+/// Where checks are made; checks.cpp puts them together.
+
+#include "trial.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk::conformance {
+
+/// A check whose function works with a Trial and ends early by Failure or Skip.
+Check of_trial(std::string name, std::optional<PluginKind> kind, const char* about,
+               std::function<void(Trial&)> function);
+
+void add_checks_of_every_kind(std::vector<Check>& out);
+void add_shape_checks(std::vector<Check>& out);
+/// How load cases move things; the load and what is allowed.
+void add_load_case_motion_checks(std::vector<Check>& out);
+void add_load_case_load_checks(std::vector<Check>& out);
+void add_optimizer_checks(std::vector<Check>& out);
+/// The known problems, one check each.
+void add_known_problem_checks(std::vector<Check>& out);
+
+}  // namespace hauberk::conformance

@@ -1,0 +1,106 @@
+#include <hauberk/conformance/function_problem.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hauberk::conformance {
+namespace {
+
+VectorXd vector(std::span<const double> x)
+{
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// Calls `functions` at v and hands out what was asked for.
+void fill(const std::function<void(const VectorXd&, VectorXd&, RowMajor&)>& functions, int count,
+          const VectorXd& v, std::span<double> values, std::span<double> jacobian)
+{
+  VectorXd c(count);
+  RowMajor J(count, v.size());
+  functions(v, c, J);
+  if (!values.empty()) std::copy(c.begin(), c.end(), values.begin());
+  if (!jacobian.empty()) std::copy(J.data(), J.data() + J.size(), jacobian.begin());
+}
+
+}  // namespace
+
+void FunctionProblem::breaks(bool broken, const std::string& what)
+{
+  if (broken && breach.empty()) breach = fmt::format("{} (evaluation {})", what, evaluated.size() + 1);
+}
+
+/// v is on the safe part of one of the directions asked for, or was accepted before.
+bool FunctionProblem::allowed(const VectorXd& v) const
+{
+  if (std::find(accepted.begin(), accepted.end(), v) != accepted.end()) return true;
+  return std::any_of(directions.begin(), directions.end(), [&](const Direction& at) {
+    const VectorXd moved = v - accepted.back();
+    const double alpha = moved.dot(at.d) / at.d.squaredNorm();
+    const double rounding = 1e-14 * (1.0 + v.norm());
+    return (alpha - at.alpha) * at.d.norm() <= rounding && (moved - alpha * at.d).norm() <= rounding;
+  });
+}
+
+void FunctionProblem::check_evaluation(const VectorXd& v)
+{
+  for (std::size_t i = 0; i < lower_bounds.size(); ++i) {
+    const double x = v[static_cast<Eigen::Index>(i)];
+    breaks(!(x >= lower_bounds[i] && x <= upper_bounds[i]),
+           fmt::format("it evaluated x[{}] = {} outside its bounds [{}, {}]", i, x, lower_bounds[i],
+                       upper_bounds[i]));
+  }
+  breaks(!accepted.empty() && !allowed(v),
+         "it evaluated a point that is not on the safe part of a direction asked for at the accepted point");
+}
+
+OptimizationProblem::Evaluation FunctionProblem::evaluate(std::span<const double> x, bool want_gradient)
+{
+  const VectorXd v = vector(x);
+  check_evaluation(v);
+  // What became of an iterate when it was accepted costs nothing to ask.
+  const bool known = std::exchange(just_accepted, false) && v == accepted.back();
+  if (!known) evaluated.push_back(v);
+  Evaluation e;
+  if (want_gradient && !known) ++gradients;
+  if (fails(v)) {
+    e.why = "told to fail";
+    return e;
+  }
+  VectorXd gradient(v.size());
+  e.value = objective(v, gradient);
+  e.ok = true;
+  if (want_gradient) e.gradient.assign(gradient.begin(), gradient.end());
+  return e;
+}
+
+void FunctionProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
+{
+  fill(constraint_functions, constraint_number, vector(x), c, jacobian);
+}
+
+bool FunctionProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)
+{
+  breaks(!is_latest(vector(x)), "it asked for residuals at another point than the one evaluated last");
+  fill(residual_functions, residual_number, vector(x), r, jacobian);
+  return true;
+}
+
+double FunctionProblem::largest_safe_step(std::span<const double> x, std::span<const double> d)
+{
+  breaks(accepted.empty() || vector(x) != accepted.back(),
+         "it asked for the largest safe step from another point than the accepted one");
+  directions.push_back({vector(d), safe(vector(x), vector(d))});
+  return directions.back().alpha;
+}
+
+void FunctionProblem::accept(std::span<const double> x)
+{
+  breaks(!is_latest(vector(x)), "it accepted another point than the one evaluated last");
+  accepted.push_back(vector(x));
+  just_accepted = true;
+  directions.clear();
+}
+
+}  // namespace hauberk::conformance

@@ -1,0 +1,293 @@
+/// Checks of load cases: what they declare, how they move things.
+
+#include "checks.hpp"
+#include "differences.hpp"
+#include "trace.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace hauberk::conformance {
+namespace {
+
+constexpr int states = 12;
+constexpr double rounding = 1e-12;
+constexpr double step = 0.05;  ///< largest, of differences
+
+using Values = std::vector<double>;
+
+/// Arguments of position, in one vector of unknowns (macro, e).
+struct State {
+  Values y;
+  std::size_t macros;
+  Vec3 X, T;
+
+  PositionMap of(const LoadCase& load_case, const Values& at) const
+  {
+    PositionMap map;
+    const std::span<const double> all(at);
+    load_case.position(all.first(macros), all.subspan(macros), X, T, map);
+    return map;
+  }
+  Values moved(std::size_t k, double s) const
+  {
+    Values out = y;
+    out[k] += s;
+    return out;
+  }
+};
+
+State draw_state(const LoadCase& load_case, Random& random)
+{
+  State state;
+  state.macros = static_cast<std::size_t>(load_case.macro_count());
+  const auto movable = [&] {
+    for (std::size_t k = 0; k < state.macros; ++k) {
+      for (const double s : {-step, step}) {
+        if (!load_case.admissible(std::span<const double>(state.moved(k, s)).first(state.macros)))
+          return false;
+      }
+    }
+    return true;
+  };
+  for (int draw = 0; draw < 100; ++draw) {
+    state.y = draw_macro(load_case, random, 0.3);
+    if (movable()) break;
+  }
+  const Values e = random.values(static_cast<std::size_t>(load_case.coordinate_count()), 0.5);
+  state.y.insert(state.y.end(), e.begin(), e.end());
+  state.X = random.vector(2.0);
+  state.T = draw_translation(load_case, random);
+  return state;
+}
+
+void unknowns(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  const int macros = load_case.macro_count(), coordinates = load_case.coordinate_count();
+  require(macros >= 1 && macros <= max_macro, "{} macroscopic unknowns; expected 1 to {}", macros, max_macro);
+  require(coordinates >= 1 && coordinates <= max_coordinates,
+          "{} coordinates of an element; expected 1 to {}", coordinates, max_coordinates);
+  std::set<std::string> names;
+  for (const MacroInfo& macro : load_case.macros()) {
+    require(!macro.name.empty(), "a macroscopic unknown has no name");
+    require(names.insert(macro.name).second, "there are two unknowns '{}'", macro.name);
+  }
+  require(!load_case.measure().empty(), "its measure has no name");
+  const auto [positive, negative] = load_case.sense_names();
+  require(!positive.empty() && !negative.empty() && positive != negative,
+          "its senses are '{}' and '{}'; expected two names", positive, negative);
+  Values m(static_cast<std::size_t>(macros));
+  load_case.metric(m);
+  for (std::size_t k = 0; k < m.size(); ++k)
+    require(m[k] > 0.0 && std::isfinite(m[k]), "the metric of '{}' is {}; expected a positive number",
+            load_case.macros()[k].name, m[k]);
+}
+
+void rest(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  for (int draw = 0; draw < states; ++draw) {
+    State state = draw_state(load_case, trial.random);
+    std::fill(state.y.begin(), state.y.end(), 0.0);
+    const Vec3 x = state.of(load_case, state.y).x, expected = state.X + state.T;
+    require((x - expected).norm() <= rounding * (1.0 + expected.norm()),
+            "at rest the element at ({}, {}, {}) is at ({}, {}, {})", expected.x(), expected.y(),
+            expected.z(), x.x(), x.y(), x.z());
+  }
+}
+
+std::string unknown_name(const LoadCase& load_case, std::size_t k)
+{
+  const auto macros = static_cast<std::size_t>(load_case.macro_count());
+  return k < macros ? load_case.macros()[k].name : fmt::format("e[{}]", k - macros);
+}
+
+void first_derivatives(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  for (int draw = 0; draw < states; ++draw) {
+    const State state = draw_state(load_case, trial.random);
+    const PositionMap here = state.of(load_case, state.y);
+    for (std::size_t k = 0; k < state.y.size(); ++k) {
+      const Vec3 column = here.J.col(static_cast<Eigen::Index>(k));
+      const Along moved = [&](double s) {
+        const Vec3 x = state.of(load_case, state.moved(k, s)).x;
+        return Values(x.begin(), x.end());
+      };
+      for (const Deviation& wrong : deviations(moved, {column.data(), 3}, step))
+        fail("d {}/d {}: {}", "xyz"[wrong.component], unknown_name(load_case, k), text_of(wrong));
+    }
+    for (auto k = static_cast<Eigen::Index>(state.y.size()); k < PositionMap::n; ++k)
+      require(here.J.col(k).isZero(0.0), "column {} of J belongs to no unknown and is not zero", k);
+  }
+}
+
+void second_derivatives(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  for (int draw = 0; draw < states; ++draw) {
+    const State state = draw_state(load_case, trial.random);
+    const PositionMap here = state.of(load_case, state.y);
+    const std::size_t n = state.y.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      Values claimed(3 * n, 0.0);
+      for (std::size_t i = 0; here.curved && i < 3 * n; ++i) claimed[i] = here.H[i % 3][i / 3][k];
+      const Along moved = [&](double s) {
+        const PositionMap map = state.of(load_case, state.moved(k, s));
+        return Values(map.J.data(), map.J.data() + 3 * n);
+      };
+      for (const Deviation& wrong : deviations(moved, claimed, step))
+        fail("d2 {}/d {} d {}{}: {}", "xyz"[wrong.component % 3],
+             unknown_name(load_case, wrong.component / 3), unknown_name(load_case, k),
+             here.curved ? "" : " (not curved, it says)", text_of(wrong));
+    }
+  }
+}
+
+/// Images are displaced by D(macro, T), which is additive in T and the same for every element.
+void images(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  if (!load_case.periodic()) skip("it is not periodic");
+  for (int draw = 0; draw < states; ++draw) {
+    const State state = draw_state(load_case, trial.random), other = draw_state(load_case, trial.random);
+    const std::span<const double> macro = std::span<const double>(state.y).first(state.macros);
+    const auto displaced = [&](const State& element, const Vec3& T) {
+      const std::span<const double> e = std::span<const double>(element.y).subspan(element.macros);
+      PositionMap image, itself;
+      load_case.position(macro, e, element.X, T, image);
+      load_case.position(macro, e, element.X, Vec3::Zero(), itself);
+      return Vec3(image.x - itself.x);
+    };
+    const auto same = [](const Vec3& a, const Vec3& b) {
+      return (a - b).norm() <= rounding * (1.0 + a.norm() + b.norm());
+    };
+    const Vec3 T = state.T, U = other.T;
+    const Vec3 D = displaced(state, T);
+    require(same(D, displaced(other, T)),
+            "the image by one translation is displaced by {:.6g} for one element and {:.6g} for another",
+            D.norm(), displaced(other, T).norm());
+    require(same(displaced(state, T + U), D + displaced(state, U)),
+            "an image of an image is not the image by the sum of both translations: displaced by {:.6g} and "
+            "{:.6g}",
+            displaced(state, T + U).norm(), (D + displaced(state, U)).norm());
+  }
+}
+
+void acceleration(Trial& trial)
+{
+  constexpr int samples = 64;
+  constexpr double h = 1e-4, tolerance = 1e-6;
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  for (int draw = 0; draw < 4 * states; ++draw) {
+    const State from = draw_state(load_case, trial.random), to = draw_state(load_case, trial.random);
+    Values d(from.y.size());
+    for (std::size_t k = 0; k < d.size(); ++k) d[k] = to.y[k] - from.y[k];
+    const std::span<const double> y(from.y), dy(d);
+    const double bound =
+        load_case.acceleration_bound(y.first(from.macros), dy.first(from.macros), y.subspan(from.macros),
+                                     dy.subspan(from.macros), from.X, from.T);
+    require(std::isfinite(bound) && bound >= 0.0, "the bound of the acceleration is {}", bound);
+    const auto velocity = [&](double s) {
+      Values at = from.y;
+      for (std::size_t k = 0; k < d.size(); ++k) at[k] += s * d[k];
+      const PositionMap map = from.of(load_case, at);
+      Vec3 v = Vec3::Zero();
+      for (std::size_t k = 0; k < d.size(); ++k) v += map.J.col(static_cast<Eigen::Index>(k)) * d[k];
+      return v;
+    };
+    for (int i = 0; i <= samples; ++i) {
+      const double s = static_cast<double>(i) / samples;
+      const double found = ((velocity(s + h) - velocity(s - h)) / (2.0 * h)).norm();
+      require(found <= bound + tolerance * (1.0 + found),
+              "|x''| is {:.9g} at s = {:.4g} of a path whose bound is {:.9g}", found, s, bound);
+    }
+  }
+}
+
+void walls(Trial& trial)
+{
+  constexpr int elements = 5;
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  std::vector<Vec3> X;
+  for (int i = 0; i < elements; ++i) X.push_back(trial.random.vector(3.0));
+  const auto in_range = [&](const std::string& name, const std::vector<LinearTerm>& terms) {
+    require(!name.empty(), "a wall or condition has no name");
+    require(!terms.empty(), "'{}' has no terms", name);
+    for (const LinearTerm& t : terms) {
+      require(t.element >= 0 && t.element < elements && t.coordinate >= 0 &&
+                  t.coordinate < load_case.coordinate_count() && std::isfinite(t.coefficient),
+              "'{}' has a term for element {} of {}, coordinate {} of {}, coefficient {}", name, t.element,
+              elements, t.coordinate, load_case.coordinate_count(), t.coefficient);
+    }
+  };
+  for (const LinearInequality& wall : load_case.inequalities(X)) {
+    in_range(wall.name, wall.terms);
+    require(wall.offset >= 0.0 && std::isfinite(wall.offset), "the wall '{}' is violated at rest, by {}",
+            wall.name, -wall.offset);
+  }
+  const std::vector<LinearEquality> held = load_case.equalities(X);
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(held.size()), elements * load_case.coordinate_count());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    in_range(held[i].name, held[i].terms);
+    for (const LinearTerm& t : held[i].terms)
+      rows(static_cast<Eigen::Index>(i), t.element * load_case.coordinate_count() + t.coordinate) +=
+          t.coefficient;
+  }
+  if (held.empty()) return;
+  const auto rank = Eigen::FullPivLU<Eigen::MatrixXd>(rows).rank();
+  require(rank == rows.rows(), "of {} conditions only {} are independent", held.size(), rank);
+}
+
+/// Lengths in the section are in file units and come with the scene's length: only their ratio counts.
+void scaling(Trial& trial)
+{
+  Object object = trial.make();
+  const Exercise exercise(object, trial);
+  const Values before = exercise(object);
+  Node values = trial.section.values;
+  scale_lengths(values, trial.section.fields, 4.0);
+  Problems problems;
+  object = trial.make(values, problems, 4.0);
+  if (!object.load_case) skip("it refuses its section with lengths times 4");
+  const Values after = exercise(object);
+  require(after.size() == before.size(), "{} answers, and {} for a file in another unit", before.size(),
+          after.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    require(std::abs(after[i] - before[i]) <= rounding * (1.0 + std::abs(before[i])),
+            "in another unit of length, answer {} of {} is {:.12g} instead of {:.12g}", i + 1, before.size(),
+            after[i], before[i]);
+}
+
+}  // namespace
+
+void add_load_case_motion_checks(std::vector<Check>& out)
+{
+  const auto add = [&](const char* name, const char* about, void (*function)(Trial&)) {
+    out.push_back(of_trial(name, PluginKind::load_case, about, function));
+  };
+  add("load_case.unknowns", "unknowns, measure and senses have names; the metric is positive", unknowns);
+  add("load_case.rest", "at rest an element is at X + T", rest);
+  add("load_case.first_derivatives", "J is the derivative of x: differences approach it with slope 2",
+      first_derivatives);
+  add("load_case.second_derivatives", "H is the derivative of J, and zero where it says it is not curved",
+      second_derivatives);
+  add("load_case.images", "an image of an image is an image; all elements are displaced alike", images);
+  add("load_case.acceleration", "acceleration_bound bounds |x''| along every path", acceleration);
+  add("load_case.walls", "walls hold at rest; conditions are independent; terms refer to what exists", walls);
+  add("load_case.scaling", "only lengths relative to the scene's length count", scaling);
+}
+
+}  // namespace hauberk::conformance

@@ -1,0 +1,178 @@
+/// Checks of load cases: the load, the value, and which states are allowed.
+
+#include "checks.hpp"
+#include "differences.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hauberk::conformance {
+namespace {
+
+constexpr int states = 12;
+constexpr double rounding = 1e-12;
+
+using Values = std::vector<double>;
+
+void load(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  bool pulls = false;
+  for (const double theta : angles(trial.random, states)) {
+    const Direction direction = Direction::at_radians(theta);
+    Values t(count, std::numeric_limits<double>::quiet_NaN());
+    load_case.load(direction, t);
+    const double at_rest = load_case.value(direction, Values(count, 0.0));
+    require(at_rest == 0.0, "the value at rest is {} at {:.4g} degrees; expected 0", at_rest, theta / degree);
+    for (int draw = 0; draw < 3; ++draw) {
+      const Values macro = draw_macro(load_case, trial.random, 0.3);
+      for (std::size_t k = 0; k < count; ++k) {
+        const Along moved = [&](double s) {
+          Values at = macro;
+          at[k] += s;
+          return Values{load_case.value(direction, at)};
+        };
+        for (const Deviation& wrong : deviations(moved, {&t[k], 1}, 0.05))
+          fail("the load on {} at {:.6g} degrees is not d value/d {}: {}", load_case.macros()[k].name,
+               theta / degree, load_case.macros()[k].name, text_of(wrong));
+        pulls = pulls || t[k] != 0.0;
+      }
+    }
+  }
+  require(pulls, "the load is zero at every angle");
+}
+
+/// The farthest admissible state along a direction, a little inside; not farther than 20.
+Values far_state(const LoadCase& load_case, Random& random)
+{
+  const Values d = random.values(static_cast<std::size_t>(load_case.macro_count()), 1.0);
+  double inside = 0.0, outside = 20.0;
+  const auto at = [&](double s) {
+    Values out = d;
+    for (double& x : out) x *= s;
+    return out;
+  };
+  if (load_case.admissible(at(outside))) return at(random.between(0.0, outside));
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (inside + outside);
+    (load_case.admissible(at(middle)) ? inside : outside) = middle;
+  }
+  return at(inside * (1.0 - 1e-9));
+}
+
+void admissible(Trial& trial)
+{
+  constexpr int segments = 400, samples = 16;
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  require(load_case.admissible(Values(count, 0.0)), "rest is not admissible");
+  for (std::size_t k = 0; k < count; ++k) {
+    Values macro(count, 0.0);
+    macro[k] = std::nan("");
+    require(!load_case.admissible(macro), "{} = not-a-number is admissible", load_case.macros()[k].name);
+  }
+  for (int draw = 0; draw < segments; ++draw) {
+    const Values a = far_state(load_case, trial.random), b = far_state(load_case, trial.random);
+    if (!load_case.admissible(a) || !load_case.admissible(b)) continue;
+    for (int i = 1; i < samples; ++i) {
+      Values middle(count);
+      const double s = static_cast<double>(i) / samples;
+      for (std::size_t k = 0; k < count; ++k) middle[k] = (1.0 - s) * a[k] + s * b[k];
+      require(
+          load_case.admissible(middle),
+          "the admissible states are not convex: ({:.6g}) is not one, although it lies between ({:.6g}) and "
+          "({:.6g})",
+          fmt::join(middle, ", "), fmt::join(a, ", "), fmt::join(b, ", "));
+    }
+  }
+}
+
+void stretch_range(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  const Values e(static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
+  const auto at_rest =
+      load_case.stretch_range(Values(static_cast<std::size_t>(load_case.macro_count()), 0.0));
+  require(std::abs(at_rest.first - 1.0) <= rounding && std::abs(at_rest.second - 1.0) <= rounding,
+          "at rest the range of stretch is [{}, {}]; expected [1, 1]", at_rest.first, at_rest.second);
+  for (int draw = 0; draw < 8 * states; ++draw) {
+    const Values macro = draw_macro(load_case, trial.random, 0.9);
+    const auto [smallest, largest] = load_case.stretch_range(macro);
+    require(smallest > 0.0 && smallest <= largest && std::isfinite(largest),
+            "the range of stretch is [{}, {}] at an admissible state", smallest, largest);
+    if (!load_case.periodic()) continue;
+    const Vec3 T = draw_translation(load_case, trial.random);
+    PositionMap image, itself;
+    load_case.position(macro, e, Vec3::Zero(), T, image);
+    load_case.position(macro, e, Vec3::Zero(), Vec3::Zero(), itself);
+    const double factor = (image.x - itself.x).norm() / T.norm();
+    require(factor >= smallest * (1.0 - rounding) && factor <= largest * (1.0 + rounding),
+            "a lattice translation is lengthened by {:.9g}, outside the range of stretch [{:.9g}, {:.9g}]",
+            factor, smallest, largest);
+  }
+}
+
+void boundedness(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  Random& random = trial.random;
+  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  std::vector<Values> loads;
+  for (const double theta : angles(random, states)) {
+    Values t(count);
+    load_case.load(Direction::at_radians(theta), t);
+    loads.push_back(t);
+    loads.push_back(random.values(count, 1.0));
+  }
+  for (Values load : loads) {
+    std::vector<Vec3> cycles;
+    for (int given = 0; given <= 3; ++given) {
+      const auto ask = [&] { return load_case.boundedness(load, cycles); };
+      const Boundedness answer = ask();
+      const auto unchanged = [&](const char* change) {
+        require(ask() == answer, "with {} link cycles, {} changes whether the load is bounded", given,
+                change);
+      };
+      for (double& t : load) t *= 3.0;
+      unchanged("three times the load");
+      std::reverse(cycles.begin(), cycles.end());
+      unchanged("another order of the cycles");
+      for (Vec3& T : cycles) T = -T;
+      unchanged("the other sense of the cycles");
+      const std::vector<Vec3> before = cycles;
+      cycles.insert(cycles.begin(), Vec3::Zero());
+      unchanged("a cycle that closes without a translation");
+      cycles = before;
+      if (given > 0) cycles.push_back(2.0 * cycles.front());
+      unchanged("a cycle that is twice another one");
+      cycles = before;
+      cycles.push_back(draw_translation(load_case, random));
+    }
+  }
+}
+
+}  // namespace
+
+void add_load_case_load_checks(std::vector<Check>& out)
+{
+  const auto add = [&](const char* name, const char* about, void (*function)(Trial&)) {
+    out.push_back(of_trial(name, PluginKind::load_case, about, function));
+  };
+  add("load_case.load", "the load is dual to the value: t = d value/d macro, and the value is 0 at rest",
+      load);
+  add("load_case.admissible", "rest is admissible, not-a-number is not, and the set is convex", admissible);
+  add("load_case.stretch_range", "lattice translations are lengthened by factors within stretch_range",
+      stretch_range);
+  add("load_case.boundedness", "boundedness depends on the direction of the load and the span of cycles only",
+      boundedness);
+}
+
+}  // namespace hauberk::conformance

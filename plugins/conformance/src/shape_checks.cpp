@@ -1,0 +1,321 @@
+/// Checks of shapes.
+
+#include "checks.hpp"
+#include "differences.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+namespace hauberk::conformance {
+namespace {
+
+constexpr int points = 8;
+/// Of equal quantities that come from different arithmetic, relative to the largest of them.
+constexpr double rounding = 1e-12;
+
+using Values = std::vector<double>;
+
+/// Message of the refusal of p; null where the shape accepts it.
+std::optional<std::string> refused(const Shape& shape, const Values& p)
+{
+  try {
+    static_cast<void>(shape.primitives(p));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+void parameters(Trial& trial)
+{
+  const Object object = trial.make();
+  std::set<std::string> names;
+  for (const ParameterInfo& info : object.shape->parameters()) {
+    const bool usable = !info.name.empty() && info.name.find_first_of("/* \t\n") == std::string::npos;
+    require(usable, "the parameter name '{}' is empty, or has '/', '*' or a space in it", info.name);
+    require(names.insert(info.name).second, "there are two parameters '{}'", info.name);
+    require(info.unit == "length" || info.unit == "degree" || info.unit == "1",
+            "parameter '{}' has the unit '{}'; expected length, degree or 1", info.name, info.unit);
+    require(info.lower <= info.upper, "parameter '{}' has the bounds [{}, {}]", info.name, info.lower,
+            info.upper);
+    const double value = info.default_value;
+    require(std::isnan(value) || (value >= info.lower && value <= info.upper),
+            "parameter '{}' has the default {} outside its bounds [{}, {}]", info.name, value, info.lower,
+            info.upper);
+    require(!info.doc.empty(), "parameter '{}' has no doc", info.name);
+  }
+}
+
+void bounds(Trial& trial)
+{
+  const Object object = trial.make();
+  const std::vector<ParameterInfo>& infos = object.shape->parameters();
+  const Point inside = draw_point(*object.shape, trial);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < infos.size(); ++k) {
+    for (const double bad : {std::nextafter(infos[k].lower, -infinity),
+                             std::nextafter(infos[k].upper, infinity), std::nan("")}) {
+      if (std::isinf(bad)) continue;
+      Values p = inside.p;
+      p[k] = bad;
+      const auto message = refused(*object.shape, p);
+      require(message.has_value(), "parameter '{}' = {} is accepted outside [{}, {}]", infos[k].name, bad,
+              infos[k].lower, infos[k].upper);
+      require(mentions(*message, infos[k].name),
+              "'{}' = {} is refused without the name of the parameter: '{}'", infos[k].name, bad, *message);
+    }
+  }
+}
+
+/// The kernel has checked that sizes are positive; what is left is that the tube leaves a hole.
+void require_closed(const Primitive& primitive)
+{
+  const bool ring =
+      primitive.kind == PrimitiveKind::circle_tube || primitive.kind == PrimitiveKind::revolved_ellipse;
+  require(!ring || primitive.R() > primitive.r0(),
+          "primitive '{}' is no closed surface with a hole: its tube of half-width {} closes its radius {}; "
+          "refuse such parameters",
+          primitive.name, primitive.r0(), primitive.R());
+}
+
+/// Inside the bounds a shape may refuse what makes no sense; it must say which parameter.
+void refusals(Trial& trial)
+{
+  const Object object = trial.make();
+  const std::vector<ParameterInfo>& infos = object.shape->parameters();
+  const auto named = [&](const std::string& message) {
+    return std::any_of(infos.begin(), infos.end(),
+                       [&](const ParameterInfo& info) { return mentions(message, info.name); });
+  };
+  for (int draw = 0; draw < points; ++draw) {
+    const Point inside = draw_point(*object.shape, trial);
+    for (std::size_t k = 0; k < infos.size(); ++k) {
+      for (const double end : {infos[k].lower, infos[k].upper}) {
+        if (!std::isfinite(end)) continue;
+        Values p = inside.p;
+        p[k] = end;
+        const auto message = refused(*object.shape, p);
+        require(!message || named(*message),
+                "'{}' = {} is within its bounds and refused without the name of a parameter: '{}'",
+                infos[k].name, end, message.value_or(""));
+        if (message) continue;
+        for (const Primitive& primitive : object.shape->primitives(p)) require_closed(primitive);
+      }
+    }
+  }
+}
+
+void primitives(Trial& trial)
+{
+  const Object object = trial.make();
+  std::vector<std::string> names;
+  for (int draw = 0; draw < points; ++draw) {
+    const Point point = draw_point(*object.shape, trial);
+    std::vector<std::string> found;
+    for (const Primitive& primitive : object.shape->primitives(point.p)) {
+      found.push_back(primitive.name);
+      require(!primitive.name.empty(), "a primitive has no name");
+      require_closed(primitive);
+    }
+    require(std::set(found.begin(), found.end()).size() == found.size(), "two primitives have the same name");
+    if (draw == 0) names = found;
+    require(
+        found == names,
+        "names, number or order of primitives depend on the parameters: {} ('{}', ...) and {} ('{}', ...)",
+        names.size(), names.front(), found.size(), found.front());
+    const std::size_t jacobians = object.shape->jacobians(point.p).size();
+    require(jacobians == found.size(), "{} Jacobians for {} primitives", jacobians, found.size());
+  }
+}
+
+void jacobians(Trial& trial)
+{
+  const Object object = trial.make();
+  const Shape& shape = *object.shape;
+  const std::size_t count = shape.parameters().size();
+  if (count == 0) skip("it has no parameters");
+  for (int draw = 0; draw < points; ++draw) {
+    const Point point = draw_point(shape, trial);
+    const std::vector<Primitive> here = shape.primitives(point.p);
+    const std::vector<PrimitiveJacobian> claimed = shape.jacobians(point.p);
+    require(claimed.size() == here.size(), "{} Jacobians for {} primitives", claimed.size(), here.size());
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const std::size_t rows = claimed[i].size() / count;
+      for (std::size_t k = 0; k < count; ++k) {
+        Values column(rows);
+        for (std::size_t row = 0; row < rows; ++row) column[row] = claimed[i][row * count + k];
+        const Along moved = [&](double s) {
+          Values p = point.p;
+          p[k] += s;
+          return quantities(shape.primitives(p).at(i));
+        };
+        for (const Deviation& wrong : deviations(moved, column, point.margin[k]))
+          fail("d({} of '{}')/d {} at {} = {:.6g}: {}", quantity_name(wrong.component), here[i].name,
+               shape.parameters()[k].name, shape.parameters()[k].name, point.p[k], text_of(wrong));
+      }
+    }
+  }
+}
+
+/// A rotation of a primitive may not depend on parameters: nothing carries its derivative.
+void rotations(Trial& trial)
+{
+  const Object object = trial.make();
+  const std::vector<Primitive> first = object.shape->primitives(draw_point(*object.shape, trial).p);
+  for (int draw = 0; draw < points; ++draw) {
+    const std::vector<Primitive> other = object.shape->primitives(draw_point(*object.shape, trial).p);
+    for (std::size_t i = 0; i < std::min(first.size(), other.size()); ++i) {
+      const double turned = (first[i].rotation - other[i].rotation).cwiseAbs().maxCoeff();
+      require(turned <= rounding, "the rotation of '{}' depends on the parameters, by {:.3g}", first[i].name,
+              turned);
+    }
+  }
+}
+
+void scaling(Trial& trial)
+{
+  const Object object = trial.make();
+  const std::vector<ParameterInfo>& infos = object.shape->parameters();
+  const auto is_length = [](const ParameterInfo& info) { return info.unit == "length"; };
+  if (std::none_of(infos.begin(), infos.end(), is_length)) skip("none of its parameters is a length");
+  int compared = 0;
+  for (int draw = 0; draw < points; ++draw) {
+    const Point point = draw_point(*object.shape, trial);
+    const std::vector<Primitive> small = object.shape->primitives(point.p);
+    for (const double factor : {2.0, 0.5}) {
+      Node values = trial.section.values;
+      scale_lengths(values, trial.section.fields, factor);
+      Problems problems;
+      const Object scaled = trial.make(values, problems);
+      if (!scaled.shape) continue;  // a length of the section beyond its bounds
+      Values p = point.p;
+      for (std::size_t k = 0; k < p.size(); ++k) {
+        if (is_length(infos[k])) p[k] *= factor;
+      }
+      if (refused(*scaled.shape, p)) continue;
+      const std::vector<Primitive> large = scaled.shape->primitives(p);
+      for (std::size_t i = 0; i < std::min(small.size(), large.size()); ++i) {
+        const Values a = quantities(small[i]), b = quantities(large[i]);
+        const double largest = factor * std::max(small[i].position.norm(), small[i].R());
+        for (std::size_t row = 0; row < std::min(a.size(), b.size()); ++row)
+          require(std::abs(b[row] - factor * a[row]) <= rounding * largest,
+                  "with all lengths times {}, {} of '{}' goes from {:.12g} to {:.12g}; expected {:.12g}",
+                  factor, quantity_name(row), small[i].name, a[row], b[row], factor * a[row]);
+      }
+      ++compared;
+    }
+  }
+  require(compared > 0, "it refuses every scaled set of lengths; its bounds are too narrow for other units");
+}
+
+/// Follows the largest change of values or derivatives over [low, high] down to an interval of no length.
+/// What is left of a continuous function is nothing.
+class JumpSearch {
+ public:
+  JumpSearch(const Shape& shape, const Point& point, std::size_t k) : shape_(shape), point_(point), k_(k) {}
+
+  /// The place of a jump; null where there is none, or where parameters are refused.
+  std::optional<double> find(double low, double high) const
+  {
+    auto left = at(low), right = at(high);
+    const double first = left && right ? jump(*left, *right) : 0.0;
+    for (int halving = 0; halving < 44; ++halving) {
+      if (!left || !right || jump(*left, *right) <= least_jump) return std::nullopt;
+      const double middle = 0.5 * (low + high);
+      auto centre = at(middle);
+      if (!centre) return std::nullopt;
+      if (jump(*left, *centre) >= jump(*centre, *right)) {
+        high = middle;
+        right = std::move(centre);
+      } else {
+        low = middle;
+        left = std::move(centre);
+      }
+    }
+    // Steep is allowed: it falls with the interval, by 2^-44 where it is differentiable, and 2^-22 for a
+    // root.
+    return jump(*left, *right) > 1e-4 * first ? std::optional(0.5 * (low + high)) : std::nullopt;
+  }
+
+ private:
+  static constexpr double least_jump = 1e-7;  ///< of the size of the element, and of derivatives
+
+  std::optional<Values> at(double value) const
+  {
+    Values p = point_.p;
+    p[k_] = value;
+    if (refused(shape_, p)) return std::nullopt;
+    Values out;
+    for (const Primitive& primitive : shape_.primitives(p)) {
+      const Values q = quantities(primitive);
+      out.insert(out.end(), q.begin(), q.end());
+    }
+    for (const PrimitiveJacobian& jacobian : shape_.jacobians(p)) {
+      const std::size_t rows = jacobian.size() / p.size();
+      for (std::size_t row = 0; row < rows; ++row) out.push_back(jacobian[row * p.size() + k_]);
+    }
+    return out;
+  }
+
+  static double jump(const Values& a, const Values& b)
+  {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      largest = std::max(largest, std::abs(a[i] - b[i]) / (1.0 + std::abs(a[i])));
+    return largest;
+  }
+
+  const Shape& shape_;
+  const Point& point_;
+  std::size_t k_;
+};
+
+void smooth(Trial& trial)
+{
+  constexpr int intervals = 48;
+  constexpr double reach = 9.0;  // margins to both sides: most of what parameters are drawn from
+  const Object object = trial.make();
+  const std::vector<ParameterInfo>& infos = object.shape->parameters();
+  for (int draw = 0; draw < 3; ++draw) {
+    const Point point = draw_point(*object.shape, trial);
+    for (std::size_t k = 0; k < infos.size(); ++k) {
+      if (!infos[k].smooth) continue;
+      const double low = std::max(infos[k].lower, point.p[k] - reach * point.margin[k]);
+      const double high = std::min(infos[k].upper, point.p[k] + reach * point.margin[k]);
+      const JumpSearch search(*object.shape, point, k);
+      for (int i = 0; i < intervals; ++i) {
+        const double width = (high - low) / intervals;
+        const auto place = search.find(low + i * width, low + (i + 1) * width);
+        require(!place, "primitives or their derivatives jump at {} = {:.9g}, and it is said to be smooth",
+                infos[k].name, place.value_or(0.0));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void add_shape_checks(std::vector<Check>& out)
+{
+  const auto add = [&](const char* name, const char* about, void (*function)(Trial&)) {
+    out.push_back(of_trial(name, PluginKind::shape, about, function));
+  };
+  add("shape.parameters", "parameters have names, units, docs, and defaults within their bounds", parameters);
+  add("shape.bounds", "values outside the bounds are refused with the parameter's name", bounds);
+  add("shape.refusals",
+      "at the ends of their bounds, parameters make closed primitives or are refused by name", refusals);
+  add("shape.primitives", "primitives are closed; names, number and order do not depend on parameters",
+      primitives);
+  add("shape.jacobians", "Jacobians are the derivatives: differences approach them with slope 2", jacobians);
+  add("shape.rotations", "rotations of primitives do not depend on parameters", rotations);
+  add("shape.scaling", "all lengths times c gives positions and sizes times c", scaling);
+  add("shape.smooth", "primitives depend on smooth parameters without jumps or kinks", smooth);
+}
+
+}  // namespace hauberk::conformance

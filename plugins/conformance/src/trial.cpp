@@ -1,0 +1,180 @@
+#include "trial.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/host/factories.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk::conformance {
+namespace {
+
+constexpr int most_draws = 4000;
+constexpr double margin_part = 0.05;
+/// Lengths are drawn from here where a parameter has neither default nor narrow bounds.
+constexpr double short_length = 0.1, long_length = 10.0;
+
+/// Where a parameter is drawn from.
+struct Range {
+  double low, high;
+};
+
+Range around(double value, const ParameterInfo& info)
+{
+  const double reach = value == 0.0 ? 1.0 : 0.4 * std::abs(value);
+  return {std::max(info.lower, value - reach), std::min(info.upper, value + reach)};
+}
+
+Range range_of(const ParameterInfo& info)
+{
+  if (std::isfinite(info.default_value)) return around(info.default_value, info);
+  const double widest = info.unit == "degree" ? 180.0 : long_length;
+  const double least = info.lower >= 0.0 ? short_length : -widest;
+  const Range range{std::max(info.lower, least), std::min(info.upper, widest)};
+  return range.low < range.high ? range : Range{info.lower, info.upper};
+}
+
+std::vector<Range> ranges_of(const Shape& shape, const Node& given)
+{
+  std::vector<Range> ranges;
+  ranges.reserve(shape.parameters().size());
+  for (const ParameterInfo& info : shape.parameters()) {
+    const Node* value = given.find(info.name);
+    ranges.push_back(value != nullptr ? around(value->number, info) : range_of(info));
+  }
+  return ranges;
+}
+
+/// Empty where the shape accepts p moved to and fro along every parameter.
+std::string refusal(const Shape& shape, const Point& point)
+{
+  try {
+    static_cast<void>(shape.primitives(point.p));
+    std::vector<double> q = point.p;
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      for (const double sign : {-1.0, 1.0}) {
+        q[k] = point.p[k] + sign * point.margin[k];
+        static_cast<void>(shape.primitives(q));
+      }
+      q[k] = point.p[k];
+    }
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+bool mentions(std::string_view text, std::string_view name)
+{
+  const auto in_name = [&](std::size_t at) {
+    const auto c = static_cast<unsigned char>(text[at]);
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+  };
+  for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !in_name(at - 1)) && (end == text.size() || !in_name(end))) return true;
+  }
+  return false;
+}
+
+Object Trial::make(const Node& values, Problems& problems, double length) const
+{
+  Object object;
+  switch (table.kind) {
+    case PluginKind::shape:
+      object.shape = make_shape(table, values, problems);
+      break;
+    case PluginKind::load_case:
+      object.load_case = make_load_case(table, values, length, problems);
+      break;
+    case PluginKind::optimizer:
+      object.optimizer = make_optimizer(table, values, problems);
+      break;
+  }
+  return object;
+}
+
+Object Trial::make() const
+{
+  Problems problems;
+  Object object = make(section.values, problems);
+  for (const Problem& p : problems.list())
+    fail("the plugin refuses the section: {}: {}; give another one with --section", p.pointer, p.message);
+  return object;
+}
+
+std::vector<double> quantities(const Primitive& primitive)
+{
+  std::vector<double> out(primitive.position.begin(), primitive.position.end());
+  out.insert(out.end(), primitive.size.begin(), primitive.size.end());
+  return out;
+}
+
+std::string quantity_name(std::size_t row)
+{
+  constexpr const char* names[] = {"position x", "position y", "position z", "size 0", "size 1", "size 2"};
+  return row < std::size(names) ? names[row] : fmt::format("quantity {}", row);
+}
+
+Point draw_point(const Shape& shape, Trial& trial)
+{
+  const std::vector<Range> ranges = ranges_of(shape, trial.section.parameters);
+  std::string last;
+  for (int draw = 0; draw < most_draws; ++draw) {
+    Point point;
+    for (const Range& r : ranges) {
+      const bool wide = r.low > 0.0 && r.high > 20.0 * r.low;
+      const double middle = r.low == r.high ? r.low : 0.0;
+      const double inside = margin_part * (r.high - r.low);
+      const double value = wide ? trial.random.scale(1.2 * r.low, r.high / 1.2)
+                                : trial.random.between(r.low + inside, r.high - inside);
+      point.p.push_back(r.low == r.high ? middle : value);
+      point.margin.push_back(wide ? margin_part * value : inside);
+    }
+    last = refusal(shape, point);
+    if (last.empty()) return point;
+  }
+  fail(
+      "no parameters found that the shape accepts, the last refusal: {}; give defaults to its parameters, or "
+      "--section '{{\"parameters\": {{...}}}}'",
+      last);
+}
+
+std::vector<double> draw_macro(const LoadCase& load_case, Random& random, double size)
+{
+  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  for (int draw = 0; draw < most_draws; ++draw) {
+    std::vector<double> macro = random.values(count, size);
+    if (load_case.admissible(macro)) return macro;
+  }
+  fail("none of {} states with unknowns up to {} is admissible", most_draws, size);
+}
+
+bool spatial(const LoadCase& load_case, Random& random)
+{
+  const std::vector<double> macro = draw_macro(load_case, random);
+  const std::vector<double> e(static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
+  PositionMap here, above;
+  load_case.position(macro, e, Vec3::Zero(), Vec3::Zero(), here);
+  load_case.position(macro, e, Vec3::Zero(), Vec3::UnitZ(), above);
+  return (above.x - here.x - Vec3::UnitZ()).norm() > 1e-12;
+}
+
+Vec3 draw_translation(const LoadCase& load_case, Random& random)
+{
+  if (!load_case.periodic()) return Vec3::Zero();
+  Vec3 T = random.vector(3.0);
+  if (!spatial(load_case, random)) T.z() = 0.0;
+  return T;
+}
+
+std::vector<double> angles(Random& random, int count)
+{
+  std::vector<double> out{0.0, 90.0 * degree};
+  while (static_cast<int>(out.size()) < count) out.push_back(random.between(0.0, 180.0 * degree));
+  return out;
+}
+
+}  // namespace hauberk::conformance

@@ -1,0 +1,66 @@
+#pragma once
+/// What a check works with: a section, objects made from it, admissible arguments.
+
+#include "random.hpp"
+#include "sections.hpp"
+#include "verdict.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hauberk::conformance {
+
+/// A plugin's object, behind the guard of the program: what it throws and what it does to the floating-point
+/// mode becomes a PluginError that says so.
+struct Object {
+  std::unique_ptr<Shape> shape;
+  std::unique_ptr<LoadCase> load_case;
+  std::unique_ptr<Optimizer> optimizer;
+};
+
+/// One run of a check. Everything in it follows from its arguments.
+class Trial {
+ public:
+  Trial(const PluginTable& plugin_table, const Setup& setup, std::uint64_t seed)
+      : table(plugin_table), section(read_section(plugin_table, setup)), random(seed)
+  {
+  }
+
+  const PluginTable& table;
+  Section section;
+  Random random;
+
+  /// The object of a section; its members are null, and `problems` says why, where the plugin refuses it.
+  Object make(const Node& values, Problems& problems, double length = 1.0) const;
+  /// The object of the section at hand; a Failure where it is refused.
+  Object make() const;
+};
+
+// ----- shapes -----
+
+/// The numbers of a primitive that the rows of its Jacobian belong to: position, then size.
+std::vector<double> quantities(const Primitive& primitive);
+/// Their names.
+std::string quantity_name(std::size_t row);
+
+/// Parameters that the shape accepts, also when each of them is moved by +-margin[k]: around the defaults, or
+/// around the parameters of the setup. `margin` is 0.05 of the range that is drawn from. A Failure that tells
+/// the last refusal when none are found.
+struct Point {
+  std::vector<double> p, margin;
+};
+Point draw_point(const Shape& shape, Trial& trial);
+
+// ----- load cases -----
+
+/// Macroscopic unknowns that are admissible, of size up to `size`.
+std::vector<double> draw_macro(const LoadCase& load_case, Random& random, double size = 0.4);
+/// Whether the load case moves things along z: only then are lattice translations spatial.
+bool spatial(const LoadCase& load_case, Random& random);
+/// A translation of the lattice of a periodic load case; zero for others.
+Vec3 draw_translation(const LoadCase& load_case, Random& random);
+/// `count` angles in [0, pi), the axes among them.
+std::vector<double> angles(Random& random, int count);
+
+}  // namespace hauberk::conformance

@@ -1,0 +1,43 @@
+#pragma once
+/// How checks say what they found.
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace hauberk::conformance {
+
+/// Ends a check: the plugin is wrong.
+struct Failure {
+  std::string text;
+};
+
+/// Ends a check: it does not apply to this plugin.
+struct Skip {
+  std::string text;
+};
+
+template <class... Args>
+[[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args)
+{
+  throw Failure{fmt::format(format, std::forward<Args>(args)...)};
+}
+
+template <class... Args>
+void require(bool holds, fmt::format_string<Args...> format, Args&&... args)
+{
+  if (!holds) fail(format, std::forward<Args>(args)...);
+}
+
+template <class... Args>
+[[noreturn]] void skip(fmt::format_string<Args...> format, Args&&... args)
+{
+  throw Skip{fmt::format(format, std::forward<Args>(args)...)};
+}
+
+/// Whether `name` stands in `text` as a word of its own: not as a part of another name.
+bool mentions(std::string_view text, std::string_view name);
+
+}  // namespace hauberk::conformance

@@ -1,0 +1,123 @@
+/// The template's shape with a defect.
+
+#include "defect.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <chrono>
+#include <thread>
+
+#define hauberk_plugin reference_plugin
+#include "../../../plugins/template/shape/plugin_name.cpp"
+#undef hauberk_plugin
+
+namespace hauberk::mutants {
+namespace {
+
+// Wrong on purpose: what instances share.
+double shared_size = 0.0;
+int shared_calls = 0;
+
+class Mutant final : public Shape {
+ public:
+  Mutant(std::unique_ptr<Shape> inner, std::string defect, bool crossed)
+      : inner_(std::move(inner)), defect_(std::move(defect)), parameters_(inner_->parameters())
+  {
+    if (is("default_outside_bounds")) parameters_[waist].default_value = 3.0;
+    if (is("same_name_twice")) parameters_[r].name = "R";
+    if (is("no_unit")) parameters_[waist].unit = "furlong";
+    if (is("shared_state")) shared_size = crossed ? 0.5 : 0.25;
+  }
+
+ protected:
+  const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
+
+  void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
+  {
+    if (is("crash")) crash();
+    if (is("hang")) hang();
+    if (is("throws")) throw std::runtime_error("no primitives today");
+    if (is("rounds_up")) std::fesetround(FE_UPWARD);
+    if (is("closed_hole") && p[r] >= p[R]) {
+      out = inner_->primitives(std::vector<double>{p[r] * 2.0, p[r], p[waist]});
+      for (Primitive& ring : out) ring.size[0] = p[R];
+      return;
+    }
+    if (is("unnamed_refusal") && p[r] >= p[R]) throw InputError("it does not work like that");
+    out = inner_->primitives(p);
+    Primitive& right = out.back();
+    if (is("name_changes") && p[waist] > 1.5) right.name = "far";
+    if (is("order_changes") && p[waist] > 1.5) std::swap(out.front(), out.back());
+    if (is("number_changes") && p[waist] > 1.5) out.pop_back();
+    if (is("not_a_number")) right.position.y() = std::nan("");
+    if (is("hidden_length")) right.position.y() += 0.1;
+    if (is("turns")) right.rotation = rotation_exp(Vec3(0.0, 0.0, p[waist] - 1.5));
+    if (is("kink")) right.position.y() += 0.1 * p[R] * std::abs(p[waist] - 1.5);
+    if (is("jump") && p[waist] > 1.5) right.position.y() += 1e-3 * p[R];
+    if (is("shared_state")) right.position.y() += shared_size * p[R];
+    if (is("counts_calls")) right.position.y() += 1e-12 * p[R] * ++shared_calls;
+    if (is("not_thread_safe")) {
+      scratch_ = p[R];
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+      right.position.y() += scratch_;
+    }
+  }
+
+  void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const override
+  {
+    out = inner_->jacobians(p);
+    double& x_waist = out.back()[0 * 3 + waist];
+    double& y_R = out.back()[1 * 3 + R];
+    double& y_waist = out.back()[1 * 3 + waist];
+    if (is("wrong_derivative")) x_waist *= -1.0;
+    if (is("nearly_right_derivative")) x_waist *= 1.0 + 1e-6;
+    if (is("forgotten_column")) out.back()[5 * 3 + r] = 0.0;
+    if (is("transposed")) std::swap(out.back()[0 * 3 + waist], out.back()[2 * 3 + R]);
+    if (is("too_few_rows")) out.back().resize(9);
+    if (is("kink")) {
+      y_R += 0.1 * std::abs(p[waist] - 1.5);
+      y_waist += p[waist] > 1.5 ? 0.1 * p[R] : -0.1 * p[R];
+    }
+    if (is("jump") && p[waist] > 1.5) y_R += 1e-3;
+    if (is("shared_state")) y_R += shared_size;
+    if (is("not_thread_safe")) y_R += 1.0;
+  }
+
+ private:
+  enum { R, r, waist };
+  bool is(const char* defect) const { return defect_ == defect; }
+
+  std::unique_ptr<Shape> inner_;
+  std::string defect_;
+  std::vector<ParameterInfo> parameters_;
+  mutable double scratch_ = 0.0;
+};
+
+void fields(std::vector<Field>& out)
+{
+  reference_plugin.fields(out);
+  add_defect_field(out);
+}
+
+std::unique_ptr<Shape> make(const Node& section, Problems& problems)
+{
+  const std::string defect = defect_of(section);
+  const bool crossed = section.at("crossed").boolean;
+  if (defect == "unnamed_problem" && crossed) problems.add({"", 0, "something is wrong"});
+  return std::make_unique<Mutant>(reference_plugin.make_shape(without_defect(section), problems), defect,
+                                  crossed);
+}
+
+}  // namespace
+}  // namespace hauberk::mutants
+
+extern "C" HAUBERK_EXPORT constinit const hauberk::PluginTable hauberk_plugin = {HAUBERK_HANDSHAKE,
+                                                                                 hauberk::PluginKind::shape,
+                                                                                 "mutant_shape",
+                                                                                 "1.0",
+                                                                                 "A shape with a defect.",
+                                                                                 "none",
+                                                                                 hauberk::mutants::fields,
+                                                                                 hauberk::mutants::make,
+                                                                                 nullptr,
+                                                                                 nullptr};

@@ -1,0 +1,28 @@
+/// Every plugin of the tree conforms, in the settings that differ most. (Optimizers: optimizers/common/test.)
+
+#include <hauberk/conformance/gtest.hpp>
+
+namespace {
+
+const std::string folder = HAUBERK_BINARY_DIR "/lib/hauberk/plugins/";
+
+HAUBERK_CONFORMANCE_TESTS(TorusUnion, folder + "torus_union.so");
+HAUBERK_CONFORMANCE_TESTS(TorusUnionThreefold, folder + "torus_union.so", R"({
+  "shape": "torus_union",
+  "tori": [
+    { "name": "centre" },
+    { "name": "south", "group": "side", "axis": "tangential",
+      "position": { "direction_deg": -90, "distance": ["centre.R", "side.R", 0.25] } },
+    { "name": "east", "group": "side", "axis": [1, 2, 3], "position": [4.5, 0.5, 1] }
+  ],
+  "parameters": { "centre.R": 4.25, "centre.r0": 0.95, "centre.r1": 0.95,
+                  "side.R": 2.575, "side.r0": 0.95, "side.r1": 1.5 } })");
+HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
+HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicPaper, folder + "in_plane_periodic.so", R"({ "measure": "paper" })");
+HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicLayer, folder + "in_plane_periodic.so",
+                          R"({ "out_of_plane": 0.3 })");
+HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicFree, folder + "in_plane_periodic.so",
+                          R"({ "out_of_plane": "free" })");
+HAUBERK_CONFORMANCE_TESTS(ParaboloidBending, folder + "paraboloid_bending.so");
+
+}  // namespace

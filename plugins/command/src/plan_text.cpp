@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <boost/json/array.hpp>
+#include <boost/json/value_from.hpp>
 #include <hauberk/results/direction_json.hpp>
 
 #include <map>

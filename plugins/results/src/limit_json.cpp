@@ -1,6 +1,9 @@
 #include "json_parts.hpp"
 
+#include <hauberk/mechanics/model.hpp>
 #include <hauberk/results/direction_json.hpp>
+
+#include <boost/json/value_from.hpp>
 
 namespace hauberk::detail {
 namespace {

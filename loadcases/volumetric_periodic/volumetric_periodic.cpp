@@ -95,9 +95,10 @@ Boundedness VolumetricPeriodic::do_boundedness(std::span<const double> load,
   // cycles, and packing bounds det F from below. Where cycles span space, admissible F are a compact set.
   // Else let S be their span and N what is across it: of F only its block in N may grow for ever. If that is
   // good (an eigenvalue of M's block in N is positive), the load is unbounded; if it is bad in every
-  // direction of N, the best is among a compact set. Where it is neither, growth across is free: then a load
-  // that pulls along S has its limit at taut chains, and one that pushes only approaches it, as cells that
-  // spread across leave room for ever flatter ones.
+  // direction of N, the best is among a compact set. Where it is neither, growth across is free, and cells
+  // that spread across leave room for ever flatter ones: then a load has its limit at taut chains if it pulls
+  // along S (its block in S has no negative eigenvalue, and no null vector that it couples with N) and does
+  // not act in N at all; any other is only approached.
   const Mat3 M = symmetric(load, 0.5);
   Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(cycles.size()));
   for (std::size_t k = 0; k < cycles.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = cycles[k];
@@ -119,8 +120,16 @@ Boundedness VolumetricPeriodic::do_boundedness(std::span<const double> load,
   const double growth = largest(turned.bottomRightCorner(across, across));
   if (growth > zero * scale) return Boundedness::unbounded;
   if (growth < -zero * scale) return Boundedness::attained;
-  const bool pulls = spanned > 0 && -largest(-turned.topLeftCorner(spanned, spanned)) > -zero * scale;
-  return pulls ? Boundedness::attained : Boundedness::not_attained;
+  if (spanned == 0 || turned.bottomRightCorner(across, across).norm() > zero * scale)
+    return Boundedness::not_attained;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> along(turned.topLeftCorner(spanned, spanned));
+  for (Eigen::Index k = 0; k < spanned; ++k) {
+    const double coupled = (turned.bottomLeftCorner(across, spanned) * along.eigenvectors().col(k)).norm();
+    const double pull = along.eigenvalues()[k];
+    if (pull < -zero * scale || (pull <= zero * scale && coupled > zero * scale))
+      return Boundedness::not_attained;
+  }
+  return Boundedness::attained;
 }
 
 }  // namespace hauberk

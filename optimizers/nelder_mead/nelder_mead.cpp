@@ -48,9 +48,9 @@ class Search {
 
   hauberk::OptimizerResult run()
   {
-    accepted_ = tried(accepted_.x);
-    if (!std::isfinite(accepted_.value)) return result("failed", "the start cannot be evaluated");
-    accept(accepted_);
+    Corner start = evaluate(accepted_.x);
+    if (!std::isfinite(start.value)) return result("failed", "the start cannot be evaluated");
+    accept(start);
     if (!observed(0.0)) return result("stopped", "stopped by the observer");
     double step = settings_.initial_step;
     // Again from where it ended, until that gains nothing: a simplex may collapse on a bound.
@@ -81,10 +81,11 @@ class Search {
     }
     for (;;) {
       std::stable_sort(simplex.begin(), simplex.end());
-      if (simplex.front() < accepted_) {
-        accept(simplex.front());
-        simplex.front() = accepted_;
+      while (simplex.front() < accepted_) {
+        const bool taken = accept(simplex.front());
         std::stable_sort(simplex.begin(), simplex.end());
+        if (taken) break;
+        if (!budget()) return false;
       }
       if (size(simplex) < settings_.min_step) return true;
       if (iterations_ >= settings_.max_iterations) return over("iteration_limit", "max_iterations");
@@ -144,7 +145,7 @@ class Search {
     Corner out{x};
     Point way(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) way[i] = x[i] - accepted_.x[i];
-    if (evaluations_ > 0 && problem_.largest_safe_step(accepted_.x, way) < 1.0) return out;
+    if (problem_.largest_safe_step(accepted_.x, way) < 1.0) return out;
     return evaluate(x);
   }
 
@@ -168,18 +169,23 @@ class Search {
 
   /// Makes it the iterate. A problem takes only the point that it evaluated last; its value may change when
   /// it is looked at more closely, so it is asked for again.
-  void accept(const Corner& corner)
+  /// False where it cannot be: the budget is used up, or the way to it from the iterate is no longer free.
+  bool accept(Corner& corner)
   {
-    const Point x = corner.x;
-    if (last_ != x) {
-      if (!budget()) return;
-      evaluate(x);
+    if (last_ != corner.x) {
+      if (!budget()) return false;
+      const Corner again = tried(corner.x);
+      if (!std::isfinite(again.value)) {
+        corner = again;
+        return false;
+      }
     }
-    problem_.accept(x);
+    problem_.accept(corner.x);
     accepted_ = corner;
-    if (!budget()) return;
-    const Corner again = evaluate(x);
-    if (std::isfinite(again.value)) accepted_ = again;
+    if (!budget()) return true;
+    const Corner again = evaluate(corner.x);
+    if (std::isfinite(again.value)) accepted_ = corner = again;
+    return true;
   }
 
   /// Largest distance of a corner from the best one, in widths.

@@ -43,7 +43,7 @@ Thickest thickest_tube(const std::vector<Harmonic>& curve, double r)
     }
     const double speed = first.norm();
     along[i + 1] = along[i] + speed * du;
-    out.bend = std::min(out.bend, speed * speed * speed / first.cross(second).norm());
+    out.bend = std::min(out.bend, speed > 0.0 ? speed * speed * speed / first.cross(second).norm() : 0.0);
   }
   const double length = along[count];
   for (std::size_t i = 0; i < count; ++i) {
@@ -77,7 +77,6 @@ void ClosedTube::do_primitives(std::span<const double> p, std::vector<Primitive>
   const double r = p.back();
   tube.size = {1.0, r, r};
   const Thickest most = thickest_tube(tube.curve, r);
-  // Written so that not-a-number, where the curve is a point, is refused as well.
   if (!(r < most.bend) || !(r < most.pass)) {
     std::ostringstream message;
     message << "parameter '" << parameters_.back().name << "' = " << r << " is too thick: the curve "

@@ -84,8 +84,8 @@ class Search {
         out_(out),
         evaluations_(evaluations),
         last_(evaluations + most_evaluations),
-        rf_(smallest_radius(*frame.F)),
-        rp_(smallest_radius(*frame.P))
+        rf_(frame.difference != nullptr ? frame.difference->tightest_bend() : smallest_radius(*frame.F)),
+        rp_(frame.P->curve ? frame.P->curve->tightest_bend() : smallest_radius(*frame.P))
   {
   }
 
@@ -157,7 +157,8 @@ class Search {
   /// smallest radius of curvature of either surface.
   double seed(const Local& l) const
   {
-    const double radius = std::min({rp_, rf_ + std::max(l.f.m.phi, 0.0), l.f.rho});
+    const double of_field = probe_.f.difference != nullptr ? rf_ : rf_ + std::max(l.f.m.phi, 0.0);
+    const double radius = std::min({rp_, of_field, l.f.rho});
     return std::max(std::min(seed_width, seed_fraction * radius), 1e-3);
   }
 
@@ -297,9 +298,12 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
         return x;
       };
       const Vec6 xu = mixed(l.q.pu, true);
+      // Of curves, whose speed changes along them, it is that of the place.
+      const double speed_u = frame.P->curve ? l.q.pu.norm() : probe.Lu;
+      const double speed_v = frame.difference != nullptr ? l.q.pv.norm() : probe.Lv;
       if constexpr (dim == 1) {
         if (l.huu > 0.0) out.hessian.noalias() -= (b.db / l.huu) * xu * xu.transpose();
-        out.regularity = std::min(out.regularity, l.huu / (probe.Lu * probe.Lu));
+        out.regularity = std::min(out.regularity, l.huu / (speed_u * speed_u));
       } else {
         const Vec6 xv = mixed(l.q.pv, frame.difference == nullptr);
         const double det = l.huu * l.hvv - l.huv * l.huv;
@@ -307,8 +311,8 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
           out.hessian.noalias() -= (b.db / det) * (l.hvv * xu * xu.transpose() + l.huu * xv * xv.transpose() -
                                                    l.huv * (xu * xv.transpose() + xv * xu.transpose()));
         }
-        const double a = l.huu / (probe.Lu * probe.Lu), c = l.hvv / (probe.Lv * probe.Lv);
-        const double o = l.huv / (probe.Lu * probe.Lv);
+        const double a = l.huu / (speed_u * speed_u), c = l.hvv / (speed_v * speed_v);
+        const double o = l.huv / (speed_u * speed_v);
         out.regularity = std::min(out.regularity, 0.5 * (a + c) - std::hypot(0.5 * (a - c), o));
       }
     }

@@ -25,6 +25,8 @@ constexpr double shortest_part = 1.0 / 256.0;
 
 std::shared_ptr<const ClosedCurve> mixed(const ClosedCurve& a, const ClosedCurve& b, double t)
 {
+  if (a.size() != b.size())
+    throw PluginError("shape: the number of harmonics of a curve depends on the parameters");
   std::vector<Harmonic> harmonics = a.harmonics();
   for (std::size_t k = 0; k < harmonics.size(); ++k) {
     harmonics[k].c += t * (b.harmonics()[k].c - harmonics[k].c);
@@ -37,7 +39,7 @@ std::shared_ptr<const ClosedCurve> mixed(const ClosedCurve& a, const ClosedCurve
 double farthest_apart(const ClosedCurve& a, const ClosedCurve& b)
 {
   double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k)
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
     sum +=
         (a.harmonics()[k].c - b.harmonics()[k].c).norm() + (a.harmonics()[k].s - b.harmonics()[k].s).norm();
   return sum;
@@ -58,7 +60,7 @@ Model between(const Model& a, const Model& b, double t)
     q.bound = std::max(q.bound, o.bound);
     q.reach = std::max(q.reach, o.reach);
     if (!o.is_tube()) q.kind = o.kind;
-    if (q.curve) set_core(q, mixed(*q.curve, *o.curve, t), q.r0);
+    if (q.curve && o.curve) set_core(q, mixed(*q.curve, *o.curve, t), q.r0);
   }
   for (std::size_t i = 0; i < m.reach.size(); ++i) m.reach[i] = std::max(m.reach[i], b.reach[i]);
   return m;
@@ -66,7 +68,7 @@ Model between(const Model& a, const Model& b, double t)
 
 double shape_speed(const Body& a, const Body& b)
 {
-  const double core = a.curve ? farthest_apart(*a.curve, *b.curve) : std::abs(a.R - b.R);
+  const double core = a.curve && b.curve ? farthest_apart(*a.curve, *b.curve) : std::abs(a.R - b.R);
   return core + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
 }
 

@@ -10,7 +10,7 @@ namespace hauberk {
 
 void set_core(Body& body, std::shared_ptr<const ClosedCurve> curve, double r)
 {
-  body.R = curve->mean_radius();
+  body.R = mean_radius(curve->harmonics());
   body.r0 = body.r1 = r;
   body.bound = curve->radius() + r;
   body.curve = nullptr;

@@ -56,6 +56,8 @@ ClosedCurve::ClosedCurve(std::vector<Harmonic> harmonics, double scale) : harmon
   }
   sample(harmonics_, [this](const std::array<Vec3, 4>& x) {
     for (std::size_t m = 0; m < 4; ++m) bounds_[m] = std::max(bounds_[m], x[m].norm());
+    const double speed = x[1].norm();
+    bend_ = std::min(bend_, speed > 0.0 ? speed * speed * speed / x[1].cross(x[2]).norm() : 0.0);
   });
   for (std::size_t m = 0; m < 4; ++m)
     bounds_[m] = std::min(sums[m], bounds_[m] + 0.5 * step_of(harmonics_) * sums[m + 1]);
@@ -78,21 +80,11 @@ CurvePoint ClosedCurve::at(const Angle& u) const
   return p;
 }
 
-double ClosedCurve::mean_radius() const
+double mean_radius(const std::vector<Harmonic>& harmonics)
 {
   double sum = 0.0;
-  for (const Harmonic& h : harmonics_) sum += h.c.squaredNorm() + h.s.squaredNorm();
+  for (const Harmonic& h : harmonics) sum += h.c.squaredNorm() + h.s.squaredNorm();
   return std::sqrt(0.5 * sum);
-}
-
-double ClosedCurve::tightest_bend() const
-{
-  double tightest = std::numeric_limits<double>::infinity();
-  sample(harmonics_, [&tightest](const std::array<Vec3, 4>& x) {
-    const double speed = x[1].norm();
-    tightest = std::min(tightest, speed * speed * speed / x[1].cross(x[2]).norm());
-  });
-  return tightest;
 }
 
 }  // namespace hauberk

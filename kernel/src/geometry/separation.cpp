@@ -66,12 +66,12 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
   return s;
 }
 
-/// Corners of a polygon in the tube of a body, world frame: its core may be pulled to it without leaving it.
-std::vector<Vec3> core_polygon(const Body& body, const Pose& pose)
+/// Corners of a polygon that is nowhere farther than `near` from the core of a body, world frame.
+std::vector<Vec3> core_polygon(const Body& body, const Pose& pose, double near)
 {
-  // A chord over h radians of a curve is |x_uu| h^2/8 from it at most; half of r is allowed.
+  // A chord over h radians of a curve is |x_uu| h^2/8 from it at most.
   const double second = body.curve ? body.curve->second() : body.R;
-  const int count = std::max(6, static_cast<int>(std::ceil(2.0 * pi / std::sqrt(4.0 * body.r0 / second))));
+  const int count = std::max(6, static_cast<int>(std::ceil(2.0 * pi / std::sqrt(8.0 * near / second))));
   const Frame frame = world_frame(body, pose);
   std::vector<Vec3> corners;
   corners.reserve(static_cast<std::size_t>(count));
@@ -83,6 +83,9 @@ std::vector<Vec3> core_polygon(const Body& body, const Pose& pose)
   return corners;
 }
 
+/// Cores closer than this part of their sizes are counted as if they were not: tubes are thicker.
+constexpr double closest_cores = 2e-5;
+
 /// Solid angle of a triangle seen from the origin, with sign (van Oosterom and Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c)
 {
@@ -90,11 +93,14 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c)
   return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-/// Gauss's integral over two polygons in the tubes: the differences of two sides are a parallelogram, and
+/// Gauss's integral over two polygons to which the cores may be pulled without crossing each other, as both
+/// together go less far than the cores are apart: the differences of two sides are a parallelogram, and
 /// what it covers of the sphere, seen from inside, is its part of 4 pi times the linking number.
 int linking_of_curves(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
 {
-  const std::vector<Vec3> a = core_polygon(A, pose_a), b = core_polygon(B, pose_b);
+  const double cores = separation(A, pose_a, B, pose_b, -(A.r0 + std::min(B.r0, B.r1)), A.bound).lower;
+  const double near = 0.4 * std::max(cores, closest_cores * (A.bound + B.bound));
+  const std::vector<Vec3> a = core_polygon(A, pose_a, near), b = core_polygon(B, pose_b, near);
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec3 &p = a[i], &pn = a[(i + 1) % a.size()];

@@ -28,12 +28,16 @@ void check_parameters(const std::vector<ParameterInfo>& infos, std::span<const d
   }
 }
 
+/// Radius of a tube over the mean radius of its curve: links of thinner ones would take too long to count.
+constexpr double thinnest = 1e-4;
+
 std::string curve_defect(const Primitive& primitive)
 {
   for (const Harmonic& h : primitive.curve) {
     if (!h.c.allFinite() || !h.s.allFinite()) return "has a harmonic that is not finite";
   }
   if (primitive.r0() != primitive.r1()) return "is a curve tube with two radii";
+  if (!(primitive.r0() >= thinnest * primitive.R())) return "is a tube too thin for its curve";
   const double bend = ClosedCurve(primitive.curve, 1.0).tightest_bend();
   if (!(bend > primitive.r0())) {
     std::ostringstream message;
@@ -76,7 +80,7 @@ std::vector<Primitive> Shape::primitives(std::span<const double> p) const
   do_primitives(p, out);
   if (out.empty()) throw PluginError("shape: no primitives returned");
   for (Primitive& primitive : out) {
-    if (!primitive.curve.empty()) primitive.size[0] = ClosedCurve(primitive.curve, 1.0).mean_radius();
+    if (!primitive.curve.empty()) primitive.size[0] = mean_radius(primitive.curve);
     const std::string what = defect(primitive);
     if (!what.empty()) throw PluginError("shape: primitive '" + primitive.name + "' " + what);
   }

@@ -79,7 +79,7 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
   }
   if (m.coordinate_count == 2) p.decisions.emplace_back("z is fixed: one unknown less per element");
   const bool smooth_only =
-      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube() || b.curve; });
+      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
   if (smooth_only)
     p.decisions.emplace_back("every cross-section is a circle: no surface is searched in two angles");
   switch (settings.contact) {

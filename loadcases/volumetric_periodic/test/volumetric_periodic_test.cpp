@@ -59,6 +59,11 @@ TEST(VolumetricPeriodic, LinksThatSpanLessThanSpaceBoundLess)
     EXPECT_EQ(bounded(shear, cycles), Boundedness::unbounded) << "stretches (0, 1, 1)";
     EXPECT_EQ(bounded(smaller, cycles), Boundedness::attained);
   }
+  // As cells spread along z they may get flatter in y (or x), which the load wants, for ever.
+  EXPECT_EQ(bounded({1, -1, 0, 0, 0, 0}, chain), Boundedness::not_attained);
+  EXPECT_EQ(bounded({0, 0, 0, 0, 1, 0}, chain), Boundedness::not_attained);
+  EXPECT_EQ(bounded({1, 0, 0, 1, 0, 0}, sheet), Boundedness::not_attained);
+  EXPECT_EQ(bounded({1, 0, 0, 0, 1, 0}, chain), Boundedness::attained) << "chains that turn";
   EXPECT_EQ(bounded(along, sheet), Boundedness::attained);
   EXPECT_EQ(bounded(across, sheet), Boundedness::unbounded);
   EXPECT_EQ(bounded(flatter, sheet), Boundedness::attained);

@@ -168,6 +168,7 @@ class SceneReader {
                                  format_number(total));
       return;
     }
+    if (placed.empty()) return;
     for (std::size_t k = 0; k < v.size(); ++k) spec_.lattice.emplace_back(repeat[k] * v[k]);
     v.resize(3, Vec3::Zero());
     // Element k = ((l n + j) m + i) |place| + index in place.

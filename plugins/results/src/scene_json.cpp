@@ -72,9 +72,9 @@ json::object scene_json(const SceneSpec& scene)
   json::object out;
   json::array& vectors = out["cell_vectors"].emplace_array();
   for (const Vec3& v : scene.lattice) {
-    // In the plane, as `cell.vectors` of experiments; a third number only where there is one.
+    // As `cell.vectors` of experiments.
     json::array components{number(v.x()), number(v.y())};
-    if (v.z() != 0.0) components.push_back(number(v.z()));
+    if (scene.lattice.size() == 3) components.push_back(number(v.z()));
     vectors.push_back(std::move(components));
   }
   out["length"] = number(scene.length > 0.0 ? scene.length : characteristic_length(scene));

@@ -58,7 +58,9 @@ int gauss_number(const Torus& a, const Torus& b)
       return static_cast<int>(std::lround(now));
     last = now;
   }
-  return static_cast<int>(std::lround(last));
+  throw Malformed(
+      fmt::format("{} and {}: their cores are so near to each other that their linking number is not decided",
+                  a.name, b.name));
 }
 
 }  // namespace

@@ -135,7 +135,8 @@ std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
     return out;
   }
   const bool tube = a.r0 == a.r1;
-  constexpr int around = 96, across = 24;
+  const int around = std::max(96, 48 * static_cast<int>(a.curve.size()));
+  constexpr int across = 24;
   const int nv = tube ? 1 : across;
   const auto u = [](int i) { return i * full_turn / around; };
   const auto v = [](int j) { return j * full_turn / across; };

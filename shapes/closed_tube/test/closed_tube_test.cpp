@@ -154,6 +154,12 @@ TEST(ClosedTube, TubesThatDoNotFitTheirCurveAreRefused)
   const auto knot = made(section("knot"));
   EXPECT_EQ(refusal(*knot, {3.0, 1.0, 1.0, 0.6}), "");
   EXPECT_NE(refusal(*knot, {3.0, 1.0, 1.0, 1.0}).find("comes back to itself"), std::string::npos);
+  // A line there and back, and a point.
+  const auto free = made(section("fourier", "harmonics", {1.0}));
+  EXPECT_EQ(refusal(*free, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7}),
+            "parameter 'r' = 0.7 is too thick: the curve bends with a radius of 0");
+  EXPECT_EQ(refusal(*free, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7}),
+            "parameter 'r' = 0.7 is too thick: the curve bends with a radius of 0");
   EXPECT_NE(refusal(*oval, {-1.0, 1.0, 0.1}).find("half_length"), std::string::npos);
 }
 

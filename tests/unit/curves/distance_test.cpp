@@ -40,7 +40,7 @@ TEST(ClosedCurve, DerivativesAndBounds)
     }
   }
   EXPECT_NEAR(ClosedCurve(circle_curve(1.5, 0.1).curve, 1.0).tightest_bend(), 1.5, 1e-12);
-  EXPECT_NEAR(ClosedCurve(circle_curve(1.5, 0.1).curve, 1.0).mean_radius(), 1.5, 1e-15);
+  EXPECT_NEAR(mean_radius(circle_curve(1.5, 0.1).curve), 1.5, 1e-15);
   // Of an ellipse, at the ends of its long axis: b^2/a.
   EXPECT_NEAR(ClosedCurve({{Vec3(2, 0, 0), Vec3(0, 1, 0)}}, 1.0).tightest_bend(), 0.5, 1e-12);
 }
@@ -111,6 +111,27 @@ TEST(CurveTubes, AKnotIsLinkedAsOftenAsItGoesAround)
     EXPECT_EQ(linking_number(turned.A, turned.pose, turned.B, Pose{}),
               linking_number(c.A, c.pose, c.B, Pose{}));
   }
+}
+
+TEST(CurveTubes, MinimaDoNotDependOnWhichIsProbed)
+{
+  // A thin rounded polygon, whose corners are wells, beside a thick ring.
+  std::vector<Harmonic> corners(6);
+  corners[0] = {Vec3(0.25, 0, 0), Vec3(0, 0.25, 0)};
+  corners[5] = {Vec3(0.012, 0, 0), Vec3(0, -0.012, 0)};
+  std::mt19937_64 rng(23);
+  std::size_t most = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Primitive ring = wavy(0.05, 0.2, rng), polygon = curve_tube(corners, 0.004);
+    const Pose pose = linked_pose(1.0, 1.5, rng);
+    const Couple one(ring, polygon, pose);
+    const PairFrame back(one.B, Pose{}, one.A, pose);
+    const std::vector<double> x = minima<2>(one.frame(), 1.0), y = minima<2>(back, 1.0);
+    ASSERT_EQ(x.size(), y.size()) << trial;
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], y[k], 1e-12);
+    most = std::max(most, x.size());
+  }
+  EXPECT_GT(most, 4U);
 }
 
 /// Field over the probe set at `count` x `count` coordinates, less the offset.

@@ -4,6 +4,8 @@
 #include <hauberk/geometry/angle.hpp>
 #include <hauberk/shape.hpp>
 
+#include <array>
+#include <limits>
 #include <vector>
 
 namespace hauberk {
@@ -30,15 +32,16 @@ class ClosedCurve {
   double first() const { return bounds_[1]; }
   double second() const { return bounds_[2]; }
   double third() const { return bounds_[3]; }
-  /// Radius of the circle with the same mean square distance from the mean point: sqrt(sum (|c|^2 +
-  /// |s|^2)/2).
-  double mean_radius() const;
   /// Smallest radius of curvature over a fine sampling; 0 where the curve stands still.
-  double tightest_bend() const;
+  double tightest_bend() const { return bend_; }
 
  private:
   std::vector<Harmonic> harmonics_;
   std::array<double, 4> bounds_{};
+  double bend_ = std::numeric_limits<double>::infinity();
 };
+
+/// Radius of the circle with the same mean square distance from the mean point: sqrt(sum (|c|^2 + |s|^2)/2).
+double mean_radius(const std::vector<Harmonic>& harmonics);
 
 }  // namespace hauberk

@@ -1,11 +1,15 @@
-# Installs what plugins built elsewhere need: the kernel, its headers, and a package that find_package(hauberk)
-# understands. Commands and plugins install themselves where they are defined.
+# Installs what plugins built elsewhere need: the kernel, the conformance kit, their headers, and a package that
+# find_package(hauberk) understands. Commands, plugins and the template install themselves where they are defined.
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/hauberk")
 
-install(TARGETS hauberk_kernel EXPORT hauberkTargets)
+set_target_properties(hauberk_host PROPERTIES EXPORT_NAME host)
+set_target_properties(hauberk_settings PROPERTIES EXPORT_NAME settings)
+set_target_properties(hauberk_conformance PROPERTIES EXPORT_NAME conformance)
+install(TARGETS hauberk_kernel hauberk_host hauberk_settings hauberk_conformance EXPORT hauberkTargets)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/kernel/include/" "${PROJECT_BINARY_DIR}/kernel/include/"
+                  "${PROJECT_SOURCE_DIR}/plugins/host/include/" "${PROJECT_SOURCE_DIR}/plugins/conformance/include/"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT hauberkTargets NAMESPACE hauberk:: DESTINATION "${package_folder}")
 
@@ -19,3 +23,27 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/hauberkConfig.cmake"
         DESTINATION "${package_folder}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/weaves/" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/weaves"
         FILES_MATCHING PATTERN "*.json")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/experiments/" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/experiments"
+        FILES_MATCHING PATTERN "*.json")
+install(FILES "${PROJECT_SOURCE_DIR}/share/schema/experiment.schema.json"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/schema")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/doc/" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# cpack -G DEB: one package with the command, its plugins, and what plugins built elsewhere need.
+set(CPACK_PACKAGE_NAME hauberk)
+set(CPACK_PACKAGE_VENDOR Hauberk)
+set(CPACK_PACKAGE_CONTACT "The Hauberk authors <hauberk@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+    "How far a chainmail-like fabric of linked rigid elements stretches, compresses and bends until contact locks it,
+and element shapes that have the limits you want.")
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/lib")
+# Only to build plugins.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libeigen3-dev, libfmt-dev, libgtest-dev")
+include(CPack)

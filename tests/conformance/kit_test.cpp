@@ -1,16 +1,13 @@
-/// The parts of the kit: differences, child processes, the choice of checks.
+/// The parts of the kit: differences, the choice of checks.
 
 #include "differences.hpp"
 
-#include <hauberk/conformance/isolated.hpp>
+#include <hauberk/conformance/check.hpp>
 #include <hauberk/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <csignal>
-#include <cstdio>
-#include <thread>
 
 namespace hauberk::conformance {
 namespace {
@@ -51,46 +48,6 @@ TEST(Differences, KnowTheSlope)
   const double zero = 0.0;
   ASSERT_EQ(deviations(rough, {&zero, 1}, 0.1).size(), 1U);
   EXPECT_NEAR(deviations(rough, {&zero, 1}, 0.1)[0].slope, 0.5, 1e-6);
-}
-
-TEST(InChild, BringsBackWhatTheFunctionReturns)
-{
-  const std::string large(300000, 'x');
-  const Child child = in_child([&] { return "a\n" + large; }, 20.0);
-  EXPECT_TRUE(child.returned);
-  EXPECT_EQ(child.text, "a\n" + large);
-}
-
-TEST(InChild, SurvivesWhateverHappens)
-{
-  EXPECT_EQ(in_child([]() -> std::string { std::raise(SIGSEGV), std::abort(); }, 20.0).ending,
-            "ended by signal 11 (Segmentation fault)");
-  const Child aborted = in_child(
-      []() -> std::string {
-        std::fputs("first\nterminate called\n", stderr);
-        std::abort();
-      },
-      20.0);
-  EXPECT_FALSE(aborted.returned);
-  EXPECT_EQ(aborted.ending, "ended by signal 6 (Aborted); it last printed: terminate called");
-  EXPECT_EQ(in_child([]() -> std::string { std::_Exit(3); }, 20.0).ending,
-            "ended the process with exit code 3");
-  EXPECT_EQ(in_child([]() -> std::string { std::_Exit(0); }, 20.0).ending,
-            "ended the process with exit code 0");
-  EXPECT_EQ(in_child([]() -> std::string { throw 1; }, 20.0).ending, "ended the process with exit code 1");
-}
-
-TEST(InChild, EndsWhatDoesNotReturn)
-{
-  const auto forever = []() -> std::string {
-    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
-  };
-  EXPECT_EQ(in_child(forever, 0.2).ending, "did not return within 0.2 s");
-  // Printing without end fills no pipe.
-  const auto chatty = []() -> std::string {
-    for (;;) std::puts("and on");
-  };
-  EXPECT_EQ(in_child(chatty, 0.2).ending, "did not return within 0.2 s");
 }
 
 TEST(Checks, AreChosenByName)

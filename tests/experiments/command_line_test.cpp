@@ -29,7 +29,7 @@ TEST(CommandLine, WrongCommands)
 {
   expect_usage({}, "no command given", "Usage:\n  hauberk run ");
   expect_usage({"rnu"}, "unknown command 'rnu'; did you mean 'run'?", "Usage:\n  hauberk run ");
-  expect_usage({"plugins", "remove"}, "plugins: expected list, describe or conform, found 'remove'",
+  expect_usage({"plugins", "remove"}, "plugins: expected list, describe, conform or new, found 'remove'",
                "Usage: hauberk plugins ");
   expect_usage({"plugins", "describe"}, "describe: expected the id of one plugin", "Usage: hauberk plugins ");
 }

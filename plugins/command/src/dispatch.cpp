@@ -32,7 +32,7 @@ constexpr std::array sub_commands{
     SubCommand{"verify", "RESULTS.json", "recheck a result from its file alone", verify_command},
     SubCommand{"report", "RESULT... -o DIR [--force] [--recheck FOLDER]",
                "a table and a page of plots of many results", report_command},
-    SubCommand{"plugins", "[list | describe ID | conform FILE.so]",
+    SubCommand{"plugins", "[list | describe ID | conform FILE.so | new NAME DIR]",
                "shapes, load cases and optimizers that are found", plugins_command},
 };
 

@@ -1,5 +1,6 @@
 #include "dispatch.hpp"
 #include "loading.hpp"
+#include "new_command.hpp"
 
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
@@ -76,11 +77,13 @@ int describe(const Registry& registry, const std::string& id)
 int plugins_command(const std::vector<std::string>& words)
 {
   if (!words.empty() && words.front() == "conform") return conform_command({words.begin() + 1, words.end()});
+  if (!words.empty() && words.front() == "new") return new_command({words.begin() + 1, words.end()});
   namespace po = boost::program_options;
-  Options options("plugins [list | describe ID | conform FILE.so] [--plugin-path DIR]",
-                  "Lists the plugins that are found, or explains one with all its fields; conform checks one "
-                  "that was built elsewhere.",
-                  "");
+  Options options(
+      "plugins [list | describe ID | conform FILE.so | new NAME DIR] [--plugin-path DIR]",
+      "Lists the plugins that are found, or explains one with all its fields. conform checks one that "
+      "was built elsewhere, new writes a project to begin with; both have their own --help.",
+      "");
   options.add().add_options()("plugin-path",
                               po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
                               "folder that is searched for plugins first; may be repeated");
@@ -91,7 +94,7 @@ int plugins_command(const std::vector<std::string>& words)
   if (what.size() == 2 && what[0] == "describe") return describe(*registry, what[1]);
   if (what[0] == "describe") throw UsageError("describe: expected the id of one plugin", options.usage());
   if (what[0] == "list") throw UsageError("list: expected nothing after it", options.usage());
-  throw UsageError(fmt::format("plugins: expected list, describe or conform, found '{}'", what[0]),
+  throw UsageError(fmt::format("plugins: expected list, describe, conform or new, found '{}'", what[0]),
                    options.usage());
 }
 

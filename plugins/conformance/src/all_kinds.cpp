@@ -74,10 +74,9 @@ void fields(const PluginTable& table)
     require(names.insert(field.name).second, "there are two fields '{}'", field.name);
     field_is_sound(field, field.name, true);
   }
-  std::vector<std::string> again;
-  for (const Field& field : plugin_fields(table)) again.push_back(field.name);
-  require(again.size() == declared.size(), "`fields` gives {} fields, and {} when asked again",
-          declared.size(), again.size());
+  const std::size_t again = plugin_fields(table).size();
+  require(again == declared.size(), "`fields` gives {} fields, and {} when asked again", declared.size(),
+          again);
 }
 
 /// Whether `text` has a name of one of the fields in it, at any depth.

@@ -63,9 +63,9 @@ Outcome run(const Check& check, const PluginTable& table, const Setup& setup, st
   try {
     return check.run(table, setup, seed);
   } catch (const Failure& failure) {
-    return {Status::failed, failure.text};
+    return {Status::failed, failure.what()};
   } catch (const Skip& reason) {
-    return {Status::skipped, reason.text};
+    return {Status::skipped, reason.what()};
   } catch (const std::exception& error) {
     return {Status::failed, error.what()};
   } catch (...) {

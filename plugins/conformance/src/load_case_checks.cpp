@@ -221,6 +221,7 @@ void walls(Trial& trial)
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
   std::vector<Vec3> X;
+  X.reserve(elements);
   for (int i = 0; i < elements; ++i) X.push_back(trial.random.vector(3.0));
   const auto in_range = [&](const std::string& name, const std::vector<LinearTerm>& terms) {
     require(!name.empty(), "a wall or condition has no name");

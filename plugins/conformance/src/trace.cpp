@@ -94,6 +94,8 @@ std::vector<double> Exercise::operator()(const Object& object) const
   if (!object.load_case) return out;
   const LoadCase& load_case = *object.load_case;
   std::vector<Vec3> X, cycles;
+  X.reserve(states_.size());
+  cycles.reserve(states_.size());
   for (const State& s : states_) {
     X.push_back(s.X);
     cycles.push_back(s.T);

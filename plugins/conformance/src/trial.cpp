@@ -45,23 +45,19 @@ std::vector<Range> ranges_of(const Shape& shape, const Node& given)
   return ranges;
 }
 
-/// Empty where the shape accepts p moved to and fro along every parameter.
-std::string refusal(const Shape& shape, const Point& point)
+/// The first refusal of p moved to and fro along every parameter; null where the shape accepts all.
+std::optional<std::string> refused_around(const Shape& shape, const Point& point)
 {
-  try {
-    static_cast<void>(shape.primitives(point.p));
-    std::vector<double> q = point.p;
-    for (std::size_t k = 0; k < q.size(); ++k) {
-      for (const double sign : {-1.0, 1.0}) {
-        q[k] = point.p[k] + sign * point.margin[k];
-        static_cast<void>(shape.primitives(q));
-      }
-      q[k] = point.p[k];
+  std::optional<std::string> message = refused(shape, point.p);
+  std::vector<double> q = point.p;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    for (const double sign : {-1.0, 1.0}) {
+      q[k] = point.p[k] + sign * point.margin[k];
+      if (!message) message = refused(shape, q);
     }
-  } catch (const InputError& error) {
-    return error.what();
+    q[k] = point.p[k];
   }
-  return {};
+  return message;
 }
 
 }  // namespace
@@ -112,6 +108,16 @@ std::vector<double> quantities(const Primitive& primitive)
   return out;
 }
 
+std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p)
+{
+  try {
+    static_cast<void>(shape.primitives(p));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
 std::string quantity_name(std::size_t row)
 {
   constexpr const char* names[] = {"position x", "position y", "position z", "size 0", "size 1", "size 2"};
@@ -121,9 +127,11 @@ std::string quantity_name(std::size_t row)
 Point draw_point(const Shape& shape, Trial& trial)
 {
   const std::vector<Range> ranges = ranges_of(shape, trial.section.parameters);
-  std::string last;
+  std::optional<std::string> last;
   for (int draw = 0; draw < most_draws; ++draw) {
     Point point;
+    point.p.reserve(ranges.size());
+    point.margin.reserve(ranges.size());
     for (const Range& r : ranges) {
       const bool wide = r.low > 0.0 && r.high > 20.0 * r.low;
       const double middle = r.low == r.high ? r.low : 0.0;
@@ -133,13 +141,13 @@ Point draw_point(const Shape& shape, Trial& trial)
       point.p.push_back(r.low == r.high ? middle : value);
       point.margin.push_back(wide ? margin_part * value : inside);
     }
-    last = refusal(shape, point);
-    if (last.empty()) return point;
+    last = refused_around(shape, point);
+    if (!last) return point;
   }
   fail(
       "no parameters found that the shape accepts, the last refusal: {}; give defaults to its parameters, or "
       "--section '{{\"parameters\": {{...}}}}'",
-      last);
+      last.value_or(""));
 }
 
 std::vector<double> draw_macro(const LoadCase& load_case, Random& random, double size)

@@ -6,6 +6,7 @@
 #include "verdict.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,8 @@ struct Point {
   std::vector<double> p, margin;
 };
 Point draw_point(const Shape& shape, Trial& trial);
+/// Message of the refusal of p; null where the shape accepts it.
+std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p);
 
 // ----- load cases -----
 

@@ -3,26 +3,28 @@
 
 #include <fmt/format.h>
 
-#include <string>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 namespace hauberk::conformance {
 
 /// Ends a check: the plugin is wrong.
-struct Failure {
-  std::string text;
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// Ends a check: it does not apply to this plugin.
-struct Skip {
-  std::string text;
+class Skip : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args)
 {
-  throw Failure{fmt::format(format, std::forward<Args>(args)...)};
+  throw Failure(fmt::format(format, std::forward<Args>(args)...));
 }
 
 template <class... Args>
@@ -34,7 +36,7 @@ void require(bool holds, fmt::format_string<Args...> format, Args&&... args)
 template <class... Args>
 [[noreturn]] void skip(fmt::format_string<Args...> format, Args&&... args)
 {
-  throw Skip{fmt::format(format, std::forward<Args>(args)...)};
+  throw Skip(fmt::format(format, std::forward<Args>(args)...));
 }
 
 /// Whether `name` stands in `text` as a word of its own: not as a part of another name.

@@ -80,6 +80,7 @@ bool read_section(Reader& reader, const Section& s, const Section& strings_secti
   if (!entries) return false;
   for (const Dynamic& entry : *entries) {
     if (entry.d_tag == DT_NEEDED) summary.needed.push_back(text(*strings, entry.d_un.d_val));
+    if (entry.d_tag == DT_INIT_ARRAYSZ) summary.constructors = entry.d_un.d_val / sizeof(void*);
   }
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// What can be said about a library from its file, without running any of its code.
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct ElfSummary {
   bool tables = false;                ///< the lists below could be read
   std::vector<std::string> needed;    ///< names of libraries it needs
   std::vector<std::string> exported;  ///< names of dynamic symbols it defines
+  std::size_t constructors = 0;       ///< functions that run when it is loaded; the compiler's own is one
 };
 
 /// Reads `file`. Never throws for what the file contains.

@@ -3,13 +3,18 @@
 #include "elf.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hauberk/error.hpp>
+#include <hauberk/host/child.hpp>
 #include <hauberk/host/floating_point.hpp>
 #include <hauberk/host/handshake.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <boost/dll/shared_library.hpp>
+#include <cerrno>
 #include <string_view>
 #include <system_error>
 
@@ -36,11 +41,19 @@ void check_is_file(const fs::path& file)
   }
   if (!fs::exists(status)) fail("plugin '{}' does not exist", file.native());
   if (fs::is_directory(status)) fail("plugin '{}' is a folder; expected a shared library", file.native());
+  // Opening a pipe would wait for somebody to write to it.
+  if (!fs::is_regular_file(status)) fail("plugin '{}' is no file; expected a shared library", file.native());
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) {
+    fail("plugin '{}' cannot be read: {}; mend its permissions", file.native(),
+         std::generic_category().message(errno));
+  }
+  ::close(fd);
 }
 
 /// Everything that can be decided without running the library's constructors. In particular a library built
 /// with a sanitizer this program lacks would end the program as soon as it is loaded.
-void check_contents(const fs::path& file)
+ElfSummary check_contents(const fs::path& file)
 {
   const ElfSummary elf = read_elf(file);
   if (!elf.elf) fail("plugin '{}' is not a shared library; build it with hauberk_add_plugin", file.native());
@@ -50,7 +63,7 @@ void check_contents(const fs::path& file)
     fail("plugin '{}' was built for another kind of processor than this program; rebuild it here",
          file.native());
   }
-  if (!elf.tables) return;  // stripped of its section table: the loader decides
+  if (!elf.tables) return elf;  // stripped of its section table: the loader decides
 
   if (std::find(elf.exported.begin(), elf.exported.end(), entry_name) == elf.exported.end()) {
     fail(
@@ -59,12 +72,13 @@ void check_contents(const fs::path& file)
         file.native(), entry_name);
   }
   Handshake expected = program_handshake();
-  if (std::string_view(expected.sanitizers) != "none") return;
+  if (std::string_view(expected.sanitizers) != "none") return elf;
   for (const std::string& library : elf.needed) {
     if (library.starts_with("libasan.")) expected.sanitizers = "address";
     if (library.starts_with("libtsan.")) expected.sanitizers = "thread";
   }
   check_handshake(expected, file);
+  return elf;
 }
 
 /// What the system's loader said, without Boost's wrapping.
@@ -90,13 +104,35 @@ const void* load_entry(const fs::path& file)
   }
 }
 
+/// A constructor that throws, crashes or never returns would end the program, and nothing could be said. So
+/// libraries that have any besides the compiler's own are loaded by a child process first.
+void try_constructors(const fs::path& file, const ElfSummary& elf)
+{
+  constexpr double seconds = 5.0;
+  if (elf.tables && elf.constructors <= 1) return;
+  const Child child = in_child(
+      [&]() -> std::string {
+        try {
+          load_entry(file);
+        } catch (const PluginError&) {
+          return "refused";  // it will be again, with the reason
+        }
+        return "loaded";
+      },
+      seconds);
+  if (!child.returned) {
+    fail("plugin '{}' cannot be loaded: its static constructors {}; a plugin must not have any with effects",
+         file.native(), child.ending);
+  }
+}
+
 }  // namespace
 
 PluginLibrary PluginLibrary::load(const fs::path& file)
 {
   const fs::path path = fs::absolute(file).lexically_normal();
   check_is_file(path);
-  check_contents(path);
+  try_constructors(path, check_contents(path));
 
   const FloatingPointMode before = floating_point_mode();
   const void* entry = load_entry(path);

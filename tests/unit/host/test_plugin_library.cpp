@@ -5,6 +5,10 @@
 #include <hauberk/host/handshake.hpp>
 #include <hauberk/host/plugin_library.hpp>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
 #include <cstring>
 
 namespace hauberk::test {
@@ -127,6 +131,9 @@ TEST(PluginLibrary, Table)
             quote(bad("no_factory")) +
                 " is a shape but does not set 'make_shape'; set exactly the factory "
                 "of its kind");
+  EXPECT_EQ(error_of(bad("wrong_kind")),
+            quote(bad("wrong_kind")) +
+                " is a load case but also sets 'make_shape'; set exactly the factory of its kind");
   EXPECT_EQ(error_of(bad("two_factories")), quote(bad("two_factories")) +
                                                 " is a shape but also sets 'make_optimizer'; set exactly the "
                                                 "factory of its kind");
@@ -145,6 +152,64 @@ TEST(PluginLibrary, UndefinedSymbolIsFoundAtOnce)
   const fs::path file = bad("missing_symbol");
   EXPECT_EQ(error_of(file), quote(file) + " cannot be loaded: " + file.native() +
                                 ": undefined symbol: hauberk_test_undefined_function");
+}
+
+TEST(PluginLibrary, ATableOfZeros)
+{
+  EXPECT_EQ(error_of(bad("null_table")),
+            quote(bad("null_table")) +
+                ": its 'hauberk_plugin' begins with \"\", expected \"HAUBERK\"; it must be a constant "
+                "hauberk::PluginTable");
+}
+
+TEST(PluginLibrary, OtherFlags)
+{
+#if defined(__x86_64__)
+  EXPECT_EQ(error_of(bad("other_alignment")),
+            differs("other_alignment", "Eigen alignment", "32", std::to_string(EIGEN_MAX_ALIGN_BYTES)));
+  EXPECT_EQ(error_of(bad("other_strings")), differs("other_strings", "standard library",
+                                                    "\"libstdc++ cxx11-abi=0\"", "\"" HAUBERK_STDLIB "\""));
+#endif
+}
+
+TEST(PluginLibrary, ConstructorsThatMisbehaveDoNotEndTheProgram)
+{
+  const auto cannot = [](const std::string& id, const std::string& ending) {
+    return quote(bad(id)) + " cannot be loaded: its static constructors " + ending +
+           "; a plugin must not have any with effects";
+  };
+  EXPECT_EQ(error_of(bad("throws_on_load")),
+            cannot("throws_on_load", "ended by signal 6 (Aborted); it last printed:   what():  no licence"));
+  EXPECT_EQ(error_of(bad("crashes_on_load")), cannot("crashes_on_load", "ended by signal 6 (Aborted)"));
+  EXPECT_EQ(error_of(bad("waits_on_load")), cannot("waits_on_load", "did not return within 5 s"));
+}
+
+/// Permissions mean nothing to root: then the file is looked at by somebody else.
+class AsSomebodyElse {
+ public:
+  AsSomebodyElse()
+  {
+    if (::geteuid() == 0 && ::seteuid(nobody) != 0) ADD_FAILURE() << "seteuid failed";
+  }
+  ~AsSomebodyElse()
+  {
+    if (::getuid() == 0 && ::seteuid(0) != 0) std::abort();
+  }
+  AsSomebodyElse(const AsSomebodyElse&) = delete;
+  AsSomebodyElse& operator=(const AsSomebodyElse&) = delete;
+
+ private:
+  static constexpr uid_t nobody = 65534;
+};
+
+TEST(PluginLibrary, UnreadableFile)
+{
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+  const fs::path file = folder.file("a.so", "");
+  fs::permissions(file, fs::perms::none);
+  const AsSomebodyElse somebody;
+  EXPECT_EQ(error_of(file), quote(file) + " cannot be read: Permission denied; mend its permissions");
 }
 
 TEST(PluginLibrary, FastMathIsNoticedAndUndone)
@@ -171,6 +236,8 @@ TEST(PluginLibrary, NotALibrary)
   EXPECT_EQ(error_of(folder / "a.so"), quote(folder / "a.so") + " does not exist");
   EXPECT_EQ(error_of(folder.folder("b.so")),
             quote(folder / "b.so") + " is a folder; expected a shared library");
+  ASSERT_EQ(mkfifo((folder / "e.so").c_str(), 0600), 0);  // nobody writes to it
+  EXPECT_EQ(error_of(folder / "e.so"), quote(folder / "e.so") + " is no file; expected a shared library");
   fs::create_symlink("nowhere.so", folder / "c.so");
   EXPECT_EQ(error_of(folder / "c.so"),
             quote(folder / "c.so") + " is a link to 'nowhere.so', which does not exist; remove or mend it");

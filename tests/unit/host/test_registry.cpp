@@ -3,6 +3,8 @@
 #include <hauberk/error.hpp>
 #include <hauberk/host/registry.hpp>
 
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -34,6 +36,11 @@ class RegistryTest : public testing::Test {
   std::string searched_ =
       " (searched: " + (folder_ / "absent").native() + ", " + one_.native() + ", " + two_.native() + ")";
 };
+
+std::string find_message(const Registry& registry, const std::string& id)
+{
+  return message_of<InputError>([&] { registry.find(PluginKind::shape, id); });
+}
 
 TEST_F(RegistryTest, FindsById)
 {
@@ -97,6 +104,28 @@ TEST_F(RegistryTest, BrokenPluginIsReportedNotPassedOver)
             "plugin '" + (one_ / "link.so").native() +
                 "' is a link to 'gone.so', which does not exist; remove "
                 "or mend it");
+}
+
+/// All bad plugins in one folder: each is listed with what is wrong with it, and the good one among them
+/// works.
+TEST(Registry, GoesOnWithTheOthers)
+{
+  // A library that was loaded once, even if it was refused, is not loaded again: copies are others.
+  const TemporaryFolder folder;
+  fs::copy(bad_plugins, folder.path());
+  const Registry registry({folder.path()});
+  // Those that load, and misbehave when they are called.
+  const std::set<std::string> loads = {"good_shape", "hasty_optimizer", "throwing"};
+  std::size_t broken = 0;
+  for (const PluginEntry& entry : registry.list()) {
+    EXPECT_EQ(entry.table != nullptr, loads.count(entry.id) == 1) << entry.id;
+    if (entry.table != nullptr) continue;
+    ++broken;
+    EXPECT_EQ(entry.problem.find("plugin '" + entry.file.native() + "'"), 0U) << entry.problem;
+    EXPECT_EQ(find_message(registry, entry.id), entry.problem);
+  }
+  EXPECT_GE(broken, 20U);
+  EXPECT_STREQ(registry.find(PluginKind::shape, "good_shape").id, "good_shape");
 }
 
 TEST_F(RegistryTest, IdsCannotLeaveTheFolders)

@@ -1,0 +1,149 @@
+#include "new_command.hpp"
+
+#include "dispatch.hpp"
+#include "loading.hpp"
+#include "options.hpp"
+
+#include <hauberk/experiment/experiment.hpp>
+#include <hauberk/host/search_path.hpp>
+#include <hauberk/results/atomic_file.hpp>
+
+#include <fmt/format.h>
+#include <boost/program_options/value_semantic.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+
+namespace hauberk::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> kinds = {"shape", "load_case", "optimizer"};
+/// Targets that CMake makes itself, which a plugin cannot be called.
+constexpr std::array<std::string_view, 9> taken = {"all",     "clean", "edit_cache",    "help", "install",
+                                                   "package", "test",  "rebuild_cache", "list"};
+
+/// What stands for the name in the template, and as the name of a class.
+constexpr std::string_view name_mark = "plugin_name", class_mark = "PluginName", kind_mark = "plugin_kind";
+
+bool lower(char c) { return c >= 'a' && c <= 'z'; }
+bool digit(char c) { return c >= '0' && c <= '9'; }
+
+void check_name(const std::string& name, const Registry& registry)
+{
+  const bool identifier =
+      !name.empty() && lower(name.front()) && name.back() != '_' && name.find("__") == std::string::npos &&
+      std::all_of(name.begin(), name.end(), [](char c) { return lower(c) || digit(c) || c == '_'; });
+  if (!identifier) {
+    throw InputError(fmt::format(
+        "'{}' is no name for a plugin; expected small letters, digits and single '_', such as oval_link",
+        name));
+  }
+  if (std::find(taken.begin(), taken.end(), name) != taken.end() || name == name_mark)
+    throw InputError(fmt::format("'{}' is no name for a plugin: it means something else to CMake", name));
+  for (const PluginEntry& entry : registry.list()) {
+    if (entry.id == name)
+      throw InputError(
+          fmt::format("there is a plugin '{}' already ({}); choose another name", name, entry.file.string()));
+  }
+}
+
+/// oval_link -> OvalLink
+std::string class_name(const std::string& name)
+{
+  std::string out;
+  bool first = true;
+  for (const char c : name) {
+    if (c != '_') out += first && lower(c) ? static_cast<char>(c - 'a' + 'A') : c;
+    first = c == '_';
+  }
+  return out;
+}
+
+std::string replaced(std::string text, std::string_view from, const std::string& to)
+{
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// The files of the template, with the name put in.
+std::vector<NamedContent> project_files(const std::string& kind, const std::string& name)
+{
+  const fs::path root = shared_data_folder() / "template";
+  std::vector<NamedContent> files;
+  for (const fs::path& folder : {root / "common", root / kind}) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      const auto named = [&](std::string text) {
+        return replaced(replaced(replaced(std::move(text), name_mark, name), class_mark, class_name(name)),
+                        kind_mark, kind);
+      };
+      files.push_back(
+          {named(entry.path().filename().string()), named(read_text_file(entry.path().string()))});
+    }
+    if (error)
+      throw ComputationError(fmt::format("{}: the template cannot be read: {}; install Hauberk again",
+                                         folder.string(), error.message()));
+  }
+  std::sort(files.begin(), files.end(),
+            [](const NamedContent& a, const NamedContent& b) { return a.name < b.name; });
+  return files;
+}
+
+void write_project(const fs::path& folder, const std::vector<NamedContent>& files)
+{
+  std::error_code error;
+  for (const NamedContent& file : files) {
+    const fs::path path = folder / file.name;
+    if (fs::exists(fs::symlink_status(path, error)))
+      throw InputError(fmt::format("{}: exists already; give a folder without it", path.string()));
+  }
+  const bool made = fs::create_directories(folder, error);
+  if (error)
+    throw InputError(fmt::format("{}: this folder cannot be made: {}", folder.string(), error.message()));
+  try {
+    write_files_atomically(folder, files, {});
+  } catch (const ComputationError&) {
+    if (made) fs::remove(folder, error);
+    throw;
+  }
+}
+
+}  // namespace
+
+int new_command(const std::vector<std::string>& words)
+{
+  namespace po = boost::program_options;
+  Options options(
+      "plugins new --kind shape|load_case|optimizer NAME DIR",
+      "Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it is.",
+      "NAME DIR");
+  options.take_several();
+  options.add().add_options()("kind", po::value<std::string>()->value_name("KIND"),
+                              "shape, load_case or optimizer");
+  options.parse(words);
+  if (options.positionals().size() != 2) throw UsageError("expected NAME and DIR", options.usage());
+  const std::string kind = options.has("kind") ? options.get<std::string>("kind") : "";
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+    throw UsageError(kind.empty()
+                         ? std::string("--kind is missing")
+                         : fmt::format("--kind: expected shape, load_case or optimizer, found '{}'", kind),
+                     options.usage());
+  }
+  const std::string& name = options.positionals()[0];
+  const fs::path folder = options.positionals()[1];
+  check_name(name, *open_registry(options));
+  write_project(folder, project_files(kind, name));
+  fmt::print(
+      "{} '{}' is in {}; next:\n\n  cd {}\n  cmake -B build && cmake --build build && ctest --test-dir "
+      "build\n"
+      "  hauberk run experiment.json --plugin-path build/plugins -o out\n",
+      kind, name, folder.string(), folder.string());
+  return exit_done;
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,22 @@
+// A shape that would be good, but for a static constructor: CMake defines HOW it misbehaves while it is
+// loaded.
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+namespace {
+
+[[maybe_unused]] bool throws() { throw std::runtime_error("no licence"); }
+[[maybe_unused]] bool crashes() { std::abort(); }
+[[maybe_unused]] bool waits()
+{
+  for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+const bool ready = HOW();
+
+}  // namespace
+
+#define ALTERATION (void)table
+#include "good_shape.cpp"

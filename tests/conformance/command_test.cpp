@@ -1,0 +1,159 @@
+/// `hauberk plugins conform` and `hauberk plugins new` through the program.
+
+#include "../experiments/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hauberk::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string plugins = HAUBERK_BINARY_DIR "/lib/hauberk/plugins/";
+const std::string mutants = HAUBERK_BINARY_DIR "/tests/mutants/";
+
+TEST(Conform, SaysWhatPassedAndHowToRepeatWhatFailed)
+{
+  const Outcome good = run_program({"plugins", "conform", plugins + "torus_union.so", "--filter", "shape"});
+  EXPECT_EQ(good.code, 0);
+  EXPECT_EQ(good.err, "");
+  EXPECT_NE(good.out.find("plugin torus_union 0.1.0, a shape: " + plugins +
+                          "torus_union.so\nseed 1\n\n"
+                          "passed   shape.parameters\n"),
+            std::string::npos)
+      << good.out;
+  EXPECT_NE(good.out.find("\n\n8 checks: 8 passed, 0 failed, 0 skipped\n"), std::string::npos) << good.out;
+
+  const std::string file = mutants + "mutant_shape.so", section = R"({"defect": "hang"})";
+  const Outcome bad = run_program({"plugins", "conform", file, "--filter", "shape.(primitives|parameters)",
+                                   "--section", section, "--seconds", "1", "--seed", "7"});
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_NE(bad.out.find("seed 7\n\npassed   shape.parameters\n"
+                         "FAILED   shape.primitives: did not return within 1 s\n\n"
+                         "2 checks: 1 passed, 1 failed, 0 skipped\n"),
+            std::string::npos)
+      << bad.out;
+  EXPECT_NE(bad.out.find("\n    again: hauberk plugins conform '" + file + "' --seed 7 --section '" +
+                         section + "' --filter '^shape.primitives$'\n"),
+            std::string::npos)
+      << bad.out;
+}
+
+/// The child processes change nothing but what a crash does.
+TEST(Conform, TheSameInProcess)
+{
+  const std::vector<std::string> words{"plugins", "conform", plugins + "paraboloid_bending.so"};
+  std::vector<std::string> in_process = words;
+  in_process.emplace_back("--in-process");
+  EXPECT_EQ(run_program(words).out, run_program(in_process).out);
+}
+
+TEST(Conform, AsJson)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"plugins", "conform", mutants + "mutant_load_case.so", "--json", "--section",
+                                 R"({"defect": "no_measure"})"});
+  EXPECT_EQ(o.code, 1);
+  folder.write("results.json", o.out);
+  const boost::json::value report = read_results(folder.path());
+  EXPECT_EQ(report.at_pointer("/format").as_string(), "hauberk-conformance/1");
+  EXPECT_FALSE(report.at_pointer("/passed").as_bool());
+  EXPECT_EQ(report.at_pointer("/plugin/id").as_string(), "mutant_load_case");
+  int failed = 0;
+  for (const boost::json::value& check : report.at_pointer("/checks").as_array()) {
+    if (check.at("status").as_string() != "failed") continue;
+    ++failed;
+    EXPECT_EQ(check.at("name").as_string(), "load_case.unknowns");
+    EXPECT_EQ(check.at("text").as_string(), "its measure has no name");
+  }
+  EXPECT_EQ(failed, 1);
+}
+
+TEST(Conform, WhatIsNoPlugin)
+{
+  const Outcome none = run_program({"plugins", "conform", "/nowhere.so"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.out.find("FAILED   load: plugin '/nowhere.so' does not exist\n"), std::string::npos)
+      << none.out;
+  const Outcome filter = run_program({"plugins", "conform", plugins + "sqp.so", "--filter", "jacobian"});
+  EXPECT_EQ(filter.code, 2);
+  EXPECT_EQ(filter.err.find("hauberk: --filter: no check matches 'jacobian'; there are descriptor, "), 0U)
+      << filter.err;
+  EXPECT_EQ(filter.out, "");
+  EXPECT_EQ(run_program({"plugins", "conform", plugins + "sqp.so", "--seconds", "0"}).code, 2);
+}
+
+void expect_refused(const std::vector<std::string>& words, const std::string& message)
+{
+  std::vector<std::string> all{"plugins", "new"};
+  all.insert(all.end(), words.begin(), words.end());
+  const Outcome o = run_program(all);
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err.substr(0, o.err.find('\n')), "hauberk: " + message);
+  EXPECT_EQ(o.out, "");
+}
+
+TEST(New, RefusesWhatMakesNoSense)
+{
+  const TemporaryFolder folder;
+  const std::string to = folder / "project";
+  expect_refused({"--kind", "shape", "oval"}, "expected NAME and DIR");
+  expect_refused({"oval", to}, "--kind is missing");
+  expect_refused({"--kind", "shapes", "oval", to},
+                 "--kind: expected shape, load_case or optimizer, found 'shapes'");
+  for (const std::string name :
+       {"Oval", "2d", "oval-link", "oval link", "_oval", "oval_", "o__v", "../oval", "öval"}) {
+    expect_refused(
+        {"--kind", "shape", name, to},
+        "'" + name +
+            "' is no name for a plugin; expected small letters, digits and single '_', such as oval_link");
+  }
+  expect_refused({"--kind", "shape", "install", to},
+                 "'install' is no name for a plugin: it means something else to CMake");
+  expect_refused({"--kind", "shape", "sqp", to},
+                 "there is a plugin 'sqp' already (" + plugins + "sqp.so); choose another name");
+  EXPECT_FALSE(fs::exists(to));
+}
+
+std::vector<std::string> names_in(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(New, WritesAllFilesOrNone)
+{
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"plugins", "new", "--kind", "load_case", "oval_link", folder / "a/b"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  const std::vector<std::string> expected{"CMakeLists.txt", "README.md", "experiment.json", "oval_link.cpp",
+                                          "oval_link_test.cpp"};
+  EXPECT_EQ(names_in(folder / "a/b"), expected);
+  EXPECT_NE(read_text(folder / "a/b/oval_link.cpp").find("class OvalLink final : public LoadCase"),
+            std::string::npos);
+  EXPECT_NE(read_text(folder / "a/b/CMakeLists.txt").find("hauberk_add_plugin(oval_link KIND load_case"),
+            std::string::npos);
+  // A file that is there, whoever wrote it, stays, and nothing is written beside it.
+  fs::create_directory(folder / "c");
+  folder.write("c/README.md", "mine");
+  expect_refused({"--kind", "shape", "oval_link", folder / "c"},
+                 (folder / "c/README.md") + ": exists already; give a folder without it");
+  EXPECT_EQ(names_in(folder / "c"), std::vector<std::string>{"README.md"});
+  EXPECT_EQ(read_text(folder / "c/README.md"), "mine");
+  // Other files do not matter.
+  fs::create_directory(folder / "d");
+  folder.write("d/notes.txt", "mine");
+  EXPECT_EQ(run_program({"plugins", "new", "--kind", "shape", "oval_link", folder / "d"}).code, 0);
+  EXPECT_EQ(names_in(folder / "d").size(), 6U);
+  // A folder that cannot be made.
+  EXPECT_EQ(run_program({"plugins", "new", "--kind", "shape", "oval_link", folder / "d/notes.txt/x"}).code,
+            2);
+}
+
+}  // namespace
+}  // namespace hauberk::test

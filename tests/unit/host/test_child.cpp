@@ -1,0 +1,55 @@
+#include <hauberk/host/child.hpp>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+namespace hauberk::test {
+namespace {
+
+TEST(InChild, BringsBackWhatTheFunctionReturns)
+{
+  const std::string large(300000, 'x');
+  const Child child = in_child([&] { return "a\n" + large; }, 20.0);
+  EXPECT_TRUE(child.returned);
+  EXPECT_EQ(child.text, "a\n" + large);
+}
+
+TEST(InChild, SurvivesWhateverHappens)
+{
+  EXPECT_EQ(in_child([]() -> std::string { std::raise(SIGSEGV), std::abort(); }, 20.0).ending,
+            "ended by signal 11 (Segmentation fault)");
+  const Child aborted = in_child(
+      []() -> std::string {
+        std::fputs("first\nterminate called\n", stderr);
+        std::abort();
+      },
+      20.0);
+  EXPECT_FALSE(aborted.returned);
+  EXPECT_EQ(aborted.ending, "ended by signal 6 (Aborted); it last printed: terminate called");
+  EXPECT_EQ(in_child([]() -> std::string { std::_Exit(3); }, 20.0).ending,
+            "ended the process with exit code 3");
+  EXPECT_EQ(in_child([]() -> std::string { std::_Exit(0); }, 20.0).ending,
+            "ended the process with exit code 0");
+  EXPECT_EQ(in_child([]() -> std::string { throw 1; }, 20.0).ending, "ended the process with exit code 1");
+}
+
+TEST(InChild, EndsWhatDoesNotReturn)
+{
+  const auto forever = []() -> std::string {
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+  };
+  EXPECT_EQ(in_child(forever, 0.2).ending, "did not return within 0.2 s");
+  // Printing without end fills no pipe.
+  const auto chatty = []() -> std::string {
+    for (;;) std::puts("and on");
+  };
+  EXPECT_EQ(in_child(chatty, 0.2).ending, "did not return within 0.2 s");
+}
+
+}  // namespace
+}  // namespace hauberk::test

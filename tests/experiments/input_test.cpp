@@ -65,6 +65,13 @@ TEST(BadInput, LengthsThatDoNotGoTogether)
   expect_refused(R"("preset": "accurate")", R"("clearance": 1e9)", "6: /cell: elements 0 and 0" + problem);
 }
 
+TEST(BadInput, SettingsThatAMethodHasNot)
+{
+  expect_refused("\"preset\": \"accurate\"",
+                 "\"preset\": \"accurate\", \"contact\": \"constrained\", \"ccd\": \"certified\"",
+                 "12: /solver/ccd: contact 'constrained' checks no steps for collisions; remove this");
+}
+
 TEST(BadInput, Numbers)
 {
   expect_refused(

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/json/value.hpp>
+
 namespace hauberk::test {
 namespace {
 
@@ -20,6 +22,26 @@ TEST(ManyElements, ChainOf64)
   EXPECT_EQ(run_program({"verify", folder / "out/results.json"}).code, 0);
   EXPECT_EQ(run_program({"plan", folder.write("s.json", chain_text())}).out.find("sparse"),
             std::string::npos);
+}
+
+/// A bent patch, whose place is held by conditions that couple all rings: forces balance and conditions hold
+/// by the independent check, and the limit is that of the dense method, which the same rings had before.
+TEST(ManyElements, BentPatchOf54)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::string> patch{HAUBERK_SOURCE_DIR "/share/experiments/speed/bending.json", "--set",
+                                       "/cell/patch/outline={\"rectangle\": [3, 9]}"};
+  const auto with_patch = [&patch](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, patch.begin(), patch.end());
+    return arguments;
+  };
+  const Outcome o = run_program(with_patch({"run", "-o", folder / "out"}));
+  ASSERT_EQ(o.code, 0) << o.err;
+  const boost::json::value results = read_results(folder / "out");
+  EXPECT_EQ(results.at_pointer("/plan/linear_solver").as_string(), "sparse Cholesky (CHOLMOD, supernodal)");
+  constexpr double dense = 0.334450302959;
+  EXPECT_NEAR(number_at(results, "/limits/0/value"), dense, 1e-9);
+  EXPECT_EQ(run_program({"verify", folder / "out/results.json"}).code, 0);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr double balanced = 1e-7, kept = 1e-3, rounding = 1e-14;
 constexpr double penalty_of_force = 1.5;  ///< penalty of a violation over the largest multiplier
 constexpr double enough = 1e-4;           ///< part of the predicted improvement that a step must bring
 constexpr std::size_t remembered = 5;  ///< values of the penalty function; curved gaps make it rise at times
-constexpr double shortest = 1e-6;      ///< part of a step that is tried
+constexpr int most_halvings = 19;      ///< of a step
 
 /// A gap or wall with its scaled gradient.
 struct Row {
@@ -111,6 +111,7 @@ class Search {
   {
     Point p;
     p.gaps = find_gaps(m_, state, range_of_step * longest_, true, &out_.evaluations);
+    p.rows.reserve(p.gaps.size() + m_.walls.size());
     for (const Gap& g : p.gaps) p.rows.push_back({g.a, g.b, g.image, g.gap, scaled(g.dy)});
     for (std::size_t w = 0; w < m_.walls.size(); ++w) {
       Row row{static_cast<int>(w), -1, {}, m_.walls[w].offset, Vector::Zero(m_.dofs())};
@@ -160,13 +161,14 @@ class Search {
   {
     penalty_ = std::max(penalty_, forces_.size() > 0 ? penalty_of_force * forces_.maxCoeff() : 0.0);
     const auto value = [this](const Point& p) { return p.objective + penalty_ * p.violation; };
-    past_.push_back({now_.objective, now_.violation});
+    past_.emplace_back(now_.objective, now_.violation);
     if (past_.size() > remembered) past_.pop_front();
     double worst = value(now_);
     for (const auto& [objective, violation] : past_)
       worst = std::max(worst, objective + penalty_ * violation);
     const double slope = now_.gradient.dot(d) - penalty_ * now_.violation;
-    for (double part = 1.0; part >= shortest; part *= 0.5) {
+    double part = 1.0;
+    for (int halved = 0; halved <= most_halvings; ++halved, part *= 0.5) {
       const Vector step = part * d;
       State trial = advanced(m_, now_.state, root_.cwiseProduct(step), 1.0);
       if (!m_.load->admissible({trial.macro.data(), static_cast<std::size_t>(m_.macro_count)})) continue;

@@ -52,4 +52,27 @@ quietly cmake --build "$work/again"
 quietly "$prefix/bin/hauberk" plugins conform "$work/again/plugins/figure_eight.so"
 quietly "$prefix/bin/hauberk" plugins list
 if grep -rl --include='*.cmake' "$work/prefix" "$prefix"; then fail "the package names the folder it was installed to"; fi
+
+# Plugins of this tree that use nothing but what is installed: built outside of it, without those that are installed, and
+# used in their examples.
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+outside=$work/outside
+mkdir "$outside"
+{
+  echo 'cmake_minimum_required(VERSION 3.25)'
+  echo 'project(outside LANGUAGES CXX)'
+  echo 'find_package(hauberk REQUIRED)'
+  for plugin in shapes/closed_tube loadcases/volumetric_periodic optimizers/nelder_mead; do
+    echo "add_subdirectory(\"$source/$plugin\" \"${plugin#*/}\")"
+  done
+} >"$outside/CMakeLists.txt"
+quietly cmake -S "$outside" -B "$outside/build" -D CMAKE_PREFIX_PATH="$prefix" "${launcher[@]}"
+quietly cmake --build "$outside/build"
+for plugin in shapes/closed_tube loadcases/volumetric_periodic optimizers/nelder_mead; do
+  name=${plugin#*/}
+  rm "$prefix/lib/hauberk/plugins/$name.so"
+  quietly "$prefix/bin/hauberk" plugins conform "$outside/build/plugins/$name.so"
+  quietly "$prefix/bin/hauberk" run "$source/$plugin/example.json" --plugin-path "$outside/build/plugins" \
+    -o "$outside/$name" --force --quiet
+done
 echo "consumer: done"

@@ -138,7 +138,7 @@ std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
   const int around = std::max(96, 48 * static_cast<int>(a.curve.size()));
   constexpr int across = 24;
   const int nv = tube ? 1 : across;
-  const auto u = [](int i) { return i * full_turn / around; };
+  const auto u = [around](int i) { return i * full_turn / around; };
   const auto v = [](int j) { return j * full_turn / across; };
   std::vector<double> f(static_cast<std::size_t>(around * nv));
   const auto at = [&](int i, int j) -> double& {

@@ -19,4 +19,4 @@ const bool ready = HOW();
 }  // namespace
 
 #define ALTERATION (void)table
-#include "good_shape.cpp"
+#include "good_shape.cpp"  // NOLINT(bugprone-suspicious-include)

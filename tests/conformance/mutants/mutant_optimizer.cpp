@@ -5,7 +5,7 @@
 #include <hauberk/optimizer.hpp>
 
 #define hauberk_plugin reference_plugin
-#include "../../../plugins/template/optimizer/plugin_name.cpp"
+#include "../../../plugins/template/optimizer/plugin_name.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef hauberk_plugin
 
 namespace hauberk::mutants {

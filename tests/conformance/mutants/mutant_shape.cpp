@@ -8,7 +8,7 @@
 #include <thread>
 
 #define hauberk_plugin reference_plugin
-#include "../../../plugins/template/shape/plugin_name.cpp"
+#include "../../../plugins/template/shape/plugin_name.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef hauberk_plugin
 
 namespace hauberk::mutants {

@@ -13,8 +13,9 @@ class PluginLibrary {
  public:
   /// Loads `file` (all symbols resolved now, none shared with other libraries), checks handshake and table.
   /// What can be read from the file (another format or machine, no entry, a sanitizer this program lacks) is
-  /// checked first, so that no code of such a library runs. Throws PluginError that names the file, what was
-  /// found and the way out. Thread safe.
+  /// checked first, so that no code of such a library runs; static constructors are tried in a child process,
+  /// so that one that throws is an error. Throws PluginError that names the file, what was found and the way
+  /// out. Thread safe.
   static PluginLibrary load(const std::filesystem::path& file);
 
   const PluginTable& table() const { return *table_; }

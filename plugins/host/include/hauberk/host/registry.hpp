@@ -26,7 +26,7 @@ struct PluginEntry {
   std::optional<std::filesystem::path> shadowed_by;  ///< the file of an earlier folder that is used instead
 };
 
-/// Plugins of a list of folders. A plugin is the file <id>.so; in the first folder that has it, it is used,
+/// Plugins of a list of folders. A plugin is the file ID.so; in the first folder that has it, it is used,
 /// and files of that name in later folders are shadowed. Loads a library when it is first asked for, each
 /// once. All calls are thread safe.
 class Registry {

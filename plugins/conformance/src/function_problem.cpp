@@ -77,7 +77,7 @@ OptimizationProblem::Evaluation FunctionProblem::evaluate(std::span<const double
 
 void FunctionProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
 {
-  fill(constraint_functions, constraint_number, vector(x), c, jacobian);
+  if (constraint_number > 0) fill(constraint_functions, constraint_number, vector(x), c, jacobian);
 }
 
 bool FunctionProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)

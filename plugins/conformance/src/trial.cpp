@@ -105,6 +105,12 @@ std::vector<double> quantities(const Primitive& primitive)
 {
   std::vector<double> out(primitive.position.begin(), primitive.position.end());
   out.insert(out.end(), primitive.size.begin(), primitive.size.end());
+  if (primitive.curve.empty()) return out;
+  out[3] = 0.0;  // the kernel's: no row of a Jacobian belongs to it
+  for (const Harmonic& h : primitive.curve) {
+    out.insert(out.end(), h.c.begin(), h.c.end());
+    out.insert(out.end(), h.s.begin(), h.s.end());
+  }
   return out;
 }
 
@@ -121,7 +127,10 @@ std::optional<std::string> refused(const Shape& shape, const std::vector<double>
 std::string quantity_name(std::size_t row)
 {
   constexpr const char* names[] = {"position x", "position y", "position z", "size 0", "size 1", "size 2"};
-  return row < std::size(names) ? names[row] : fmt::format("quantity {}", row);
+  if (row < std::size(names)) return names[row];
+  const std::size_t harmonic = (row - primitive_dofs) / harmonic_dofs,
+                    at = (row - primitive_dofs) % harmonic_dofs;
+  return fmt::format("{} {} of harmonic {}", at < 3 ? "cosine" : "sine", "xyz"[at % 3], harmonic + 1);
 }
 
 Point draw_point(const Shape& shape, Trial& trial)

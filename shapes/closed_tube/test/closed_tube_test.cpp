@@ -114,6 +114,7 @@ TEST(ClosedTube, JacobiansAreConstantAndThoseOfTheCurve)
   for (const char* family : {"oval", "racetrack", "polygon", "knot"}) {
     const auto shape = made(section(family));
     std::vector<double> p{3.0, 1.5, 0.2};
+    if (std::string(family) == "polygon") p[1] = 0.3;
     if (std::string(family) == "knot") p = {3.0, 1.0, 0.8, 0.1};
     const std::size_t n = p.size();
     const PrimitiveJacobian jacobian = shape->jacobians(p)[0];

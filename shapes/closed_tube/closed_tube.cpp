@@ -12,7 +12,12 @@
 namespace hauberk {
 namespace {
 
-constexpr std::size_t samples_per_harmonic = 64;
+/// As many as the kernel takes, so that it refuses no bend that is accepted here.
+constexpr std::size_t samples_per_harmonic = 256;
+/// Of these, those that are compared with each other.
+constexpr std::size_t stride = 4;
+/// Of the mean radius: what the kernel takes.
+constexpr double thinnest = 1e-4;
 
 /// Smallest radius of curvature of a curve, and where it comes back to itself.
 struct Thickest {
@@ -46,8 +51,8 @@ Thickest thickest_tube(const std::vector<Harmonic>& curve, double r)
     out.bend = std::min(out.bend, speed > 0.0 ? speed * speed * speed / first.cross(second).norm() : 0.0);
   }
   const double length = along[count];
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
+  for (std::size_t i = 0; i < count; i += stride) {
+    for (std::size_t j = i + stride; j < count; j += stride) {
       const double apart = along[j] - along[i];
       if (std::min(apart, length - apart) > std::numbers::pi * r)
         out.pass = std::min(out.pass, 0.5 * (x[i] - x[j]).norm());
@@ -76,6 +81,14 @@ void ClosedTube::do_primitives(std::span<const double> p, std::vector<Primitive>
   }
   const double r = p.back();
   tube.size = {1.0, r, r};
+  double squares = 0.0;
+  for (const Harmonic& h : tube.curve) squares += h.c.squaredNorm() + h.s.squaredNorm();
+  if (const double least = thinnest * std::sqrt(0.5 * squares); r < least) {
+    std::ostringstream message;
+    message << "parameter '" << parameters_.back().name << "' = " << r
+            << " is too thin for its curve: at least " << least << " is needed";
+    throw InputError(message.str());
+  }
   const Thickest most = thickest_tube(tube.curve, r);
   if (!(r < most.bend) || !(r < most.pass)) {
     std::ostringstream message;

@@ -80,7 +80,7 @@ TEST(Curves, ADesignFindsTheLengthsThatGiveALimit)
   "design": {
     "optimizer": { "plugin": "sqp", "max_iterations": 20 },
     "quantity": "stretch",
-    "variables": [ { "parameters": "0/half_length", "lower": 8, "upper": 14 } ],
+    "variables": [ { "parameters": "half_length", "lower": 8, "upper": 14 } ],
     "targets": [ { "direction_deg": 0, "value": 0.15 } ] })");
   const TemporaryFolder folder;
   const Outcome o = run_program({"run", folder.write("design.json", text), "-o", folder / "out"});

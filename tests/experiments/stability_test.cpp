@@ -95,7 +95,7 @@ TEST(StabilityRun, MistakesOfFormAreBadInput)
   const Outcome o = run_program({"run", folder.write("map.json", text), "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("family 'thickness', member '0.7', method 'fast': expected one of auto, nearest, arc, "
-                       "published, mesh, found \"nearst\"; did you mean 'nearest'?"),
+                       "published, mesh, constrained, found \"nearst\"; did you mean 'nearest'?"),
             std::string::npos)
       << o.err;
   EXPECT_FALSE(fs::exists(folder.path() / "out"));

@@ -67,8 +67,8 @@ std::vector<Direction> read_list(const Node& list, const LoadCase& load_case, Pr
   for (const Node& item : list.items) {
     const std::vector<double> d = item.numbers();
     if (d.size() != count) {
-      problems.add(item,
-                   fmt::format("expected {} components, one for each unknown, found {}", count, d.size()));
+      problems.add(item, fmt::format("expected as many components as there are unknowns, {}, found {}", count,
+                                     d.size()));
       continue;
     }
     if (std::all_of(d.begin(), d.end(), [](double x) { return x == 0.0; })) {

@@ -43,8 +43,9 @@ TEST(Directions, MistakesOfFormAreTold)
   };
   EXPECT_EQ(problems("[[1, 0, 0], [0, 0, 0]]"),
             "t.json:13: /load_case/directions/1: expected a direction, found all zeros");
-  EXPECT_EQ(problems("[[1, 0, 0], [1, 1]]"),
-            "t.json:13: /load_case/directions/1: expected an array of 3 numbers, found an array of 2 values");
+  EXPECT_EQ(
+      problems("[[1, 0, 0], [1, 1]]"),
+      "t.json:13: /load_case/directions/1: expected as many components as there are unknowns, 3, found 2");
   EXPECT_EQ(problems("[[1, 0, 0], [1, 1e999, 0]]").substr(0, 35), "t.json:13: /load_case/directions/1/");
   EXPECT_EQ(problems("[]").substr(0, 33), "t.json:13: /load_case/directions:");
   EXPECT_EQ(problems("7").substr(0, 33), "t.json:13: /load_case/directions:");
@@ -69,8 +70,10 @@ TEST(Directions, ExcludeAnglesSensesAndDesigns)
       "and give the opposite direction for the other one");
   EXPECT_EQ(
       problems_of(text(R"("plugin": "plane", "directions": [[1, 0, 0]])")),
-      "t.json:13: /load_case/directions: 'plane' does not have three unknowns in the unit of its value: "
-      "use directions_deg");
+      "t.json:13: /load_case/directions/0: expected as many components as there are unknowns, 1, found 3");
+  EXPECT_EQ(problems_of(text(R"("plugin": "plane", "directions": {"sphere": 2})")),
+            "t.json:13: /load_case/directions: 'plane' has 1 unknowns, and a sphere of directions needs "
+            "three: list them");
   std::string design = with(valid_text(), R"("plugin": "plane", "directions_deg": [0, 30])",
                             R"("plugin": "strains", "directions": [[1, 0, 0]])");
   design = with(design, "\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"design\"");

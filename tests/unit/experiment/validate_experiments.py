@@ -36,7 +36,7 @@ def mistakes(document):
     yield damaged("wrong preset", lambda d: d.setdefault("solver", {}).update(preset="fats"))
     yield damaged("negative clearance", lambda d: d.setdefault("solver", {}).update(clearance=-1))
     yield damaged("no starts", lambda d: d.setdefault("solver", {}).update(starts=0))
-    yield damaged("vector of three", lambda d: d["cell"].update(vectors=[[1, 0, 0], [0, 1]]))
+    yield damaged("vector of four", lambda d: d["cell"].update(vectors=[[1, 0, 0, 0], [0, 1]]))
     yield damaged("nothing placed", lambda d: d["cell"].update(place=[]))
     yield damaged("unknown key of the load case", lambda d: d["load_case"].update(mesure="tensor"))
     if "elements" in document:  # a weave may bring them

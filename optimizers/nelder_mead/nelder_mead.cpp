@@ -52,6 +52,7 @@ class Search {
     if (!std::isfinite(start.value)) return result("failed", "the start cannot be evaluated");
     accept(start);
     if (!observed(0.0)) return result("stopped", "stopped by the observer");
+    if (settings_.max_iterations == 0) return result("iteration_limit", "ended by max_iterations");
     double step = settings_.initial_step;
     // Again from where it ended, until that gains nothing: a simplex may collapse on a bound.
     for (;;) {
@@ -82,16 +83,17 @@ class Search {
     for (;;) {
       std::stable_sort(simplex.begin(), simplex.end());
       while (simplex.front() < accepted_) {
+        if (iterations_ >= settings_.max_iterations) return over("iteration_limit", "max_iterations");
         const bool taken = accept(simplex.front());
         std::stable_sort(simplex.begin(), simplex.end());
-        if (taken) break;
-        if (!budget()) return false;
+        if (!taken && !budget()) return false;
+        if (!taken) continue;
+        ++iterations_;
+        if (!observed(size(simplex))) return over("stopped", "the observer");
+        break;
       }
       if (size(simplex) < settings_.min_step) return true;
-      if (iterations_ >= settings_.max_iterations) return over("iteration_limit", "max_iterations");
-      ++iterations_;
       if (!improve(simplex)) return false;
-      if (!observed(size(simplex))) return over("stopped", "the observer");
     }
   }
 
@@ -142,16 +144,17 @@ class Search {
   {
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i] = std::clamp(x[i], problem_.lower()[i], problem_.upper()[i]);
+    if (x == accepted_.x) return accepted_;
     Corner out{x};
     Point way(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) way[i] = x[i] - accepted_.x[i];
-    if (problem_.largest_safe_step(accepted_.x, way) < 1.0) return out;
+    if (!(problem_.largest_safe_step(accepted_.x, way) >= 1.0)) return out;
     return evaluate(x);
   }
 
   Corner evaluate(const Point& x)
   {
-    ++evaluations_;
+    if (last_ != x) ++evaluations_;  // asking again costs nothing
     last_ = x;
     const auto evaluation = problem_.evaluate(x, false);
     if (!evaluation.ok || !std::isfinite(evaluation.value)) return {x};
@@ -267,15 +270,14 @@ hauberk::Field field(const char* name, hauberk::Field::Kind kind, const char* va
 void fields(std::vector<hauberk::Field>& out)
 {
   using Kind = hauberk::Field::Kind;
-  out = {
-      field("max_iterations", Kind::integer, "5000", 0, 1e9, "Changes of the simplex after which to stop."),
-      field("max_evaluations", Kind::integer, "10000", 1, 1e9,
-            "Evaluations of the objective after which to stop."),
-      field("initial_step", Kind::number, "0.1", 1e-6, 1,
-            "Size of the first simplex, in parts of the bounds."),
-      field("min_step", Kind::number, "1e-8", 1e-15, 1, "Size of a simplex that is small."),
-      field("constraint_tolerance", Kind::number, "1e-8", 0, 1,
-            "Violation of a constraint that counts as none.")};
+  out = {field("max_iterations", Kind::integer, "5000", 0, 1e9, "Better points after which to stop."),
+         field("max_evaluations", Kind::integer, "10000", 1, 1e9,
+               "Evaluations of the objective after which to stop."),
+         field("initial_step", Kind::number, "0.1", 1e-6, 1,
+               "Size of the first simplex, in parts of the bounds."),
+         field("min_step", Kind::number, "1e-8", 1e-15, 1, "Size of a simplex that is small."),
+         field("constraint_tolerance", Kind::number, "1e-8", 0, 1,
+               "Violation of a constraint that counts as none.")};
 }
 
 std::unique_ptr<hauberk::Optimizer> make(const hauberk::Node& section, hauberk::Problems&)

@@ -66,7 +66,7 @@ mkdir "$outside"
     echo "add_subdirectory(\"$source/$plugin\" \"${plugin#*/}\")"
   done
 } >"$outside/CMakeLists.txt"
-quietly cmake -S "$outside" -B "$outside/build" -D CMAKE_PREFIX_PATH="$prefix" "${launcher[@]}"
+quietly cmake -S "$outside" -B "$outside/build" -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$prefix" "${launcher[@]}"
 quietly cmake --build "$outside/build"
 for plugin in shapes/closed_tube loadcases/volumetric_periodic optimizers/nelder_mead; do
   name=${plugin#*/}

@@ -11,6 +11,7 @@ constexpr double smallest_length = 1e-12;
 constexpr double largest_length = 1e12;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_harmonics = 32;
+constexpr double most_turns = 16.0;
 
 /// Parameters and terms of a family of curves.
 struct Family {
@@ -135,7 +136,7 @@ void closed_tube_fields(std::vector<Field>& out)
   turns.kind = Field::Kind::numbers;
   turns.min_items = turns.max_items = 2;
   turns.minimum = 1;
-  turns.maximum = most_harmonics / 2;
+  turns.maximum = most_turns;
   turns.doc =
       "Of a knot: how often it goes around the axis and up and down meanwhile, without common divisor; "
       "[2, 3] without: a trefoil.";

@@ -89,6 +89,9 @@ TEST(CommandLine, Plugins)
   const Outcome one = run_program({"plugins", "describe", "sqp"});
   EXPECT_EQ(one.code, 0);
   EXPECT_NE(one.out.find("max_iterations"), std::string::npos) << one.out;
+  // A shape's parameters depend on its fields, unless it has none.
+  const Outcome shape = run_program({"plugins", "describe", "closed_tube"});
+  EXPECT_NE(shape.out.find("Its parameters depend on these fields."), std::string::npos) << shape.out;
   const Outcome none = run_program({"plugins", "describe", "spq"});
   EXPECT_EQ(none.code, 2);
   EXPECT_EQ(none.err.find("hauberk: no plugin 'spq'; did you mean 'sqp'? (searched: "), 0U) << none.err;

@@ -78,7 +78,7 @@ std::vector<Vec3> core_polygon(const Body& body, const Pose& pose, double near)
   for (int i = 0; i < count; ++i) {
     const Angle u(2.0 * pi * i / count);
     const Vec3 local = body.curve ? body.curve->at(u).x : Vec3(body.R * u.c, body.R * u.s, 0.0);
-    corners.push_back(frame.center + frame.axes * local);
+    corners.emplace_back(frame.center + frame.axes * local);
   }
   return corners;
 }

@@ -37,7 +37,12 @@ std::string curve_defect(const Primitive& primitive)
     if (!h.c.allFinite() || !h.s.allFinite()) return "has a harmonic that is not finite";
   }
   if (primitive.r0() != primitive.r1()) return "is a curve tube with two radii";
-  if (!(primitive.r0() >= thinnest * primitive.R())) return "is a tube too thin for its curve";
+  if (!(primitive.r0() >= thinnest * primitive.R())) {
+    std::ostringstream message;
+    message << "is a tube of radius " << primitive.r0() << ", too thin for its curve, which takes "
+            << thinnest * primitive.R() << " and more";
+    return message.str();
+  }
   const double bend = ClosedCurve(primitive.curve, 1.0).tightest_bend();
   if (!(bend > primitive.r0())) {
     std::ostringstream message;

@@ -2,12 +2,15 @@
 #include "loading.hpp"
 #include "new_command.hpp"
 
+#include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/suggestion.hpp>
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
+
+#include <cmath>
 
 namespace hauberk::command {
 namespace {
@@ -51,6 +54,29 @@ int list(const Registry& registry)
   return broken ? exit_failed : exit_done;
 }
 
+/// Parameters of a shape that needs no settings of its own; others depend on them.
+std::string parameters_text(const PluginTable& table)
+{
+  Field fields;
+  fields.kind = Field::Kind::object;
+  fields.children = plugin_fields(table);
+  Node section;
+  section.type = Node::Type::object;
+  Problems problems;
+  std::unique_ptr<Shape> shape;
+  if (check_fields(section, fields, problems)) shape = make_shape(table, section, problems);
+  if (!shape) return "Its parameters depend on these fields.\n";
+  std::string text = fmt::format("{:<20} {:<8} {:>10} {:>10} {:>10}  {}\n", "parameter", "unit", "default",
+                                 "lower", "upper", "meaning");
+  for (const ParameterInfo& info : shape->parameters()) {
+    const std::string value =
+        std::isnan(info.default_value) ? "required" : fmt::format("{:g}", info.default_value);
+    text += fmt::format("{:<20} {:<8} {:>10} {:>10g} {:>10g}  {}\n", info.name, info.unit, value, info.lower,
+                        info.upper, info.doc);
+  }
+  return text;
+}
+
 int describe(const Registry& registry, const std::string& id)
 {
   std::vector<std::string> known, searched;
@@ -64,12 +90,14 @@ int describe(const Registry& registry, const std::string& id)
     const PluginTable& table = *entry.table;
     fmt::print("{} {}: {}\n{}\n\n", id, table.version, kind_text(table.kind), table.summary);
     fmt::print("source: {}\nfile:   {}\n\n", table.citation, entry.file.string());
-    fmt::print("{}", fields_reference(plugin_fields(table), section_place(table.kind)));
+    const std::vector<Field> fields = plugin_fields(table);
+    if (!fields.empty()) fmt::print("{}", fields_reference(fields, section_place(table.kind)));
+    if (table.kind == PluginKind::shape) fmt::print("{}", parameters_text(table));
     return exit_done;
   }
   for (const auto& folder : registry.directories()) searched.push_back(folder.string());
-  throw InputError(
-      fmt::format("no plugin '{}'{} (searched: {})", id, suggestion(id, known), fmt::join(searched, ", ")));
+  throw InputError(fmt::format("no plugin '{}'{} (searched: {}; others with --plugin-path)", id,
+                               suggestion(id, known), fmt::join(searched, ", ")));
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ std::string parameters_text(const PluginTable& table)
   section.type = Node::Type::object;
   Problems problems;
   std::unique_ptr<Shape> shape;
-  if (check_fields(section, fields, problems)) shape = make_shape(table, section, problems);
+  if (check_fields(section, fields, problems) && problems.empty())
+    shape = make_shape(table, section, problems);
   if (!shape) return "Its parameters depend on these fields.\n";
   std::string text = fmt::format("{:<20} {:<8} {:>10} {:>10} {:>10}  {}\n", "parameter", "unit", "default",
                                  "lower", "upper", "meaning");

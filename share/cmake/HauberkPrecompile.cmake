@@ -1,0 +1,48 @@
+# Reading the headers of the standard library, Eigen, Boost.JSON, fmt and GoogleTest is most of what compiling most
+# files takes. A compiler cache spares it too and does not go well with precompiled headers; builds with one also see to
+# it that every file includes what it uses.
+if(HAUBERK_CCACHE)
+  set(HAUBERK_PRECOMPILE_DEFAULT OFF)
+else()
+  set(HAUBERK_PRECOMPILE_DEFAULT ON)
+endif()
+option(HAUBERK_PRECOMPILE "Precompile the headers of libraries (never our own)" ${HAUBERK_PRECOMPILE_DEFAULT})
+
+set(HAUBERK_PRECOMPILED
+    <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers> <optional> <span>
+    <sstream> <string> <string_view> <utility> <vector> <fmt/format.h> <Eigen/Dense>)
+
+# hauberk_precompile(<target> [HIDDEN] [JSON] [TEST])
+#
+# What is precompiled depends on the options of the compiler, so there is one set for each combination: HIDDEN for
+# targets that hide their symbols, JSON for those that link Boost.JSON, TEST for programs with GoogleTest. All must link
+# fmt and Eigen. A set is compiled for a target of its own, which has no definitions but those of libraries.
+function(hauberk_precompile target)
+  if(NOT HAUBERK_PRECOMPILE)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "HIDDEN;JSON;TEST" "" "")
+  string(JOIN _ set precompiled ${ARGN})
+  string(TOLOWER "${set}" set)
+  if(NOT TARGET ${set})
+    set(empty "${PROJECT_BINARY_DIR}/precompiled/${set}.cpp")
+    file(CONFIGURE OUTPUT "${empty}" CONTENT "int main() { return 0; }\n")
+    if(arg_TEST)
+      add_executable(${set} EXCLUDE_FROM_ALL "${empty}")
+      target_compile_options(${set} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)  # as HauberkAddTest does
+    else()
+      add_library(${set} STATIC EXCLUDE_FROM_ALL "${empty}")
+    endif()
+    target_link_libraries(${set} PRIVATE Eigen3::Eigen fmt::fmt hauberk_warnings $<$<BOOL:${arg_JSON}>:Boost::json>
+                                         $<$<BOOL:${arg_TEST}>:GTest::gtest>)
+    target_precompile_headers(${set} PRIVATE ${HAUBERK_PRECOMPILED} $<$<BOOL:${arg_JSON}>:<boost/json.hpp$<ANGLE-R>>
+                                             $<$<BOOL:${arg_TEST}>:<gtest/gtest.h$<ANGLE-R>>)
+    if(arg_HIDDEN)
+      set_target_properties(${set} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${set})
+  # g++ 12 forgets which of them are headers of the system, and reports copies inside std::string that cannot happen.
+  # Builds without precompiled headers keep these warnings.
+  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+endfunction()

@@ -223,7 +223,14 @@ Check of_trial(std::string name, std::optional<PluginKind> kind, const char* abo
   return {std::move(name), kind, about,
           [function = std::move(function)](const PluginTable& table, const Setup& setup, std::uint64_t seed) {
             Trial trial(table, setup, seed);
-            function(trial);
+            try {
+              function(trial);
+            } catch (const Skip&) {
+              throw;
+            } catch (const std::exception& error) {
+              const std::string where = trial.drawn.empty() ? "" : " (parameters: " + trial.drawn + ")";
+              return Outcome{Outcome::Status::failed, error.what() + where};
+            }
             return Outcome{};
           }};
 }

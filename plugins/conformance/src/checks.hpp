@@ -16,8 +16,12 @@ Check of_trial(std::string name, std::optional<PluginKind> kind, const char* abo
 
 void add_checks_of_every_kind(std::vector<Check>& out);
 void add_shape_checks(std::vector<Check>& out);
-/// One of them: parameters that are said to be smooth are.
+/// Of them: parameters that are said to be smooth are.
 void check_smoothness(Trial& trial);
+/// Primitives are closed surfaces that do not meet themselves, within the spheres of the kernel.
+void check_surfaces(Trial& trial);
+/// Gaps between primitives as the kernel finds them, against samples of their surfaces.
+void check_distances(Trial& trial);
 /// How load cases move things; the load and what is allowed.
 void add_load_case_motion_checks(std::vector<Check>& out);
 void add_load_case_load_checks(std::vector<Check>& out);

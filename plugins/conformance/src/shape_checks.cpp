@@ -221,6 +221,11 @@ void add_shape_checks(std::vector<Check>& out)
   add("shape.jacobians", "Jacobians are the derivatives: differences approach them with slope 2", jacobians);
   add("shape.rotations", "rotations of primitives do not depend on parameters", rotations);
   add("shape.scaling", "all lengths times c gives positions and sizes times c", scaling);
+  add("shape.surface",
+      "surfaces of primitives are closed, do not meet themselves, and are within their spheres",
+      check_surfaces);
+  add("shape.distances", "gaps by the kinds of the primitives are those of samples of their surfaces",
+      check_distances);
   add("shape.smooth", "primitives depend on smooth parameters without jumps or kinks", check_smoothness);
 }
 

@@ -151,7 +151,11 @@ Point draw_point(const Shape& shape, Trial& trial)
       point.margin.push_back(wide ? margin_part * value : inside);
     }
     last = refused_around(shape, point);
-    if (!last) return point;
+    if (last) continue;
+    trial.drawn.clear();
+    for (std::size_t k = 0; k < point.p.size(); ++k)
+      trial.drawn += fmt::format("{}{} = {:.9g}", k == 0 ? "" : ", ", shape.parameters()[k].name, point.p[k]);
+    return point;
   }
   fail(
       "no parameters found that the shape accepts, the last refusal: {}; give defaults to its parameters, or "

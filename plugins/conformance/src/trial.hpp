@@ -31,6 +31,7 @@ class Trial {
   const PluginTable& table;
   Section section;
   Random random;
+  std::string drawn;  ///< the parameters drawn last, for messages: "R = 1.2, r = 0.25"; empty: none yet
 
   /// The object of a section; its members are null, and `problems` says why, where the plugin refuses it.
   Object make(const Node& values, Problems& problems, double length = 1.0) const;

@@ -54,6 +54,10 @@ class Mutant final : public Shape {
     if (is("turns")) right.rotation = rotation_exp(Vec3(0.0, 0.0, p[waist] - 1.5));
     if (is("kink")) right.position.y() += 0.1 * p[R] * std::abs(p[waist] - 1.5);
     if (is("jump") && p[waist] > 1.5) right.position.y() += 1e-3 * p[R];
+    if (is("meets_itself")) {  // a figure of eight whose loops cross in the middle
+      right.kind = PrimitiveKind::curve_tube;
+      right.curve = {{Vec3(p[R], 0.0, 0.0), Vec3::Zero()}, {Vec3::Zero(), Vec3(0.0, 0.35 * p[R], 0.0)}};
+    }
     if (is("shared_state")) right.position.y() += shared_size * p[R];
     if (is("counts_calls")) right.position.y() += 1e-12 * p[R] * ++shared_calls;
     if (is("not_thread_safe")) {

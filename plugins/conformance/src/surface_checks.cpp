@@ -1,0 +1,249 @@
+/// What the kernel makes of a shape's primitives, against surfaces that are put together here from their
+/// equations: only positions and sizes are taken from the plugin, so a surface that meets itself, or a kind
+/// that does not fit, shows here.
+
+#include "checks.hpp"
+
+#include <hauberk/geometry/body.hpp>
+#include <hauberk/geometry/separation.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hauberk::conformance {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double rounding = 1e-12;  ///< of equal lengths from different arithmetic, relative to the surface
+
+/// Core of a tube and the plane across it: a point and two orthonormal vectors.
+struct Station {
+  Vec3 x, first, second;
+};
+
+/// x(u) of the core and x'(u), in the primitive's frame. Of rings a circle about z.
+struct CorePoint {
+  Vec3 x, tangent;
+};
+
+CorePoint core_at(const Primitive& primitive, double u)
+{
+  if (primitive.curve.empty())
+    return {primitive.R() * Vec3(std::cos(u), std::sin(u), 0.0), Vec3(-std::sin(u), std::cos(u), 0.0)};
+  CorePoint out{Vec3::Zero(), Vec3::Zero()};
+  double k = 0.0;
+  for (const Harmonic& h : primitive.curve) {
+    k += 1.0;
+    out.x += std::cos(k * u) * h.c + std::sin(k * u) * h.s;
+    out.tangent += k * (std::cos(k * u) * h.s - std::sin(k * u) * h.c);
+  }
+  out.tangent.normalize();
+  return out;
+}
+
+/// `count` stations around the core. Rings have the radial direction and z, as paper eq. (1); along curves
+/// the plane is carried by the rotation that takes each tangent to the next, and what it lacks of closing
+/// after one turn is spread evenly.
+std::vector<Station> stations(const Primitive& primitive, int count)
+{
+  std::vector<Station> out;
+  out.reserve(static_cast<std::size_t>(count));
+  const CorePoint start = core_at(primitive, 0.0);
+  const bool ring = primitive.curve.empty();
+  const Vec3 first = ring ? Vec3(start.x.normalized()) : Vec3(start.tangent.unitOrthogonal());
+  CorePoint before = start;
+  Vec3 carried = first;
+  for (int i = 0; i < count; ++i) {
+    const CorePoint here = core_at(primitive, 2.0 * pi * i / count);
+    carried = ring ? Vec3(here.x.normalized())
+                   : Vec3(Eigen::Quaterniond::FromTwoVectors(before.tangent, here.tangent) * carried);
+    out.push_back({here.x, carried, carried.cross(here.tangent)});
+    before = here;
+  }
+  if (ring) {
+    for (Station& s : out) s.second = Vec3::UnitZ();
+    return out;
+  }
+  carried = Eigen::Quaterniond::FromTwoVectors(before.tangent, start.tangent) * carried;
+  const double lacking = std::atan2(-carried.dot(first.cross(start.tangent)), carried.dot(first));
+  for (int i = 0; i < count; ++i) {
+    Station& s = out[static_cast<std::size_t>(i)];
+    const double turn = lacking * i / count;
+    const Vec3 a = std::cos(turn) * s.first + std::sin(turn) * s.second;
+    s.second = std::cos(turn) * s.second - std::sin(turn) * s.first;
+    s.first = a;
+  }
+  return out;
+}
+
+/// Points of the surface in the primitive's frame, n stations of n points.
+std::vector<Vec3> surface_points(const Primitive& primitive, int n)
+{
+  std::vector<Vec3> out;
+  out.reserve(static_cast<std::size_t>(n * n));
+  for (const Station& s : stations(primitive, n)) {
+    for (int j = 0; j < n; ++j) {
+      const double v = 2.0 * pi * j / n;
+      out.push_back(s.x + primitive.r0() * std::cos(v) * s.first + primitive.r1() * std::sin(v) * s.second);
+    }
+  }
+  return out;
+}
+
+/// Longest diagonal of the cells of a grid of n x n points: no point of the surface is farther from the
+/// nearest of them than half of it, but for its curvature.
+double longest_diagonal(const std::vector<Vec3>& points, int n)
+{
+  double longest = 0.0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const Vec3& here = points[static_cast<std::size_t>(i * n + j)];
+      for (const int side : {1, n - 1})
+        longest = std::max(
+            longest, (points[static_cast<std::size_t>(((i + 1) % n) * n + (j + side) % n)] - here).norm());
+    }
+  }
+  return longest;
+}
+
+/// Volume within the triangles of a grid of n x n points that closes both ways, by the divergence theorem.
+double volume_within(const std::vector<Vec3>& points, int n)
+{
+  const auto at = [&](int i, int j) -> const Vec3& {
+    return points[static_cast<std::size_t>((i % n) * n + j % n)];
+  };
+  double six = 0.0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const Vec3 &a = at(i, j), &b = at(i + 1, j), &c = at(i + 1, j + 1), &d = at(i, j + 1);
+      six += a.dot(b.cross(c)) + a.dot(c.cross(d));
+    }
+  }
+  return six / 6.0;
+}
+
+/// Pappus: the section's area times the way of its centre, exact as long as the tube does not fold.
+double exact_volume(const Primitive& primitive)
+{
+  const double section = pi * primitive.r0() * primitive.r1();
+  if (primitive.curve.empty()) return section * 2.0 * pi * primitive.R();
+  const int count = 512 * static_cast<int>(primitive.curve.size());
+  double length = 0.0;  // the trapezoidal rule is spectral for periodic functions
+  for (int i = 0; i < count; ++i) {
+    const double u = 2.0 * pi * i / count;
+    double k = 0.0;
+    Vec3 derivative = Vec3::Zero();
+    for (const Harmonic& h : primitive.curve) {
+      k += 1.0;
+      derivative += k * (std::cos(k * u) * h.s - std::sin(k * u) * h.c);
+    }
+    length += derivative.norm() * 2.0 * pi / count;
+  }
+  return section * length;
+}
+
+/// Nearest passes of a core by itself: the smallest distance of two of its points that are farther apart
+/// along it than half the turn of a circle of the tube's radius.
+double nearest_pass(const Primitive& primitive)
+{
+  const int count = 128 * static_cast<int>(std::max<std::size_t>(2, primitive.curve.size()));
+  std::vector<Vec3> x;
+  std::vector<double> way{0.0};
+  for (int i = 0; i < count; ++i) {
+    x.push_back(core_at(primitive, 2.0 * pi * i / count).x);
+    if (i > 0)
+      way.push_back(way.back() +
+                    (x[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i) - 1]).norm());
+  }
+  const double length = way.back() + (x.front() - x.back()).norm();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double along = std::min(way[i] - way[j], length - (way[i] - way[j]));
+      if (along > pi * primitive.r0()) nearest = std::min(nearest, (x[i] - x[j]).norm());
+    }
+  }
+  return nearest;
+}
+
+/// A primitive in its own frame, in the unit of its size.
+Body body_of(Primitive primitive)
+{
+  primitive.position = Vec3::Zero();
+  primitive.rotation = Mat3::Identity();
+  return make_body(primitive, 0, 0, 1.0);
+}
+
+}  // namespace
+
+void check_surfaces(Trial& trial)
+{
+  const Object object = trial.make();
+  for (int draw = 0; draw < 3; ++draw) {
+    for (const Primitive& primitive : object.shape->primitives(draw_point(*object.shape, trial).p)) {
+      const double exact = exact_volume(primitive);
+      const int fine = 64 * static_cast<int>(std::max<std::size_t>(1, primitive.curve.size()));
+      const std::vector<Vec3> points = surface_points(primitive, fine);
+      const double error = std::abs(volume_within(points, fine) / exact - 1.0);
+      const double coarse_error =
+          std::abs(volume_within(surface_points(primitive, fine / 2), fine / 2) / exact - 1.0);
+      const double slope = std::log2(coarse_error / error);
+      require(std::abs(slope - 2.0) < 0.2,
+              "the volume within triangles of '{}' goes to that of the tube with slope {:.2f} (expected 2; "
+              "errors {:.3g}, {:.3g}): its surface is not closed, or folds",
+              primitive.name, slope, coarse_error, error);
+      if (!primitive.curve.empty()) {
+        const double pass = nearest_pass(primitive);
+        require(
+            pass > 2.0 * primitive.r0(),
+            "the tube '{}' of radius {:.6g} meets itself: its core passes itself at a distance of {:.6g}; "
+            "refuse such parameters",
+            primitive.name, primitive.r0(), pass);
+      }
+      const Body body = body_of(primitive);
+      double farthest = 0.0;
+      for (const Vec3& x : points) farthest = std::max(farthest, x.norm());
+      require(farthest <= body.bound * (1.0 + rounding),
+              "'{}' reaches {:.6g} from its centre, its bounding sphere {:.6g}", primitive.name, farthest,
+              body.bound);
+    }
+  }
+}
+
+void check_distances(Trial& trial)
+{
+  constexpr int n = 48;
+  const Object object = trial.make();
+  for (int draw = 0; draw < 2; ++draw) {
+    const std::vector<Primitive> primitives = object.shape->primitives(draw_point(*object.shape, trial).p);
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const Primitive &p = primitives[i], &f = primitives[(i + 1) % primitives.size()];
+      const Body a = body_of(p), b = body_of(f);
+      // Beside each other, turned at random, at half the least distance that is certainly free.
+      Pose pose;
+      pose.rotation = rotation_exp(trial.random.vector(2.0));
+      pose.position =
+          (a.bound + b.bound) * trial.random.between(0.9, 1.2) * trial.random.vector(1.0).normalized();
+      const std::vector<Vec3> of_p = surface_points(p, n), of_f = surface_points(f, n);
+      double sampled = std::numeric_limits<double>::infinity();
+      for (const Vec3& x : of_p) {
+        for (const Vec3& y : of_f)
+          sampled = std::min(sampled, (x - pose.position - pose.rotation * y).norm());
+      }
+      const double known_to = longest_diagonal(of_p, n) + longest_diagonal(of_f, n);
+      const Separation found = separation(a, {}, b, pose, 0.0, std::numeric_limits<double>::infinity(), 0.99);
+      const double size = a.bound + b.bound;
+      if (found.upper <= 0.0) continue;  // they meet
+      require(found.lower <= sampled + rounding * size && sampled <= found.upper + known_to,
+              "the gap of '{}' and '{}' is between {:.6g} and {:.6g}, says the kernel; samples of the "
+              "surfaces are "
+              "{:.6g} apart, known to {:.2g}",
+              p.name, f.name, found.lower, found.upper, sampled, known_to);
+    }
+  }
+}
+
+}  // namespace hauberk::conformance

@@ -76,6 +76,48 @@ TEST_F(Verify, CatchesALostLink)
   expect_caught([](json::value& r) { scale(r, "/limits/0/poses/1/position/2", 1.0, 30.0); });
 }
 
+/// Cells of three vectors: every number that only they have is looked at.
+TEST_F(Verify, Solids)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"run", HAUBERK_SOURCE_DIR "/loadcases/volumetric_periodic/example.json", "-o",
+                         folder / "out"})
+                .code,
+            0);
+  const json::value results = read_results(folder / "out");
+  const auto verified = [&](const std::function<void(json::value&)>& tamper) {
+    json::value changed = results;
+    tamper(changed);
+    return run_program({"verify", folder.write("results.json", write_json(changed))});
+  };
+  const Outcome whole = verified([](json::value&) {});
+  EXPECT_EQ(whole.code, 0) << whole.out;
+  EXPECT_EQ(whole.out.find("FAIL"), std::string::npos) << whole.out;
+  EXPECT_NE(whole.out.find("PASS /limits/3 ((1, 1, 1, 0, 0, 0), along)"), std::string::npos) << whole.out;
+
+  const std::size_t contacts = results.at_pointer("/limits/0/contacts").as_array().size();
+  std::size_t across = contacts;  // a contact with the next cell along z
+  for (std::size_t k = 0; k < contacts; ++k) {
+    const std::string pointer = "/limits/0/contacts/" + std::to_string(k) + "/image";
+    if (results.at_pointer(pointer).as_array().size() == 3) across = k;
+  }
+  ASSERT_LT(across, contacts);
+  const std::string image = "/limits/0/contacts/" + std::to_string(across) + "/image/2";
+  const std::vector<std::function<void(json::value&)>> tampered{
+      [](json::value& r) { scale(r, "/limits/0/macro/ezz", 1.0, 1e-4); },
+      [](json::value& r) { scale(r, "/limits/0/macro/eyz", 1.0, 1e-4); },
+      [](json::value& r) { scale(r, "/limits/0/macro/exz", 1.0, 1e-4); },
+      [](json::value& r) { scale(r, "/limits/0/poses/3/position/2", 1.0, 1e-3); },
+      [](json::value& r) { scale(r, "/limits/0/value", 1.0 + 1e-9); },
+      [&](json::value& r) { r.at_pointer(image) = -r.at_pointer(image).to_number<std::int64_t>(); },
+      [](json::value& r) { scale(r, "/limits/0/contacts/0/force", 1.01); }};
+  for (std::size_t k = 0; k < tampered.size(); ++k) {
+    const Outcome o = verified(tampered[k]);
+    EXPECT_EQ(o.code, 1) << k << ": " << o.out;
+    EXPECT_NE(o.out.find("FAIL /limits/0"), std::string::npos) << k << ": " << o.out;
+  }
+}
+
 TEST_F(Verify, FilesThatAreNoResults)
 {
   const TemporaryFolder folder;

@@ -22,9 +22,9 @@ Vec3 products(double direction_deg)
 void add_wall(Vector& residual, const Scene& scene, const Contact& contact)
 {
   const double f = contact.force * contact.normal.z() * scene.length;
-  residual[first_of(contact.elements[0]) + 2] -= f;
+  residual[first_of(scene, contact.elements[0]) + 2] -= f;
   for (std::size_t k = 0; k < scene.elements.size(); ++k)
-    residual[first_of(static_cast<int>(k)) + 2] += f / static_cast<double>(scene.elements.size());
+    residual[first_of(scene, static_cast<int>(k)) + 2] += f / static_cast<double>(scene.elements.size());
 }
 
 void add_contact(Vector& residual, const Scene& scene, const Setting& setting, const MovedState& state,
@@ -32,34 +32,43 @@ void add_contact(Vector& residual, const Scene& scene, const Setting& setting, c
 {
   for (std::size_t side = 0; side < 2; ++side) {
     const int k = contact.elements[side];
-    const std::array<int, 2> image = side == 0 ? std::array<int, 2>{0, 0} : contact.image;
+    const Image image = side == 0 ? Image{} : contact.image;
     const Vec3 force = (side == 0 ? -1.0 : 1.0) * contact.force * contact.normal;
     const PositionDerivatives d = derivatives(scene, setting, state, k, image);
     const Vec3 origin = state.places[static_cast<std::size_t>(k)].position +
                         translation(scene, state.macro.deformation(), image);
-    residual.head<3>() += scene.length * d.macro.transpose() * force;
-    residual.segment<3>(first_of(k)) += scene.length * d.own.transpose() * force;
-    residual.segment<3>(first_of(k) + 3) += (contact.points[side] - origin).cross(force);
+    residual.head(macros(scene)) += scene.length * d.macro.transpose() * force;
+    residual.segment<3>(first_of(scene, k)) += scene.length * d.own.transpose() * force;
+    residual.segment<3>(first_of(scene, k) + 3) += (contact.points[side] - origin).cross(force);
   }
+}
+
+/// Weights of the components in the Frobenius norm: off-diagonal ones of strain stand twice in the matrix, C
+/// of A x^2 + B y^2 + C x y is twice the off-diagonal one.
+Macros weights(Load load)
+{
+  if (load == Load::solid) return (Macros(6) << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0).finished();
+  return Vec3(1.0, 1.0, load == Load::strain ? 2.0 : 0.5);
 }
 
 }  // namespace
 
-Vec3 load(const Limit& limit)
+Macros load(const Limit& limit)
 {
   const std::string& measure = limit.measure;
   if (limit.direction) {
     if (measure != "metric") throw Malformed("the measure \"" + measure + "\" is not one of a direction");
-    const Vec3 m(1.0, 1.0, limit.load == Load::strain ? 2.0 : 0.5);
-    const Vec3 d =
+    const Macros d =
         *limit.direction / limit.direction->cwiseAbs().maxCoeff();  // squares neither vanish nor overflow
-    const Vec3 dual = m.cwiseProduct(d);
+    const Macros dual = weights(limit.load).cwiseProduct(d);
     return dual / std::sqrt(dual.dot(d));
   }
   const Vec3 d = products(limit.direction_deg);
-  if (measure == "tensor") return {d.x(), d.y(), 2.0 * d.z()};
-  if (measure == "paper") return d / d.squaredNorm();
-  if (measure == "normal_curvature") return 2.0 * d;
+  if (limit.load == Load::solid && measure == "tensor")
+    return (Macros(6) << d.x(), d.y(), 0.0, 0.0, 0.0, 2.0 * d.z()).finished();
+  if (limit.load == Load::strain && measure == "tensor") return Vec3(d.x(), d.y(), 2.0 * d.z());
+  if (limit.load == Load::strain && measure == "paper") return Vec3(d / d.squaredNorm());
+  if (limit.load == Load::paraboloid && measure == "normal_curvature") return Vec3(2.0 * d);
   throw Malformed("the measure \"" + measure + "\" is not known to this check");
 }
 
@@ -76,10 +85,10 @@ bool is_positive(const Limit& limit)
   return limit.sense == "stretch" || limit.sense == "up" || limit.sense == "along";
 }
 
-Vec3 driving_load(const Limit& limit, double length)
+Macros driving_load(const Limit& limit, double length)
 {
-  const Vec3 t = load(limit);
-  Vec3 out = is_positive(limit) ? t : Vec3(-t);
+  const Macros t = load(limit);
+  Macros out = is_positive(limit) ? t : Macros(-t);
   if (limit.finite_target) out -= scaled(*limit.macro, length) / *limit.finite_target;
   return out;
 }
@@ -88,7 +97,7 @@ double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
 {
   const MovedState state{*limit.macro, limit.poses};
   Vector residual = Vector::Zero(unknowns(scene));
-  residual.head<3>() = driving_load(limit, scene.length);
+  residual.head(macros(scene)) = driving_load(limit, scene.length);
   for (const Contact& contact : limit.contacts) {
     if (contact.wall.empty())
       add_contact(residual, scene, setting, state, contact);

@@ -5,8 +5,9 @@ namespace hauberk::verification {
 
 /// Load t = d value / d macroscopic unknowns of a limit's measure and direction; throws Malformed when the
 /// measure is not known. Along components d it is m d / |d| (component by component), |d|^2 = sum m_k d_k^2,
-/// with m = (1, 1, 2) for strains, (1, 1, 1/2) for curvatures: those of the Frobenius norm.
-Vec3 load(const Limit& limit);
+/// with m = (1, 1, 2) or (1, 1, 1, 2, 2, 2) for strains,
+/// (1, 1, 1/2) for curvatures: those of the Frobenius norm.
+Macros load(const Limit& limit);
 /// Value of a limit's measure at any state.
 double value(const Limit& limit, const Macro& macro);
 /// |F n| - 1.
@@ -17,7 +18,7 @@ bool is_positive(const Limit& limit);
 
 /// What drives the macroscopic unknowns in a limit's state: s t, less macro/T where there is a finite target
 /// T.
-Vec3 driving_load(const Limit& limit, double length);
+Macros driving_load(const Limit& limit, double length);
 
 /// Largest component of the imbalance driving_load + sum_k f_k dg_k/dy over the norm of t, without the part
 /// that what the load case holds takes.

@@ -35,7 +35,7 @@ bool indices_exist(const Scene& scene, const Contact& contact)
     if (k < 0 || k >= static_cast<int>(scene.elements.size())) return false;
     if (p < 0 || p >= static_cast<int>(scene.elements[static_cast<std::size_t>(k)].tori.size())) return false;
   }
-  return contact.elements[0] != contact.elements[1] || contact.image != std::array<int, 2>{0, 0};
+  return contact.elements[0] != contact.elements[1] || contact.image != Image{};
 }
 
 void check_surfaces(const Scene& scene, const Limit& limit, const Contact& contact, const Slack& slack,

@@ -34,10 +34,9 @@ std::string check_gap(const Scene& scene, const Setting& setting, const Limit& l
   const double margin = search_margin * scene.length, tolerance = tolerances.gap * scene.length;
   const auto closest = closest_pair(scene, limit.poses, limit.macro->deformation(), margin);
   const double gap = (closest ? closest->distance : margin) - setting.clearance;
-  const std::string whose =
-      closest ? fmt::format("elements {} and {}, image ({}, {})", closest->pair.first, closest->pair.second,
-                            closest->pair.image[0], closest->pair.image[1])
-              : "no near pair";
+  const std::string whose = closest ? fmt::format("elements {} and {}, image {}", closest->pair.first,
+                                                  closest->pair.second, shown(closest->pair.image))
+                                    : "no near pair";
   if (gap < -tolerance)
     problems.push_back(fmt::format("surfaces are {:.3g} closer than the clearance ({})", -gap, whose));
   if (!limit.min_gap)

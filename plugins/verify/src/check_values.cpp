@@ -48,7 +48,7 @@ void check_values(const Scene& scene, const Setting& setting, const Limit& limit
   const double expected = value(limit, macro);
   if (!equal(limit.value, expected, tolerances.value))
     problems.push_back(fmt::format("value {} reported, {:.10g} from macro", show(limit.value), expected));
-  const bool strain = macro.load == Load::strain;
+  const bool strain = macro.load != Load::paraboloid;
   const double stretched = limit.direction ? 0.0 : line_stretch(limit.direction_deg, macro);
   if (strain && !limit.direction && !equal(limit.line_stretch, stretched, tolerances.value))
     problems.push_back(
@@ -63,8 +63,9 @@ void check_values(const Scene& scene, const Setting& setting, const Limit& limit
   if ((is_positive(limit) ? expected : -expected) < -tolerances.wrong_side * unit)
     problems.push_back(
         fmt::format("value {:.6g} is on the wrong side of zero for {}", expected, limit.sense));
-  const Eigen::Matrix2d F = macro.deformation().topLeftCorner<2, 2>();
-  if (!(F.trace() > 0.0 && F.determinant() > 0.0)) problems.push_back("F is not positive definite");
+  const Mat3 F = macro.deformation();  // Sylvester's criterion
+  if (!(F(0, 0) > 0.0 && F.topLeftCorner<2, 2>().determinant() > 0.0 && F.determinant() > 0.0))
+    problems.push_back("F is not positive definite");
   const Sentences places = misplaced(scene, {macro, limit.poses}, tolerances.translation);
   problems.insert(problems.end(), places.begin(), places.end());
   check_heights(scene, setting, limit, tolerances, problems);

@@ -23,28 +23,34 @@ const Place& rest_of(const Scene& scene, std::size_t k) { return scene.elements[
 
 Eigen::Index unknowns(const Scene& scene)
 {
-  return macros + per_element * static_cast<Eigen::Index>(scene.elements.size());
+  return macros(scene) + per_element * static_cast<Eigen::Index>(scene.elements.size());
 }
 
-Vec3 scaled(const Macro& macro, double length)
+Macros scaled(const Macro& macro, double length)
 {
-  return macro.load == Load::strain ? macro.values : Vec3(macro.values * length);
+  return macro.load == Load::paraboloid ? Macros(macro.values * length) : macro.values;
 }
 
 PositionDerivatives derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
-                                int element, const std::array<int, 2>& image)
+                                int element, const Image& image)
 {
   const auto k = static_cast<std::size_t>(element);
-  PositionDerivatives out{Mat3::Zero(), Mat3::Identity()};
+  PositionDerivatives out{Eigen::MatrixXd::Zero(3, macros(scene)), Mat3::Identity()};
+  const Vec3 X = (rest_of(scene, k).position + translation(scene, Mat3::Identity(), image)) / scene.length;
+  if (setting.load == Load::solid) {
+    out.macro << X.x(), 0.0, 0.0, 0.0, X.z(), X.y(),  //
+        0.0, X.y(), 0.0, X.z(), 0.0, X.x(),           //
+        0.0, 0.0, X.z(), X.y(), X.x(), 0.0;
+    return out;
+  }
   if (setting.load == Load::strain) {
-    const Vec3 X = (rest_of(scene, k).position + translation(scene, Mat3::Identity(), image)) / scene.length;
     out.macro << X.x(), 0.0, X.y(),  //
         0.0, X.y(), X.x(),           //
         0.0, 0.0, 0.0;
     if (setting.half_height == 0.0) out.own(2, 2) = 0.0;
     return out;
   }
-  const Vec3 c = scaled(state.macro, scene.length);
+  const Macros c = scaled(state.macro, scene.length);
   const double x = state.places[k].position.x() / scene.length;
   const double y = state.places[k].position.y() / scene.length;
   out.macro.row(2) << x * x, y * y, x * y;
@@ -56,12 +62,12 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
 {
   MovedState out = state;
   const double L = scene.length;
-  out.macro.values += setting.load == Load::strain ? Vec3(y.head<3>()) : Vec3(y.head<3>() / L);
+  out.macro.values += y.head(macros(scene)) / (setting.load == Load::paraboloid ? L : 1.0);
   const Mat3 change = out.macro.deformation() - state.macro.deformation();
   for (std::size_t k = 0; k < out.places.size(); ++k) {
-    const Vec3 u = L * y.segment<3>(first_of(static_cast<int>(k)));
+    const Vec3 u = L * y.segment<3>(first_of(scene, static_cast<int>(k)));
     Vec3& x = out.places[k].position;
-    if (setting.load == Load::strain) {
+    if (setting.load != Load::paraboloid) {
       x += change * rest_of(scene, k).position + Vec3(u.x(), u.y(), setting.half_height == 0.0 ? 0.0 : u.z());
     } else {
       // What lies off the paraboloid stays off it by as much.
@@ -70,7 +76,7 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
       x.y() += u.y();
       x.z() = off + height_on(out.macro, x.x(), x.y());
     }
-    const Vec3 w = y.segment<3>(first_of(static_cast<int>(k)) + 3);
+    const Vec3 w = y.segment<3>(first_of(scene, static_cast<int>(k)) + 3);
     if (w.norm() > 0.0)
       out.places[k].rotation = Eigen::AngleAxisd(w.norm(), w.normalized()) * out.places[k].rotation;
   }
@@ -80,11 +86,11 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
 Matrix held(const Scene& scene, const Setting& setting)
 {
   Matrix rows = Matrix::Zero(unknowns(scene), 0);
-  if (setting.load == Load::strain) return rows;
+  if (setting.load != Load::paraboloid) return rows;
   rows = Matrix::Zero(unknowns(scene), 3);
   for (std::size_t k = 0; k < scene.elements.size(); ++k) {
     const Vec3 X = rest_of(scene, k).position / scene.length;
-    const Eigen::Index o = first_of(static_cast<int>(k));
+    const Eigen::Index o = first_of(scene, static_cast<int>(k));
     rows(o, 0) = rows(o + 1, 1) = 1.0;
     rows(o, 2) = -X.y();
     rows(o + 1, 2) = X.x();
@@ -108,11 +114,12 @@ std::vector<std::string> misplaced(const Scene& scene, const MovedState& state, 
     const Vec3 X = rest_of(scene, k).position, x = state.places[k].position;
     moved += (x - X) / n;
     fluctuation += (x - state.macro.deformation() * X) / n;
-    off = std::max(off, std::abs(x.z() - X.z() - height_on(state.macro, x.x(), x.y())));
+    if (state.macro.load == Load::paraboloid)
+      off = std::max(off, std::abs(x.z() - X.z() - height_on(state.macro, x.x(), x.y())));
     turn += X.cross(x - X).z() / (n * scene.length);
   }
   const double allowed = tolerance * scene.length;
-  if (state.macro.load == Load::strain) {
+  if (state.macro.load != Load::paraboloid) {
     // Either the mean position or the mean of u = x - F X may be the one that is held.
     const double mean = std::min(moved.norm(), fluctuation.norm());
     if (!(mean <= allowed)) out.push_back(fmt::format("the mean translation moved by {:.3g}", mean));

@@ -1,9 +1,10 @@
 #pragma once
-/// How elements move with the unknowns of the two load cases. Unknowns, without unit: the macroscopic ones
+/// How elements move with the unknowns of the load cases. Unknowns, without unit: the macroscopic ones
 /// (strains, or curvatures times L), then for each element a displacement u over L and a turn exp(w) about
 /// its origin.
 ///
 /// strain:     x = F (X + T) + u, u.z = 0 where z is fixed
+/// solid:      x = F (X + T) + u
 /// paraboloid: x = (X + u_x, Y + u_y, Z + A x^2 + B y^2 + C x y); the mean of u and sum of X x u are zero
 #include "model.hpp"
 
@@ -15,9 +16,14 @@ namespace hauberk::verification {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-constexpr Eigen::Index macros = 3, per_element = 6;
+constexpr Eigen::Index per_element = 6;
 
-inline Eigen::Index first_of(int element) { return macros + per_element * element; }
+inline Eigen::Index macros(const Scene& scene) { return scene.cell.size() == 3 ? 6 : 3; }
+/// Where the unknowns of an element begin.
+inline Eigen::Index first_of(const Scene& scene, int element)
+{
+  return macros(scene) + per_element * element;
+}
 Eigen::Index unknowns(const Scene& scene);
 
 /// A state of all elements.
@@ -27,14 +33,15 @@ struct MovedState {
 };
 
 /// Macroscopic unknowns without unit.
-Vec3 scaled(const Macro& macro, double length);
+Macros scaled(const Macro& macro, double length);
 
 /// Derivatives of an element's position (over L) by the macroscopic unknowns and by its own displacement.
 struct PositionDerivatives {
-  Mat3 macro, own;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 6> macro;
+  Mat3 own;
 };
 PositionDerivatives derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
-                                int element, const std::array<int, 2>& image);
+                                int element, const Image& image);
 
 /// The state moved by the unknowns y.
 MovedState moved(const Scene& scene, const Setting& setting, const MovedState& state, const Vector& y);

@@ -16,10 +16,10 @@ namespace {
 std::string describe(const Link& link, int rest, int limit)
 {
   return fmt::format(
-      "linking number of elements {} and {}, primitives {} and {}, image ({}, {}) is {} at rest and {} "
-      "at the limit",
-      link.elements[0], link.elements[1], link.primitives[0], link.primitives[1], link.image[0],
-      link.image[1], rest, limit);
+      "linking number of elements {} and {}, primitives {} and {}, image {} is {} at rest and {} at the "
+      "limit",
+      link.elements[0], link.elements[1], link.primitives[0], link.primitives[1], shown(link.image), rest,
+      limit);
 }
 
 /// The same two circles, whatever their number.

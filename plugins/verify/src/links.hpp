@@ -11,7 +11,8 @@ int linking_number(const Torus& a, const Torus& b);
 
 /// A pair of core circles that are linked.
 struct Link {
-  std::array<int, 2> elements{}, primitives{}, image{};
+  std::array<int, 2> elements{}, primitives{};
+  Image image{};
   int number = 0;
   bool operator==(const Link&) const = default;
 };

@@ -15,6 +15,10 @@ namespace hauberk::verification {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+/// A number for each macroscopic unknown: three, of solids six.
+using Macros = Eigen::VectorXd;
+/// Which copy of the cell: multiples of its vectors; the third is 0 for sheets.
+using Image = std::array<int, 3>;
 
 /// The file lacks something or holds something of the wrong kind; the message names the place.
 class Malformed : public std::runtime_error {
@@ -46,12 +50,13 @@ struct Element {
 
 struct Scene {
   std::vector<Element> elements;
-  std::vector<Vec3> cell;  ///< two vectors, or none for a patch
+  std::vector<Vec3> cell;  ///< two vectors of a sheet, three of a solid, none of a patch
   double length = 0.0;     ///< L
 };
 
 struct Contact {
-  std::array<int, 2> elements{}, primitives{}, image{};
+  std::array<int, 2> elements{}, primitives{};
+  Image image{};
   std::array<Vec3, 2> points;
   Vec3 normal = Vec3::Zero();
   double gap = 0.0, force = 0.0;
@@ -60,23 +65,35 @@ struct Contact {
 
 /// What moves elements together.
 enum class Load {
-  strain,     ///< in_plane_periodic: exx, eyy, exy
-  paraboloid  ///< paraboloid_bending: A, B, C
+  strain,      ///< in_plane_periodic: exx, eyy, exy
+  paraboloid,  ///< paraboloid_bending: A, B, C
+  solid        ///< volumetric_periodic: exx, eyy, ezz, eyz, exz, exy
 };
+
+/// Vectors that a scene's cell has under a load.
+inline std::size_t cell_dimension(Load load)
+{
+  return load == Load::strain ? 2 : load == Load::solid ? 3 : 0;
+}
 
 /// The macroscopic unknowns, in file units.
 struct Macro {
-  Vec3 values = Vec3::Zero();
+  Macros values = Macros::Zero(3);
   Load load = Load::strain;
 
-  /// F = I + [[exx, exy], [exy, eyy]] in the plane, which moves images; a patch has none.
+  /// F = I + [[exx, exy], [exy, eyy]] in the plane, or I + the symmetric matrix of all six in space, which
+  /// moves images; a patch has none.
   Mat3 deformation() const
   {
     Mat3 f = Mat3::Identity();
     if (load == Load::paraboloid) return f;
     f(0, 0) += values[0];
     f(1, 1) += values[1];
-    f(0, 1) = f(1, 0) = values[2];
+    f(0, 1) = f(1, 0) = values[values.size() - 1];
+    if (load == Load::strain) return f;
+    f(2, 2) += values[2];
+    f(1, 2) = f(2, 1) = values[3];
+    f(0, 2) = f(2, 0) = values[4];
     return f;
   }
 };
@@ -89,7 +106,7 @@ struct Start {
 struct Limit {
   std::string label;           ///< "limits/3 (30 deg, stretch)"
   double direction_deg = 0.0;  ///< not a number when the direction is one of components
-  std::optional<Vec3> direction;
+  std::optional<Macros> direction;
   Load load = Load::strain;
   std::string sense, measure, status, contact;
   std::optional<double> value, line_stretch, min_gap, force_balance;

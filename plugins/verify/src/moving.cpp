@@ -18,7 +18,7 @@ struct PlacedPair {
 };
 
 PlacedPair placed_pair(const Scene& scene, const MovedState& state, int k, int l, int p, int q,
-                       const std::array<int, 2>& image)
+                       const Image& image)
 {
   Place at = state.places[static_cast<std::size_t>(l)];
   at.position += translation(scene, state.macro.deformation(), image);
@@ -28,20 +28,21 @@ PlacedPair placed_pair(const Scene& scene, const MovedState& state, int k, int l
 }
 
 GapRow pair_row(const Scene& scene, const Setting& setting, const MovedState& state, int k, int l,
-                const std::array<int, 2>& image, const Touching& touching)
+                const Image& image, const Touching& touching)
 {
   const double L = scene.length;
   const auto a = static_cast<std::size_t>(k), b = static_cast<std::size_t>(l);
   const Vec3& n = touching.normal;
   const Vec3 FT = translation(scene, state.macro.deformation(), image);
-  const PositionDerivatives da = derivatives(scene, setting, state, k, {0, 0});
+  const PositionDerivatives da = derivatives(scene, setting, state, k, {});
   const PositionDerivatives db = derivatives(scene, setting, state, l, image);
   GapRow row{(touching.distance - setting.clearance) / L, Vector::Zero(unknowns(scene))};
-  row.gradient.head<3>() = (db.macro - da.macro).transpose() * n;
-  row.gradient.segment<3>(first_of(k)) -= da.own.transpose() * n;
-  row.gradient.segment<3>(first_of(l)) += db.own.transpose() * n;
-  row.gradient.segment<3>(first_of(k) + 3) -= (touching.on_a - state.places[a].position).cross(n) / L;
-  row.gradient.segment<3>(first_of(l) + 3) += (touching.on_b - state.places[b].position - FT).cross(n) / L;
+  row.gradient.head(macros(scene)) = (db.macro - da.macro).transpose() * n;
+  row.gradient.segment<3>(first_of(scene, k)) -= da.own.transpose() * n;
+  row.gradient.segment<3>(first_of(scene, l)) += db.own.transpose() * n;
+  row.gradient.segment<3>(first_of(scene, k) + 3) -= (touching.on_a - state.places[a].position).cross(n) / L;
+  row.gradient.segment<3>(first_of(scene, l) + 3) +=
+      (touching.on_b - state.places[b].position - FT).cross(n) / L;
   return row;
 }
 
@@ -58,11 +59,11 @@ GapRow wall_row(const Scene& scene, const Setting& setting, const MovedState& st
   double mean = 0.0;
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     mean += height(scene, state, e) / n;
-    row.gradient[first_of(static_cast<int>(e)) + 2] = side / n;
+    row.gradient[first_of(scene, static_cast<int>(e)) + 2] = side / n;
   }
   row.gap = (setting.half_height - side * (height(scene, state, static_cast<std::size_t>(k)) - mean)) /
             scene.length;
-  row.gradient[first_of(k) + 2] -= side;
+  row.gradient[first_of(scene, k) + 2] -= side;
   return row;
 }
 

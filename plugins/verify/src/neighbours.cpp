@@ -3,6 +3,7 @@
 #include "separation.hpp"
 #include "surface.hpp"
 
+#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -12,32 +13,42 @@ namespace hauberk::verification {
 namespace {
 
 /// Every image of `second` that may be near `first`: with d = x_first - x_second and columns of A the
-/// deformed cell vectors, |A (i, j) - d| <= reach needs (i, j) within |row of A^-1| reach of A^-1 d.
-void add_images(std::vector<Neighbour>& out, const Eigen::Matrix2d& inverse, const Vec3& d, double reach,
-                int first, int second, const Eigen::Matrix2d& A)
+/// deformed cell vectors, |A i - d| <= reach needs i within |row of A^-1| reach of A^-1 d.
+void add_images(std::vector<Neighbour>& out, const Mat3& A, const Vec3& d, double reach, int first,
+                int second, bool solid)
 {
-  const Eigen::Vector2d centre = inverse * d.head<2>();
-  std::array<int, 2> low, high;
-  for (int r = 0; r < 2; ++r) {
+  const Mat3 inverse = A.inverse();
+  const Vec3 centre = inverse * d;
+  Image low{}, high{};
+  for (int r = 0; r < (solid ? 3 : 2); ++r) {
     const double radius = inverse.row(r).norm() * reach;
     low[static_cast<std::size_t>(r)] = static_cast<int>(std::floor(centre[r] - radius));
     high[static_cast<std::size_t>(r)] = static_cast<int>(std::ceil(centre[r] + radius));
   }
   for (int i = low[0]; i <= high[0]; ++i)
-    for (int j = low[1]; j <= high[1]; ++j) {
-      // An element and its own image (i, j) are the same pair as with image (-i, -j).
-      if (first == second && (i < 0 || (i == 0 && j <= 0))) continue;
-      const Eigen::Vector2d in_plane = A * Eigen::Vector2d(i, j) - d.head<2>();
-      if (std::hypot(in_plane.norm(), d.z()) <= reach) out.push_back({first, second, {i, j}});
-    }
+    for (int j = low[1]; j <= high[1]; ++j)
+      for (int k = low[2]; k <= high[2]; ++k) {
+        const Image image{i, j, k};
+        // An element and its own image are the same pair as with the opposite image.
+        if (first == second && image <= Image{}) continue;
+        if ((A * Vec3(i, j, k) - d).norm() <= reach) out.push_back({first, second, image});
+      }
 }
 
 }  // namespace
 
-Vec3 translation(const Scene& scene, const Mat3& F, const std::array<int, 2>& image)
+Vec3 translation(const Scene& scene, const Mat3& F, const Image& image)
 {
   if (scene.cell.empty()) return Vec3::Zero();
-  return F * (image[0] * scene.cell[0] + image[1] * scene.cell[1]);
+  Vec3 T = Vec3::Zero();
+  for (std::size_t k = 0; k < scene.cell.size(); ++k) T += image[k] * scene.cell[k];
+  return F * T;
+}
+
+std::string shown(const Image& image)
+{
+  return image[2] == 0 ? fmt::format("({}, {})", image[0], image[1])
+                       : fmt::format("({}, {}, {})", image[0], image[1], image[2]);
 }
 
 std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
@@ -49,18 +60,17 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
       for (std::size_t l = k + 1; l < places.size(); ++l)
         if ((places[k].position - places[l].position).norm() <=
             scene.elements[k].reach + scene.elements[l].reach + margin)
-          out.push_back({static_cast<int>(k), static_cast<int>(l), {0, 0}});
+          out.push_back({static_cast<int>(k), static_cast<int>(l), {}});
     return out;
   }
-  Eigen::Matrix2d A;
-  A.col(0) = (F * scene.cell[0]).head<2>();
-  A.col(1) = (F * scene.cell[1]).head<2>();
-  const Eigen::Matrix2d inverse = A.inverse();
+  Mat3 A = Mat3::Identity();  // the third image of a sheet is 0
+  for (std::size_t k = 0; k < scene.cell.size(); ++k) A.col(static_cast<Eigen::Index>(k)) = F * scene.cell[k];
+  const bool solid = scene.cell.size() == 3;
   for (std::size_t k = 0; k < places.size(); ++k)
     for (std::size_t l = k; l < places.size(); ++l)
-      add_images(out, inverse, places[k].position - places[l].position,
+      add_images(out, A, places[k].position - places[l].position,
                  scene.elements[k].reach + scene.elements[l].reach + margin, static_cast<int>(k),
-                 static_cast<int>(l), A);
+                 static_cast<int>(l), solid);
   return out;
 }
 

@@ -2,17 +2,21 @@
 #include "model.hpp"
 
 #include <optional>
+#include <string>
 
 namespace hauberk::verification {
 
 /// An element of the cell and an image of an element. Each unordered pair occurs once.
 struct Neighbour {
   int first = 0, second = 0;
-  std::array<int, 2> image{};
+  Image image{};
 };
 
-/// The cell's translation for image (i, j) under the deformation F.
-Vec3 translation(const Scene& scene, const Mat3& F, const std::array<int, 2>& image);
+/// The cell's translation for an image under the deformation F.
+Vec3 translation(const Scene& scene, const Mat3& F, const Image& image);
+
+/// "(0, 1)", of solids "(0, 1, -1)"; the third number is left out where it is 0.
+std::string shown(const Image& image);
 
 /// All pairs whose bounding spheres are no farther apart than `margin`, in a fixed order.
 std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,

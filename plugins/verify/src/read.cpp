@@ -78,15 +78,28 @@ Torus read_torus(const json::value& v, const std::string& where)
   return out;
 }
 
+/// Two numbers for sheets and patches, three for solids.
+Image read_image(const json::value& v, const std::string& where)
+{
+  const json::array& a = array(v, where);
+  const auto whole = [](const json::value& x) { return x.is_int64(); };
+  if ((a.size() != 2 && a.size() != 3) || !std::all_of(a.begin(), a.end(), whole))
+    throw Malformed(where + ": two integers expected, of a solid three");
+  Image out{};
+  for (std::size_t k = 0; k < a.size(); ++k) out[k] = static_cast<int>(a[k].get_int64());
+  return out;
+}
+
 Macro read_macro(const json::value& v, Load load, const std::string& where)
 {
-  constexpr std::array<const char*, 3> strains{"exx", "eyy", "exy"}, curvatures{"A", "B", "C"};
+  std::vector<const char*> names{"exx", "eyy", "exy"};
+  if (load == Load::paraboloid) names = {"A", "B", "C"};
+  if (load == Load::solid) names = {"exx", "eyy", "ezz", "eyz", "exz", "exy"};
   Macro out;
   out.load = load;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const char* name = load == Load::strain ? strains[k] : curvatures[k];
-    out.values[static_cast<int>(k)] = number(member(v, name, where), where + "/" + name);
-  }
+  out.values.resize(static_cast<Eigen::Index>(names.size()));
+  for (std::size_t k = 0; k < names.size(); ++k)
+    out.values[static_cast<Eigen::Index>(k)] = number(member(v, names[k], where), where + "/" + names[k]);
   return out;
 }
 
@@ -95,7 +108,7 @@ Contact read_contact(const json::value& v, const std::string& where)
   Contact out;
   out.elements = read_pair(member(v, "elements", where), where + "/elements");
   out.primitives = read_pair(member(v, "primitives", where), where + "/primitives");
-  out.image = read_pair(member(v, "image", where), where + "/image");
+  out.image = read_image(member(v, "image", where), where + "/image");
   const std::string at = where + "/points";
   const json::array& points = array(member(v, "points", where), at);
   if (points.size() != 2) throw Malformed(at + ": two points expected");
@@ -146,11 +159,20 @@ Scene read_scene(const json::value& scene, const std::string& where)
   Scene out;
   for (const json::value& vector : array(member(scene, "cell_vectors", where), where + "/cell_vectors")) {
     const json::array& a = array(vector, where + "/cell_vectors");
-    if (a.size() < 2) throw Malformed(where + "/cell_vectors: two numbers expected");
-    out.cell.emplace_back(number(a[0], where + "/cell_vectors"), number(a[1], where + "/cell_vectors"), 0.0);
+    if (a.size() != 2 && a.size() != 3)
+      throw Malformed(where + "/cell_vectors: two or three numbers expected");
+    Vec3 out_vector = Vec3::Zero();
+    for (std::size_t k = 0; k < a.size(); ++k)
+      out_vector[static_cast<Eigen::Index>(k)] = number(a[k], where + "/cell_vectors");
+    out.cell.push_back(out_vector);
   }
-  if (!out.cell.empty() && (out.cell.size() != 2 || std::abs(out.cell[0].cross(out.cell[1]).z()) == 0.0))
-    throw Malformed(where + "/cell_vectors: two independent vectors expected, or none for a patch");
+  const bool sheet = out.cell.size() == 2 && std::abs(out.cell[0].cross(out.cell[1]).z()) > 0.0 &&
+                     out.cell[0].z() == 0.0 && out.cell[1].z() == 0.0;
+  const bool solid = out.cell.size() == 3 && std::abs(out.cell[0].cross(out.cell[1]).dot(out.cell[2])) > 0.0;
+  if (!out.cell.empty() && !sheet && !solid)
+    throw Malformed(where +
+                    "/cell_vectors: independent vectors expected, two in the plane or three in space; none "
+                    "for a patch");
   std::size_t k = 0;
   for (const json::value& e : array(member(scene, "elements", where), where + "/elements")) {
     const std::string at = where + "/elements/" + std::to_string(k++);
@@ -174,7 +196,12 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
   out.load = load;
   if (limit.is_object() && limit.get_object().contains("direction")) {
     const std::string at = where + "/direction";
-    out.direction = read_vector(member(limit, "direction", where), at);
+    const json::array& components = array(member(limit, "direction", where), at);
+    if (components.size() != (load == Load::solid ? 6U : 3U))
+      throw Malformed(at + ": three numbers expected, of a solid six");
+    out.direction = Macros(static_cast<Eigen::Index>(components.size()));
+    for (std::size_t k = 0; k < components.size(); ++k)
+      (*out.direction)[static_cast<Eigen::Index>(k)] = number(components[k], at + "/" + std::to_string(k));
     if (!(out.direction->cwiseAbs().maxCoeff() > 0.0)) throw Malformed(at + ": not all zeros expected");
     out.direction_deg = std::numeric_limits<double>::quiet_NaN();
   } else {
@@ -238,6 +265,10 @@ Setting read_setting(const json::value& experiment)
       text(member(load, "plugin", "/experiment/load_case"), "/experiment/load_case/plugin");
   if (plugin == "paraboloid_bending") {
     out.load = Load::paraboloid;
+    return out;
+  }
+  if (plugin == "volumetric_periodic") {
+    out.load = Load::solid;
     return out;
   }
   if (plugin != "in_plane_periodic")

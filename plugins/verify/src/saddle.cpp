@@ -97,16 +97,16 @@ Vector projected(const Vector& wanted, const std::vector<GapRow>& rows, double r
 
 /// What the solver maximises: load . macro, less |macro|^2/(2 T) where there is a finite target.
 struct Objective {
-  Vec3 load;
+  Macros load;
   double length = 1.0;
   double softness = 0.0;  ///< 1/T
 
   double value(const MovedState& state) const
   {
-    const Vec3 macro = scaled(state.macro, length);
+    const Macros macro = scaled(state.macro, length);
     return load.dot(macro) - 0.5 * softness * macro.squaredNorm();
   }
-  Vec3 gradient(const MovedState& state) const { return load - softness * scaled(state.macro, length); }
+  Macros gradient(const MovedState& state) const { return load - softness * scaled(state.macro, length); }
 };
 
 /// From a kicked state to a nearby one with gaps >= 0 that is as far as a few steps go; nothing when it does
@@ -126,7 +126,7 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
     for (GapRow& row : rows) row.gradient = free_part(fixed, row.gradient);
     Vector wanted = Vector::Zero(unknowns(scene));
     // First on along the load, then only what makes room.
-    if (k < steps) wanted.head<3>() = pull * objective.gradient(state) / objective.load.norm();
+    if (k < steps) wanted.head(macros(scene)) = pull * objective.gradient(state) / objective.load.norm();
     const Vector e = projected(wanted, rows, room);
     if (e.cwiseAbs().maxCoeff() > 10.0 * kick) return std::nullopt;
     state = moved(scene, setting, state, e);
@@ -144,8 +144,8 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
 
 std::optional<Further> further_nearby(const Scene& scene, const Setting& setting, const Limit& limit)
 {
-  const Vec3 t = load(limit);
-  const Objective objective{is_positive(limit) ? t : Vec3(-t), scene.length,
+  const Macros t = load(limit);
+  const Objective objective{is_positive(limit) ? t : Macros(-t), scene.length,
                             limit.finite_target ? 1.0 / *limit.finite_target : 0.0};
   const MovedState here{*limit.macro, limit.poses};
   double closing = 0.0;
@@ -156,7 +156,7 @@ std::optional<Further> further_nearby(const Scene& scene, const Setting& setting
   const Matrix z = free_directions(scene, setting, limit, here);
   if (z.cols() == 0) return std::nullopt;
   Matrix w = curvature(scene, setting, limit, here);
-  w.diagonal().head<3>().array() -= objective.softness;
+  w.diagonal().head(macros(scene)).array() -= objective.softness;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(z.transpose() * w * z);
   for (Eigen::Index k = 1; k <= std::min<Eigen::Index>(most_directions, z.cols()); ++k) {
     if (!(eigen.eigenvalues()[z.cols() - k] > noise * t.norm())) break;

@@ -4,6 +4,7 @@
 #include "read.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
@@ -29,8 +30,7 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
     try {
       Limit limit = read_limit(item, setting.load, where);
       const std::string direction = limit.direction
-                                        ? fmt::format("({:.6g}, {:.6g}, {:.6g})", limit.direction->x(),
-                                                      limit.direction->y(), limit.direction->z())
+                                        ? fmt::format("({:.6g})", fmt::join(*limit.direction, ", "))
                                         : fmt::format("{:g} deg", limit.direction_deg);
       limit.label = fmt::format("{} ({}, {})", where, direction, limit.sense);
       lines.push_back(check_limit(scene, setting, limit, tolerances));
@@ -42,6 +42,13 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
   return out;
 }
 
+Malformed wrong_cell(const std::string& prefix)
+{
+  return Malformed(
+      prefix +
+      "/scene/cell_vectors: two for in_plane_periodic, three for volumetric_periodic, none for a patch");
+}
+
 /// One document's limits, and profiles where it has any limit; `prefix` is its place in the file.
 void check_scene_and_limits(const json::value& results, const std::string& prefix,
                             const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
@@ -50,8 +57,7 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
   Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
   for (Element& element : scene.elements)
     for (Torus& torus : element.tori) torus.facets = setting.facets;
-  if ((setting.load == Load::strain) != (scene.cell.size() == 2))
-    throw Malformed(prefix + "/scene/cell_vectors: two for in_plane_periodic, none for a patch");
+  if (scene.cell.size() != cell_dimension(setting.load)) throw wrong_cell(prefix);
   check_length(scene, scene.length, prefix + "/scene");
   const auto limits =
       check_limits(scene, member(results, "limits", prefix), prefix, setting, tolerances, lines);
@@ -148,8 +154,7 @@ void check_document(const json::value& results, const VerifyTolerances& toleranc
 
   const Setting setting = read_setting(experiment);
   const Scene scene = read_scene(member(results, "scene", ""), "/scene");
-  if ((setting.load == Load::strain) != (scene.cell.size() == 2))
-    throw Malformed("/scene/cell_vectors: two for in_plane_periodic, none for a patch");
+  if (scene.cell.size() != cell_dimension(setting.load)) throw wrong_cell("");
   const json::value& design = member(results, "design", "");
   const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, tolerances, lines);
   lines.push_back(check_profiles(results, setting.load, limits, tolerances));

@@ -66,13 +66,14 @@ std::size_t runs_of_last(const std::string& out)
   return seconds.is_null() ? 0 : seconds.at("runs").as_array().size();
 }
 
-/// Interrupts when the last point has more runs than before, which is on the disk every few seconds.
+/// Interrupts when the last point has two more runs than before, which is on the disk every few seconds. One
+/// more would not do: an interrupt between points leaves the first ones a run ahead.
 Outcome interrupt_later(const std::vector<std::string>& arguments, const std::string& out)
 {
   const TemporaryFolder streams;
   const std::size_t before = runs_of_last(out);
   Process process(arguments, streams);
-  for (int wait = 0; wait < 1200 && runs_of_last(out) <= before; ++wait)
+  for (int wait = 0; wait < 1200 && runs_of_last(out) <= before + 1; ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   process.signal(SIGINT);
   return process.wait();

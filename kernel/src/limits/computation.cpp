@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <thread>
 
 namespace hauberk {
 namespace {
@@ -79,6 +80,10 @@ class Computation {
       if (k < asked_) ++unfinished_asked_;
     }
     total_ = items.size();
+    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    // Threads that have no item of their own help with the pairs of large scenes.
+    settings_.schedule.threads =
+        static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items.size())));
     if (observer_.on_start) observer_.on_start(0, total_);
     if (unfinished_asked_ < asked_ && unfinished_asked_ > 0) tell();
     parallel_for(items.size(), threads, [&](std::size_t i) {
@@ -340,7 +345,7 @@ class Computation {
   const SceneSpec& spec_;
   const std::vector<LimitTask> tasks_;  ///< those asked for, then neighbours
   const std::size_t asked_;
-  const LimitSettings& settings_;
+  LimitSettings settings_;
   const LimitsObserver& observer_;
   std::size_t starts_, total_ = 0, done_ = 0;
   std::mutex mutex_;  ///< guards all below

@@ -68,6 +68,7 @@ class Search {
     deepest_ = longest_step_of_tube * thinnest;
     longest_ = std::min(longest_step, deepest_);
     out_.stage.contact = {Formulation::nearest, schedule.last, m.clearance};
+    out_.stage.contact.threads = schedule.threads;
     out_.stage.ccd = CollisionCheck::sampled;
     out_.stage.mu = 1.0;
     out_.stage.target = schedule.target;

@@ -1,12 +1,31 @@
 #include <hauberk/contact/barrier.hpp>
 #include <hauberk/contact/body_pair.hpp>
 #include <hauberk/mechanics/contact_energy.hpp>
+#include <hauberk/parallel.hpp>
 
 namespace hauberk {
 namespace {
 
 /// Most unknowns one pair can touch: macro, two elements' coordinates and rotations.
 constexpr int most_local = max_macro + 2 * (max_coordinates + 3);
+/// Pairs below which threads cost more than they save, and those that are kept before they are added.
+constexpr std::size_t worth_threads = 128, most_at_once = 4096;
+
+/// A body that probes another one, and what that gave.
+struct EvaluatedSide {
+  int p = 0, f = 0;
+  bool swapped = false;
+  Mat3 M;  ///< axes of F
+  SideTerms terms;
+};
+
+/// What a pair of elements adds to the energy.
+struct PairWork {
+  PositionMap image;     ///< of the second element, where it is that of another cell
+  bool shifted = false;  ///< it is
+  PairTerms sum;
+  std::vector<EvaluatedSide> sides;
+};
 
 class Assembler {
  public:
@@ -28,18 +47,17 @@ class Assembler {
     }
   }
 
-  void add_pair(const ElementPair& pair)
+  /// What a pair of elements adds: all that costs time, and depends on nothing but the pair.
+  void evaluate(const ElementPair& pair, PairWork& work) const
   {
-    PositionMap image;
+    work.sides.clear();
+    work.sum = PairTerms{};
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-    const bool shifted = pair.image != Image{};
-    if (shifted) map(pair.j, pair.image, image);
-    const PositionMap& mj = shifted ? image : maps_[j];
-    const Pose pi{maps_[i].x, s_.rotation[i]}, pj{mj.x, s_.rotation[j]};
+    work.shifted = pair.image != Image{};
+    if (work.shifted) map(pair.j, pair.image, work.image);
+    const Pose pi{maps_[i].x, s_.rotation[i]}, pj{map_of_j(pair, work).x, s_.rotation[j]};
     const double range = settings_.g_hat + settings_.clearance;
     if ((pi.position - pj.position).norm() >= m_.reach[i] + m_.reach[j] + range) return;
-    PairTerms sum;
-    bool any = false;
     for (int a = m_.first_body[i]; a < m_.first_body[i + 1]; ++a) {
       const Body& A = m_.bodies[static_cast<std::size_t>(a)];
       const Vec3 ca = pi.position + pi.rotation * A.center;
@@ -47,10 +65,19 @@ class Assembler {
         const Body& B = m_.bodies[static_cast<std::size_t>(b)];
         const Vec3 cb = pj.position + pj.rotation * B.center;
         if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
-        any |= add_bodies(a, b, pair.image, pi, pj, sum);
+        for (const PairSide& side : pair_sides(A, B, settings_.formulation))
+          side.swapped ? evaluate_side(b, a, pj, pi, side, work) : evaluate_side(a, b, pi, pj, side, work);
       }
     }
-    if (any && request_.order >= 1) scatter(pair, maps_[i], mj, sum);
+  }
+
+  /// Adds it to the whole.
+  void add(const ElementPair& pair, const PairWork& work)
+  {
+    bool any = false;
+    for (const EvaluatedSide& side : work.sides) any |= add_side(pair, side, map_of_j(pair, work));
+    if (any && request_.order >= 1)
+      scatter(pair, maps_[static_cast<std::size_t>(pair.i)], map_of_j(pair, work), work.sum);
   }
 
   void add_walls()
@@ -121,46 +148,47 @@ class Assembler {
     }
   }
 
-  bool add_bodies(int a, int b, const Image& image, const Pose& pa, const Pose& pb, PairTerms& sum)
+  const PositionMap& map_of_j(const ElementPair& pair, const PairWork& work) const
   {
-    const Body& A = m_.bodies[static_cast<std::size_t>(a)];
-    const Body& B = m_.bodies[static_cast<std::size_t>(b)];
-    bool any = false;
-    for (const PairSide& side : pair_sides(A, B, settings_.formulation)) {
-      any |=
-          side.swapped ? add_side(b, a, image, pb, pa, side, sum) : add_side(a, b, image, pa, pb, side, sum);
-    }
-    return any;
+    return work.shifted ? work.image : maps_[static_cast<std::size_t>(pair.j)];
   }
 
-  bool add_side(int p, int f, const Image& image, const Pose& pp, const Pose& pf, const PairSide& side,
-                PairTerms& sum)
+  void evaluate_side(int p, int f, const Pose& pp, const Pose& pf, const PairSide& side, PairWork& work) const
   {
-    const Body& P = m_.bodies[static_cast<std::size_t>(p)];
-    const Body& F = m_.bodies[static_cast<std::size_t>(f)];
-    const PairFrame frame(P, pp, F, pf);
-    const SideTerms t = side_terms(frame, settings_, request_, side.share);
+    const PairFrame frame(m_.bodies[static_cast<std::size_t>(p)], pp, m_.bodies[static_cast<std::size_t>(f)],
+                          pf);
+    work.sides.push_back({p, f, side.swapped, frame.M, side_terms(frame, settings_, request_, side.share)});
+    const SideTerms& t = work.sides.back().terms;
+    if (t.energy == 0.0 || request_.order < 1) return;
+    hauberk::add_side(to_world(t, frame.M, pp.position - pf.position, request_.order), side.swapped,
+                      request_.order, work.sum);
+  }
+
+  bool add_side(const ElementPair& pair, const EvaluatedSide& side, const PositionMap& mj)
+  {
+    const SideTerms& t = side.terms;
     out_.evaluations += t.evaluations;
     out_.min_gap = std::min(out_.min_gap, t.min_gap);
     out_.regularity = std::min(out_.regularity, t.regularity);
     if (t.energy == 0.0) return false;
     out_.energy += t.energy;
-    if (request_.order >= 1) {
-      const PairTerms w = to_world(t, frame.M, pp.position - pf.position, request_.order);
-      hauberk::add_side(w, side.swapped, request_.order, sum);
-    }
-    if (request_.parameters) add_parameters(p, f, frame.M, pp, pf, t);
+    if (!request_.parameters && !request_.points) return true;
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const Pose pi{maps_[i].x, s_.rotation[i]}, pj{mj.x, s_.rotation[j]};
+    const Pose &pp = side.swapped ? pj : pi, &pf = side.swapped ? pi : pj;
+    if (request_.parameters) add_parameters(side.p, side.f, side.M, pp, pf, t);
     if (request_.points) {
+      const Body& F = m_.bodies[static_cast<std::size_t>(side.f)];
       for (ContactPoint c : t.points) {
         const Vec3 origin = pf.position + pf.rotation * F.center;
-        c.on_p = origin + frame.M * c.on_p;
-        c.on_f = origin + frame.M * c.on_f;
-        c.normal = -(frame.M * c.normal);  // from P to F
+        c.on_p = origin + side.M * c.on_p;
+        c.on_f = origin + side.M * c.on_f;
+        c.normal = -(side.M * c.normal);  // from P to F
         ContactEnergy::Point q;
-        q.image = image;
+        q.image = pair.image;
         q.contact = c;
-        q.a = p;
-        q.b = f;
+        q.a = side.p;
+        q.b = side.f;
         if (side.swapped) {
           std::swap(q.a, q.b);
           std::swap(q.contact.on_p, q.contact.on_f);
@@ -257,7 +285,18 @@ ContactEnergy contact_energy(const Model& model, const State& state, const std::
                              const ContactSettings& settings, const Request& request)
 {
   Assembler a(model, state, settings, request);
-  for (const ElementPair& p : pairs) a.add_pair(p);
+  // Threads evaluate, one adds, in the order of the pairs: the result is the same to the last bit.
+  const bool together = settings.threads > 1 && pairs.size() >= worth_threads;
+  std::vector<PairWork> work(together ? std::min(pairs.size(), most_at_once) : 1);
+  for (std::size_t first = 0; first < pairs.size(); first += work.size()) {
+    const std::size_t count = std::min(work.size(), pairs.size() - first);
+    if (together) {
+      parallel_for(count, settings.threads, [&](std::size_t k) { a.evaluate(pairs[first + k], work[k]); });
+    } else {
+      a.evaluate(pairs[first], work[0]);
+    }
+    for (std::size_t k = 0; k < count; ++k) a.add(pairs[first + k], work[k]);
+  }
   a.add_walls();
   return a.take();
 }

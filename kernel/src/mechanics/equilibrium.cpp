@@ -280,7 +280,7 @@ class Newton {
 SafeStep checked_step(const Model& m, const State& from, const Vector& dy, double keep, const Stage& stage)
 {
   if (stage.ccd == CollisionCheck::certified || stage.contact.formulation == Formulation::mesh)
-    return largest_safe_step(m, from, dy, keep);
+    return largest_safe_step(m, from, dy, keep, stage.contact.threads);
   return sampled_safe_step(m, from, dy, std::sqrt(published::d_th) * stage.contact.g_hat);
 }
 

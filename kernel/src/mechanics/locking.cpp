@@ -69,6 +69,7 @@ class Path {
     s.contact.quadrature = last                       ? schedule_.last_quadrature
                            : g_hat > schedule_.change ? Quadrature::rough
                                                       : Quadrature::fine;
+    s.contact.threads = schedule_.threads;
     s.ccd = schedule_.ccd;
     s.target = schedule_.target;
     s.mu = schedule_.stiffness * g_hat * size_;

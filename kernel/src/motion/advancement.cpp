@@ -3,6 +3,7 @@
 
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/motion/advancement.hpp>
+#include <hauberk/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,9 @@ constexpr double smallest_panel = 1e-9;  ///< radians
 /// Closest points that one pair is worth: conforming surfaces near contact could take any number. What is
 /// certified until then stands.
 constexpr long most_evaluations = 2000000;
+/// Pairs of bodies below which threads cost more than they save; from which on pairs are advanced together,
+/// and how many.
+constexpr std::size_t worth_threads = 128, large_scene = 1024, taken_together = 64;
 
 /// Certifies one pair of bodies, P probing F, over the remaining step.
 template <int dim>
@@ -224,46 +228,103 @@ class PairAdvance {
   double jerk_ = 0.0;     ///< bound of the third derivative, origins moving evenly
 };
 
-}  // namespace
+/// Two bodies that the step can bring together.
+struct BodyPair {
+  const CandidatePair* pair;
+  const Body &A, &B;
+  double motion;  ///< bound of how far their points come together over the whole step
+};
 
-SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep)
+/// One that the first look does not free, and what the second one finds.
+struct Tight {
+  const BodyPair* bodies;
+  double gap, alpha;
+  SafeStep count;
+};
+
+std::vector<BodyPair> body_pairs(const Model& m, const std::vector<CandidatePair>& candidates)
 {
-  SafeStep out;
-  out.alpha = wall_step(m, from, dy, keep);
-  for (const CandidatePair& pair : candidate_pairs(m, from, dy)) {
-    const Track &ti = pair.ti, &tj = pair.tj;
-    const auto i = static_cast<std::size_t>(ti.element), j = static_cast<std::size_t>(tj.element);
+  std::vector<BodyPair> out;
+  for (const CandidatePair& pair : candidates) {
+    const auto i = static_cast<std::size_t>(pair.ti.element), j = static_cast<std::size_t>(pair.tj.element);
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
-        const double motion = pair.approach + ti.w.norm() * A.reach + tj.w.norm() * B.reach;
-        if (A.facets) {
-          out.alpha = advance_facets(A, ti, B, tj, m.clearance, out.alpha, keep, out);
-          if (out.alpha <= 0.0) return out;
-          continue;
-        }
-        const Separation now = separation(A, pair.pi, B, pair.pj, m.clearance, 2.0 * motion);
-        out.evaluations += now.evaluations;
-        const double gap = now.lower;
-        if (gap - out.alpha * motion >= keep * gap && gap > 0.0) continue;
-        if (gap <= 0.0) {
-          out.alpha = 0.0;
-          return out;
-        }
-        ++out.tight_pairs;
-        const double target = keep * gap;
-        // Of equal kinds the smaller ring probes, see separation().
-        const bool swap = probe_rank(B) < probe_rank(A) || (probe_rank(B) == probe_rank(A) && B.R < A.R);
-        const Body &P = swap ? B : A, &F = swap ? A : B;
-        const Track &tp = swap ? tj : ti, &tf = swap ? ti : tj;
-        out.alpha = probe_dimension(PairFrame(P, pair.pi, F, pair.pj)) == 1
-                        ? PairAdvance<1>(P, tp, F, tf, m.clearance, out).run(out.alpha, target)
-                        : PairAdvance<2>(P, tp, F, tf, m.clearance, out).run(out.alpha, target);
-        if (out.alpha <= 0.0) return out;
+        out.push_back({&pair, A, B, pair.approach + pair.ti.w.norm() * A.reach + pair.tj.w.norm() * B.reach});
       }
     }
   }
+  return out;
+}
+
+/// Part of [0, alpha] over which the gap of a pair stays above `target`.
+double advance(const BodyPair& bodies, double clearance, double alpha, double target, SafeStep& count)
+{
+  const CandidatePair& pair = *bodies.pair;
+  const Body &A = bodies.A, &B = bodies.B;
+  // Of equal kinds the smaller ring probes, see separation().
+  const bool swap = probe_rank(B) < probe_rank(A) || (probe_rank(B) == probe_rank(A) && B.R < A.R);
+  const Body &P = swap ? B : A, &F = swap ? A : B;
+  const Track &tp = swap ? pair.tj : pair.ti, &tf = swap ? pair.ti : pair.tj;
+  return probe_dimension(PairFrame(P, pair.pi, F, pair.pj)) == 1
+             ? PairAdvance<1>(P, tp, F, tf, clearance, count).run(alpha, target)
+             : PairAdvance<2>(P, tp, F, tf, clearance, count).run(alpha, target);
+}
+
+}  // namespace
+
+SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep, unsigned threads)
+{
+  SafeStep out;
+  out.alpha = wall_step(m, from, dy, keep);
+  const std::vector<CandidatePair> candidates = candidate_pairs(m, from, dy);
+  const std::vector<BodyPair> all = body_pairs(m, candidates);
+  const auto gap_of = [&](const BodyPair& bodies) {
+    return separation(bodies.A, bodies.pair->pi, bodies.B, bodies.pair->pj, m.clearance, 2.0 * bodies.motion);
+  };
+  // The gaps at the beginning do not depend on how far other pairs let the step go.
+  std::vector<Separation> gaps;
+  if (threads > 1 && all.size() >= worth_threads) {
+    gaps.resize(all.size());
+    parallel_for(all.size(), threads, [&](std::size_t k) {
+      if (!all[k].A.facets) gaps[k] = gap_of(all[k]);
+    });
+  }
+  // What is found so far shortens the rest. In a large scene pairs are taken together, from the same alpha,
+  // also by one thread, as the number of threads may not change what is found.
+  const std::size_t most = all.size() >= large_scene ? taken_together : 1;
+  std::vector<Tight> tight;
+  const auto advance_all = [&] {
+    parallel_for(tight.size(), threads, [&](std::size_t i) {
+      tight[i].alpha = advance(*tight[i].bodies, m.clearance, out.alpha, keep * tight[i].gap, tight[i].count);
+    });
+    for (const Tight& t : tight) {
+      out.alpha = std::min(out.alpha, t.alpha);
+      out.evaluations += t.count.evaluations;
+    }
+    tight.clear();
+  };
+  for (std::size_t k = 0; k < all.size() && out.alpha > 0.0; ++k) {
+    const BodyPair& bodies = all[k];
+    if (bodies.A.facets) {
+      out.alpha = advance_facets(bodies.A, bodies.pair->ti, bodies.B, bodies.pair->tj, m.clearance, out.alpha,
+                                 keep, out);
+      continue;
+    }
+    const Separation now = gaps.empty() ? gap_of(bodies) : gaps[k];
+    out.evaluations += now.evaluations;
+    const double gap = now.lower;
+    if (gap <= 0.0) {
+      out.alpha = 0.0;
+      return out;
+    }
+    if (gap - out.alpha * bodies.motion >= keep * gap) continue;
+    ++out.tight_pairs;
+    tight.push_back({&bodies, gap, 0.0, {}});
+    if (tight.size() == most) advance_all();
+  }
+  if (out.alpha > 0.0) advance_all();
   return out;
 }
 

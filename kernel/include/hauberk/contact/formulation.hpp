@@ -42,6 +42,7 @@ struct ContactSettings {
   /// quadratic over a panel; smaller ratios serve to measure it.
   double panel_ratio = 0.5;
   Quadrature quadrature = Quadrature::fine;
+  unsigned threads = 1;  ///< that evaluate pairs of a large scene; never changes a result
 };
 
 /// Sum of the clamped log barrier over every local minimum of the distance with gap < g_hat (paper eq. (4),

@@ -41,6 +41,7 @@ struct Schedule {
   MinimaSearch search = MinimaSearch::certified;  ///< of contact `published`
   /// Finite target of the published objective, see Stage; infinite: the load alone.
   double target = std::numeric_limits<double>::infinity();
+  unsigned threads = 1;  ///< for the pairs of one large scene; never changes a result
 };
 
 /// Activation distances of a schedule's stages, falling.

@@ -28,8 +28,10 @@ struct SafeStep {
 /// V/sqrt(g rho) steps, not V/g. Ends at 2e6 evaluations of one pair.
 ///
 /// Bodies with facets are checked as meshes, by additive advancement of every pair of features (Li, Kaufman,
-/// Jiang 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic.
-SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep);
+/// Jiang 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic; `threads` share
+/// the pairs of a large scene and never change a result.
+SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep,
+                           unsigned threads = 1);
 
 /// The published check (paper equations (6) to (8)), without guarantee. For every pair of bodies the smallest
 /// distance over s in [0, alpha] is sought by minimisation in s from sampled closest points; where it is not

@@ -234,7 +234,7 @@ TEST(Neighbours, ReachBeyondTheFirstImagesOnce)
     element.reach = 3.1;
   }
   const std::vector<Place> places{{Vec3::Zero(), Mat3::Identity()}, {Vec3(0.3, 0.1, 0.0), Mat3::Identity()}};
-  const Mat3 F = Macro{{0.2, -0.1, 0.05}}.deformation();
+  const Mat3 F = Macro{Vec3(0.2, -0.1, 0.05)}.deformation();
   std::size_t expected = 0;
   for (int i = -60; i <= 60; ++i)
     for (int j = -60; j <= 60; ++j) {
@@ -242,6 +242,36 @@ TEST(Neighbours, ReachBeyondTheFirstImagesOnce)
       expected += (t + places[1].position).norm() <= 6.2;
       if (i > 0 || (i == 0 && j > 0)) expected += 2 * (t.norm() <= 6.2);
     }
+  EXPECT_EQ(neighbours(scene, places, F, 0.0).size(), expected);
+  EXPECT_GT(expected, 100u);
+}
+
+TEST(Neighbours, OfSolids)
+{
+  Scene scene;
+  scene.cell = {{2.0, 0.0, 0.3}, {1.5, 0.7, 0.0}, {-0.4, 0.2, 1.1}};
+  scene.elements.resize(2);
+  for (Element& element : scene.elements) {
+    element.tori = {torus(1.5, 0.1, 0.1)};
+    element.reach = 1.6;
+  }
+  const std::vector<Place> places{{Vec3::Zero(), Mat3::Identity()}, {Vec3(0.3, 0.1, -0.2), Mat3::Identity()}};
+  Macro macro{Macros::Zero(6), Load::solid};
+  macro.values << 0.1, -0.2, 0.15, 0.05, -0.1, 0.02;
+  const Mat3 F = macro.deformation();
+  EXPECT_EQ(F, F.transpose());
+  EXPECT_EQ(F.diagonal(), Vec3(1.1, 0.8, 1.15));
+  EXPECT_EQ(F(1, 2), 0.05);
+  EXPECT_EQ(F(0, 2), -0.1);
+  EXPECT_EQ(F(0, 1), 0.02);
+  std::size_t expected = 0;
+  for (int i = -20; i <= 20; ++i)
+    for (int j = -20; j <= 20; ++j)
+      for (int k = -20; k <= 20; ++k) {
+        const Vec3 t = translation(scene, F, {i, j, k});
+        expected += (t + places[1].position).norm() <= 3.2;
+        if (Image{i, j, k} > Image{}) expected += 2 * (t.norm() <= 3.2);
+      }
   EXPECT_EQ(neighbours(scene, places, F, 0.0).size(), expected);
   EXPECT_GT(expected, 100u);
 }

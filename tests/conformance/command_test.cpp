@@ -71,6 +71,32 @@ TEST(Conform, AsJson)
   EXPECT_EQ(failed, 1);
 }
 
+TEST(Conform, ParametersOfTheSectionAreLookedAt)
+{
+  const auto said = [](const std::string& parameters) {
+    return run_program({"plugins", "conform", mutants + "mutant_shape.so", "--filter", "shape.primitives",
+                        "--section", R"({"parameters": )" + parameters + "}"})
+        .out;
+  };
+  const auto expect_said = [&](const std::string& parameters, const std::string& text) {
+    EXPECT_NE(said(parameters).find(text), std::string::npos) << said(parameters);
+  };
+  expect_said(R"({"R": 5, "r": 0.5, "waist": 1.2})", "passed   shape.primitives");
+  expect_said(R"({"nonsense": 1})", "the shape has no parameter 'nonsense'");
+  expect_said("[1]", "expected an object of numbers");
+  expect_said(R"({"waist": "wide"})", "'waist': expected a number in [1, 2]");
+  expect_said(R"({"waist": 2.5})", "'waist': expected a number in [1, 2]");
+  expect_said(R"({"R": 1, "r": 2})", "the shape refuses the parameters of the section: parameter 'r' = 2");
+}
+
+/// What is told beside a failure is where it was found, not where the check began.
+TEST(Conform, TellsTheParametersThatWereRefused)
+{
+  const Outcome o = run_program({"plugins", "conform", mutants + "mutant_shape.so", "--filter",
+                                 "shape.refusals", "--section", R"({"defect": "unnamed_refusal"})"});
+  EXPECT_NE(o.out.find("(parameters: R = 1e-12, "), std::string::npos) << o.out;
+}
+
 TEST(Conform, WhatIsNoPlugin)
 {
   const Outcome none = run_program({"plugins", "conform", "/nowhere.so"});

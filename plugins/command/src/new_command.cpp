@@ -113,6 +113,14 @@ void write_project(const fs::path& folder, const std::vector<NamedContent>& file
   }
 }
 
+/// What tells CMake where Hauberk is; nothing where it looks anyway, or where it is not installed.
+std::string prefix_option()
+{
+  const fs::path prefix = shared_data_folder().parent_path().parent_path();  // <prefix>/share/hauberk
+  const bool found = prefix == "/usr" || prefix == "/usr/local" || !fs::exists(prefix / "lib/cmake/hauberk");
+  return found ? "" : fmt::format(" -D CMAKE_PREFIX_PATH='{}'", prefix.string());
+}
+
 }  // namespace
 
 int new_command(const std::vector<std::string>& words)
@@ -139,10 +147,11 @@ int new_command(const std::vector<std::string>& words)
   check_name(name, *open_registry(options));
   write_project(folder, project_files(kind, name));
   fmt::print(
-      "{} '{}' is in {}; next:\n\n  cd {}\n  cmake -B build && cmake --build build && ctest --test-dir "
-      "build\n"
+      "{0} '{1}' is in {2}; next:\n\n  cd {2}\n  cmake -B build{3} && cmake --build build && ctest "
+      "--test-dir build\n"
+      "  hauberk plugins conform build/plugins/{1}.so\n"
       "  hauberk run experiment.json --plugin-path build/plugins -o out\n",
-      kind, name, folder.string(), folder.string());
+      kind, name, folder.string(), prefix_option());
   return exit_done;
 }
 

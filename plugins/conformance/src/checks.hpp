@@ -16,7 +16,7 @@ Check of_trial(std::string name, std::optional<PluginKind> kind, const char* abo
 
 void add_checks_of_every_kind(std::vector<Check>& out);
 void add_shape_checks(std::vector<Check>& out);
-/// Of them: parameters that are said to be smooth are.
+/// Of those, in files of their own: parameters that are said to be smooth are.
 void check_smoothness(Trial& trial);
 /// Primitives are closed surfaces that do not meet themselves, within the spheres of the kernel.
 void check_surfaces(Trial& trial);

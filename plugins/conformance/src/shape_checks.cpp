@@ -53,6 +53,7 @@ void bounds(Trial& trial)
       if (std::isinf(bad)) continue;
       Values p = inside.p;
       p[k] = bad;
+      trial.look_at(*object.shape, p);
       const auto message = refused(*object.shape, p);
       require(message.has_value(), "parameter '{}' = {} is accepted outside [{}, {}]", infos[k].name, bad,
               infos[k].lower, infos[k].upper);
@@ -89,6 +90,7 @@ void refusals(Trial& trial)
         if (!std::isfinite(end)) continue;
         Values p = inside.p;
         p[k] = end;
+        trial.look_at(*object.shape, p);
         const auto message = refused(*object.shape, p);
         require(!message || named(*message),
                 "'{}' = {} is within its bounds and refused without the name of a parameter: '{}'",

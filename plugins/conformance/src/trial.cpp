@@ -45,6 +45,30 @@ std::vector<Range> ranges_of(const Shape& shape, const Node& given)
   return ranges;
 }
 
+/// Ends the check where the parameters given cannot be looked at.
+void check_given(const Shape& shape, const Node& given)
+{
+  if (given.type == Node::Type::null) return;
+  require(given.type == Node::Type::object, "the parameters of the section: expected an object of numbers");
+  const std::vector<ParameterInfo>& infos = shape.parameters();
+  for (const auto& [name, value] : given.members) {
+    const auto info = std::find_if(infos.begin(), infos.end(),
+                                   [&name = name](const ParameterInfo& i) { return i.name == name; });
+    require(info != infos.end(), "the parameters of the section: the shape has no parameter '{}'", name);
+    require(value.type == Node::Type::number && value.number >= info->lower && value.number <= info->upper,
+            "the parameters of the section: '{}': expected a number in [{}, {}]", name, info->lower,
+            info->upper);
+  }
+  std::vector<double> p;
+  for (const ParameterInfo& info : infos) {
+    const Node* value = given.find(info.name);
+    p.push_back(value != nullptr ? value->number : info.default_value);
+    if (!std::isfinite(p.back())) return;
+  }
+  const std::optional<std::string> message = refused(shape, p);
+  require(!message, "the shape refuses the parameters of the section: {}", message.value_or(""));
+}
+
 /// The first refusal of p moved to and fro along every parameter; null where the shape accepts all.
 std::optional<std::string> refused_around(const Shape& shape, const Point& point)
 {
@@ -73,6 +97,13 @@ bool mentions(std::string_view text, std::string_view name)
     if ((at == 0 || !in_name(at - 1)) && (end == text.size() || !in_name(end))) return true;
   }
   return false;
+}
+
+void Trial::look_at(const Shape& shape, const std::vector<double>& p)
+{
+  looked_at.clear();
+  for (std::size_t k = 0; k < p.size(); ++k)
+    looked_at += fmt::format("{}{} = {:.9g}", k == 0 ? "" : ", ", shape.parameters()[k].name, p[k]);
 }
 
 Object Trial::make(const Node& values, Problems& problems, double length) const
@@ -135,6 +166,7 @@ std::string quantity_name(std::size_t row)
 
 Point draw_point(const Shape& shape, Trial& trial)
 {
+  check_given(shape, trial.section.parameters);
   const std::vector<Range> ranges = ranges_of(shape, trial.section.parameters);
   std::optional<std::string> last;
   for (int draw = 0; draw < most_draws; ++draw) {
@@ -152,9 +184,7 @@ Point draw_point(const Shape& shape, Trial& trial)
     }
     last = refused_around(shape, point);
     if (last) continue;
-    trial.drawn.clear();
-    for (std::size_t k = 0; k < point.p.size(); ++k)
-      trial.drawn += fmt::format("{}{} = {:.9g}", k == 0 ? "" : ", ", shape.parameters()[k].name, point.p[k]);
+    trial.look_at(shape, point.p);
     return point;
   }
   fail(

@@ -31,7 +31,8 @@ class Trial {
   const PluginTable& table;
   Section section;
   Random random;
-  std::string drawn;  ///< the parameters drawn last, for messages: "R = 1.2, r = 0.25"; empty: none yet
+  std::string looked_at;  ///< the parameters looked at last, for messages: "R = 1.2, r = 0.25"
+  void look_at(const Shape& shape, const std::vector<double>& p);
 
   /// The object of a section; its members are null, and `problems` says why, where the plugin refuses it.
   Object make(const Node& values, Problems& problems, double length = 1.0) const;
@@ -49,6 +50,9 @@ std::string quantity_name(std::size_t row);
 /// Parameters that the shape accepts, also when each of them is moved by +-margin[k]: around the defaults, or
 /// around the parameters of the setup. `margin` is 0.05 of the range that is drawn from. A Failure that tells
 /// the last refusal when none are found.
+///
+/// A Failure, too, where the parameters of the setup are no numbers of parameters of the shape within their
+/// bounds, or, if all are known, where the shape refuses them.
 struct Point {
   std::vector<double> p, margin;
 };

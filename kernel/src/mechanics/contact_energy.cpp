@@ -51,13 +51,13 @@ class Assembler {
   void evaluate(const ElementPair& pair, PairWork& work) const
   {
     work.sides.clear();
-    work.sum = PairTerms{};
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
     work.shifted = pair.image != Image{};
     if (work.shifted) map(pair.j, pair.image, work.image);
     const Pose pi{maps_[i].x, s_.rotation[i]}, pj{map_of_j(pair, work).x, s_.rotation[j]};
     const double range = settings_.g_hat + settings_.clearance;
     if ((pi.position - pj.position).norm() >= m_.reach[i] + m_.reach[j] + range) return;
+    work.sum = PairTerms{};
     for (int a = m_.first_body[i]; a < m_.first_body[i + 1]; ++a) {
       const Body& A = m_.bodies[static_cast<std::size_t>(a)];
       const Vec3 ca = pi.position + pi.rotation * A.center;

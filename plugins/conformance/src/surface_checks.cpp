@@ -26,21 +26,21 @@ struct Station {
 
 /// x(u) of the core and x'(u), in the primitive's frame. Of rings a circle about z.
 struct CorePoint {
-  Vec3 x, tangent;
+  Vec3 x, derivative;
 };
 
 CorePoint core_at(const Primitive& primitive, double u)
 {
   if (primitive.curve.empty())
-    return {primitive.R() * Vec3(std::cos(u), std::sin(u), 0.0), Vec3(-std::sin(u), std::cos(u), 0.0)};
+    return {primitive.R() * Vec3(std::cos(u), std::sin(u), 0.0),
+            primitive.R() * Vec3(-std::sin(u), std::cos(u), 0.0)};
   CorePoint out{Vec3::Zero(), Vec3::Zero()};
   double k = 0.0;
   for (const Harmonic& h : primitive.curve) {
     k += 1.0;
     out.x += std::cos(k * u) * h.c + std::sin(k * u) * h.s;
-    out.tangent += k * (std::cos(k * u) * h.s - std::sin(k * u) * h.c);
+    out.derivative += k * (std::cos(k * u) * h.s - std::sin(k * u) * h.c);
   }
-  out.tangent.normalize();
   return out;
 }
 
@@ -52,23 +52,24 @@ std::vector<Station> stations(const Primitive& primitive, int count)
   std::vector<Station> out;
   out.reserve(static_cast<std::size_t>(count));
   const CorePoint start = core_at(primitive, 0.0);
+  const Vec3 tangent = start.derivative.normalized();
   const bool ring = primitive.curve.empty();
-  const Vec3 first = ring ? Vec3(start.x.normalized()) : Vec3(start.tangent.unitOrthogonal());
-  CorePoint before = start;
+  const Vec3 first = ring ? Vec3(start.x.normalized()) : Vec3(tangent.unitOrthogonal());
+  Vec3 before = tangent;
   Vec3 carried = first;
   for (int i = 0; i < count; ++i) {
     const CorePoint here = core_at(primitive, 2.0 * pi * i / count);
     carried = ring ? Vec3(here.x.normalized())
-                   : Vec3(Eigen::Quaterniond::FromTwoVectors(before.tangent, here.tangent) * carried);
-    out.push_back({here.x, carried, carried.cross(here.tangent)});
-    before = here;
+                   : Vec3(Eigen::Quaterniond::FromTwoVectors(before, here.derivative) * carried);
+    before = here.derivative.normalized();
+    out.push_back({here.x, carried, carried.cross(before)});
   }
   if (ring) {
     for (Station& s : out) s.second = Vec3::UnitZ();
     return out;
   }
-  carried = Eigen::Quaterniond::FromTwoVectors(before.tangent, start.tangent) * carried;
-  const double lacking = std::atan2(-carried.dot(first.cross(start.tangent)), carried.dot(first));
+  carried = Eigen::Quaterniond::FromTwoVectors(before, tangent) * carried;
+  const double lacking = std::atan2(-carried.dot(first.cross(tangent)), carried.dot(first));
   for (int i = 0; i < count; ++i) {
     Station& s = out[static_cast<std::size_t>(i)];
     const double turn = lacking * i / count;
@@ -132,16 +133,8 @@ double exact_volume(const Primitive& primitive)
   if (primitive.curve.empty()) return section * 2.0 * pi * primitive.R();
   const int count = 512 * static_cast<int>(primitive.curve.size());
   double length = 0.0;  // the trapezoidal rule is spectral for periodic functions
-  for (int i = 0; i < count; ++i) {
-    const double u = 2.0 * pi * i / count;
-    double k = 0.0;
-    Vec3 derivative = Vec3::Zero();
-    for (const Harmonic& h : primitive.curve) {
-      k += 1.0;
-      derivative += k * (std::cos(k * u) * h.s - std::sin(k * u) * h.c);
-    }
-    length += derivative.norm() * 2.0 * pi / count;
-  }
+  for (int i = 0; i < count; ++i)
+    length += core_at(primitive, 2.0 * pi * i / count).derivative.norm() * 2.0 * pi / count;
   return section * length;
 }
 
@@ -222,7 +215,7 @@ void check_distances(Trial& trial)
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const Primitive &p = primitives[i], &f = primitives[(i + 1) % primitives.size()];
       const Body a = body_of(p), b = body_of(f);
-      // Beside each other, turned at random, at half the least distance that is certainly free.
+      // Turned at random, a little within or beyond the least distance at which they are certainly apart.
       Pose pose;
       pose.rotation = rotation_exp(trial.random.vector(2.0));
       pose.position =

@@ -32,6 +32,7 @@ class Trial {
   Section section;
   Random random;
   std::string looked_at;  ///< the parameters looked at last, for messages: "R = 1.2, r = 0.25"
+  /// Says what is looked at.
   void look_at(const Shape& shape, const std::vector<double>& p);
 
   /// The object of a section; its members are null, and `problems` says why, where the plugin refuses it.

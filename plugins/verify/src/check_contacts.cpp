@@ -35,6 +35,9 @@ bool indices_exist(const Scene& scene, const Contact& contact)
     if (k < 0 || k >= static_cast<int>(scene.elements.size())) return false;
     if (p < 0 || p >= static_cast<int>(scene.elements[static_cast<std::size_t>(k)].tori.size())) return false;
   }
+  for (std::size_t k = scene.cell.size(); k < contact.image.size(); ++k) {
+    if (contact.image[k] != 0) return false;
+  }
   return contact.elements[0] != contact.elements[1] || contact.image != Image{};
 }
 

@@ -14,10 +14,9 @@ namespace {
 
 /// Every image of `second` that may be near `first`: with d = x_first - x_second and columns of A the
 /// deformed cell vectors, |A i - d| <= reach needs i within |row of A^-1| reach of A^-1 d.
-void add_images(std::vector<Neighbour>& out, const Mat3& A, const Vec3& d, double reach, int first,
-                int second, bool solid)
+void add_images(std::vector<Neighbour>& out, const Mat3& A, const Mat3& inverse, const Vec3& d, double reach,
+                int first, int second, bool solid)
 {
-  const Mat3 inverse = A.inverse();
   const Vec3 centre = inverse * d;
   Image low{}, high{};
   for (int r = 0; r < (solid ? 3 : 2); ++r) {
@@ -65,10 +64,11 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
   }
   Mat3 A = Mat3::Identity();  // the third image of a sheet is 0
   for (std::size_t k = 0; k < scene.cell.size(); ++k) A.col(static_cast<Eigen::Index>(k)) = F * scene.cell[k];
+  const Mat3 inverse = A.inverse();
   const bool solid = scene.cell.size() == 3;
   for (std::size_t k = 0; k < places.size(); ++k)
     for (std::size_t l = k; l < places.size(); ++l)
-      add_images(out, A, places[k].position - places[l].position,
+      add_images(out, A, inverse, places[k].position - places[l].position,
                  scene.elements[k].reach + scene.elements[l].reach + margin, static_cast<int>(k),
                  static_cast<int>(l), solid);
   return out;

@@ -92,7 +92,7 @@ void add(Scenes& scenes, const Shapes& shape, double gap, const std::string& wha
 long minima(const Pair& pair, double threshold)
 {
   int evaluations = 0;
-  const bool swapped = pair_sides(pair.a, pair.b, Formulation::nearest).front().swapped;
+  const bool swapped = probe_rank(pair.b) < probe_rank(pair.a);
   const PairFrame frame = swapped ? PairFrame(pair.b, pair.pose_b, pair.a, pair.pose_a)
                                   : PairFrame(pair.a, pair.pose_a, pair.b, pair.pose_b);
   const auto found = frame.P->is_tube() ? local_minima<1>(frame, threshold, evaluations)

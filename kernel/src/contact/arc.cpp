@@ -1,6 +1,6 @@
 #include <hauberk/contact/barrier.hpp>
 #include <hauberk/contact/formulation.hpp>
-#include <hauberk/geometry/panel_bound.hpp>
+#include <hauberk/geometry/panel_field.hpp>
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -206,21 +206,33 @@ class ArcIntegral {
 
   void run()
   {
-    constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
-    for (int i = 0; i < nu; ++i) {
-      for (int j = 0; j < nv; ++j) {
-        visit({(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
-      }
-    }
+    const FirstPanels<dim> first(probe_);
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k) visit_all(first.row(k));
     if (request_.points) cluster();
   }
 
  private:
-  void visit(const Panel& s)
+  /// Visits those of the panels, of which places are known and fields are not, that are not too far away.
+  template <std::size_t count>
+  void visit_all(std::array<PanelField, count> panels)
   {
-    const ProbePoint q = probe_.at(s.u, s.v);
-    if (beyond_core_tube(q.p, probe_.Lu * s.hu + probe_.Lv * s.hv)) return;
-    const FieldValue f = field_at(*frame_.F, q.p);
+    std::array<PanelField*, count> near;
+    std::array<PointField, count> points;
+    std::size_t found = 0;
+    for (PanelField& p : panels) {
+      if (beyond_core_tube(p.q.p, probe_.Lu * p.s.hu + probe_.Lv * p.s.hv)) continue;
+      near[found] = &p;
+      points[found++] = {&p.q.p, &p.f};
+    }
+    fields_at(*frame_.F, std::span(points).first(found));
+    for (std::size_t k = 0; k < found; ++k) visit(*near[k]);
+  }
+
+  void visit(const PanelField& p)
+  {
+    const Panel& s = p.s;
+    const ProbePoint& q = p.q;
+    const FieldValue& f = p.f;
     const PanelBound b = panel_bound(probe_, s, q, f, settings_.g_hat + probe_.offset + settings_.clearance);
     ++out_.evaluations;
     const double g = b.value - probe_.offset - settings_.clearance;
@@ -231,9 +243,8 @@ class ArcIntegral {
     if (std::max(size[0], size[1]) > 1.0 && std::max(s.hu, s.hv) > smallest_panel) {
       // Far from contact a bound that is too low is to be raised, by panels that are small in both
       // directions.
-      const bool along_u =
-          g < 4.0 * settings_.g_hat ? size[0] >= size[1] : dim == 1 || probe_.Lu * s.hu >= probe_.Lv * s.hv;
-      for (const Panel& half : halves(s, along_u)) visit(half);
+      const bool along_u = g < 4.0 * settings_.g_hat ? size[0] >= size[1] : longer_along_u(probe_, s);
+      visit_all(located_halves(probe_, p, along_u));
       return;
     }
     // A gap changes by no more than the distance moved.
@@ -298,8 +309,9 @@ class ArcIntegral {
                       [&](double from, double to) {
                         const Angle middle(0.5 * (from + to));
                         const double half = 0.5 * std::abs(to - from);
-                        for (std::size_t j = 0; j < n; ++j)
-                          node(at_u, middle.turned(half * rule.x[j]), w * half * rule.w[j]);
+                        std::array<Angle, n> at_v;
+                        for (std::size_t j = 0; j < n; ++j) at_v[j] = middle.turned(half * rule.x[j]);
+                        line(at_u, at_v, w * half);
                       });
       }
     }
@@ -309,23 +321,39 @@ class ArcIntegral {
   {
     const auto& rule = gauss_rule<n>();
     const Angle middle_u(s.u), middle_v = dim == 2 ? Angle(s.v) : Angle();
-    std::array<Angle, n> at_v;
+    std::array<Angle, n> at_u, at_v;
+    for (std::size_t j = 0; j < n; ++j) at_u[j] = middle_u.turned(s.hu * rule.x[j]);
     for (std::size_t j = 0; dim == 2 && j < n; ++j) at_v[j] = middle_v.turned(s.hv * rule.x[j]);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Angle at_u = middle_u.turned(s.hu * rule.x[i]);
-      const double w = weight_ * s.hu * rule.w[i];
-      if constexpr (dim == 1) {
-        node(at_u, {}, w);
-      } else {
-        for (std::size_t j = 0; j < n; ++j) node(at_u, at_v[j], w * s.hv * rule.w[j]);
-      }
+    if constexpr (dim == 1) {
+      nodes([&](std::size_t k) { return probe_.at(at_u[k], {}); }, weight_ * s.hu);
+    } else {
+      for (std::size_t i = 0; i < n; ++i) line(at_u[i], at_v, weight_ * s.hu * rule.w[i] * s.hv);
     }
   }
 
-  void node(const Angle& u, const Angle& v, double w)
+  /// Gauss's rule along a line of constant u, with this weight.
+  void line(const Angle& u, const std::array<Angle, n>& v, double weight)
   {
-    const ProbePoint q = probe_.at(u, v);
-    const FieldValue f = field_at(*frame_.F, q.p);
+    nodes([&](std::size_t k) { return probe_.at(u, v[k]); }, weight);
+  }
+
+  /// Gauss's rule, its places by `at`.
+  template <typename At>
+  void nodes(At&& at, double weight)
+  {
+    std::array<ProbePoint, n> q;
+    std::array<FieldValue, n> f;
+    std::array<PointField, n> points;
+    for (std::size_t k = 0; k < n; ++k) {
+      q[k] = at(k);
+      points[k] = {&q[k].p, &f[k]};
+    }
+    fields_at(*frame_.F, points);
+    for (std::size_t k = 0; k < n; ++k) node(q[k], f[k], weight * gauss_rule<n>().w[k]);
+  }
+
+  void node(const ProbePoint& q, const FieldValue& f, double w)
+  {
     ++out_.evaluations;
     const double g = f.m.phi - probe_.offset - settings_.clearance;
     out_.min_gap = std::min(out_.min_gap, g);

@@ -73,12 +73,15 @@ std::vector<ContactMinimum> minima_of(const PairFrame& frame, double threshold, 
 
 }  // namespace
 
-std::span<const PairSide> pair_sides(const Body& A, const Body& B, Formulation formulation)
+std::span<const PairSide> pair_sides(const Body& A, const Body& B, const ContactSettings& settings)
 {
   static constexpr std::array one{PairSide{false, 1.0}}, other{PairSide{true, 1.0}};
   static constexpr std::array both{PairSide{false, 0.5}, PairSide{true, 0.5}};
   const int a = probe_rank(A), b = probe_rank(B);
-  if (formulation == Formulation::arc && a == b && !A.curve) return both;
+  if (settings.formulation == Formulation::arc && a == b && !A.curve) {
+    if (settings.sides == Sides::both) return both;
+    return A.R <= B.R ? one : other;
+  }
   return a <= b ? one : other;
 }
 
@@ -117,7 +120,7 @@ PairContact pair_contact(const Body& A, const Pose& pose_a, const Body& B, const
                          const ContactSettings& settings, int order)
 {
   PairContact out;
-  for (const PairSide& side : pair_sides(A, B, settings.formulation)) {
+  for (const PairSide& side : pair_sides(A, B, settings)) {
     const PairFrame frame = side.swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
     const SideTerms terms = side_terms(frame, settings, Request{order, false, false}, side.share);
     const Vec3 shift = pose_a.position - pose_b.position;
@@ -134,7 +137,7 @@ std::vector<ContactMinimum> contact_minima(const Body& A, const Pose& pose_a, co
                                            const Pose& pose_b, double threshold, double clearance,
                                            int& evaluations)
 {
-  const bool swapped = pair_sides(A, B, Formulation::nearest).front().swapped;
+  const bool swapped = probe_rank(B) < probe_rank(A);
   const PairFrame frame = swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
   if (frame.P->curve) refuse_curve("the list of contact minima");
   std::vector<ContactMinimum> out = probe_dimension(frame) == 1

@@ -1,7 +1,7 @@
 #include <hauberk/contact/barrier.hpp>
 #include <hauberk/contact/formulation.hpp>
 #include <hauberk/error.hpp>
-#include <hauberk/geometry/panel_bound.hpp>
+#include <hauberk/geometry/panel_field.hpp>
 
 #include <fmt/format.h>
 
@@ -47,11 +47,11 @@ Vec3 curvature(const FieldValue& f, const Vec3& x)
 }
 
 template <int dim>
-Local local_at(const Probe<dim>& probe, double u, double v)
+Local local_of(const Probe<dim>& probe, const ProbePoint& q, const FieldValue& f)
 {
   Local l;
-  l.q = probe.at(u, v);
-  l.f = field_at(*probe.f.F, l.q.p);
+  l.q = q;
+  l.f = f;
   l.gu = l.f.n.dot(l.q.pu);
   const Vec3 Ku = curvature(l.f, l.q.pu);
   const SecondDerivatives own = probe.second(l.q, l.f.n);
@@ -62,6 +62,13 @@ Local local_at(const Probe<dim>& probe, double u, double v)
     l.hvv = curvature(l.f, l.q.pv).dot(l.q.pv) + own.vv;
   }
   return l;
+}
+
+template <int dim>
+Local local_at(const Probe<dim>& probe, double u, double v)
+{
+  const ProbePoint q = probe.at(u, v);
+  return local_of(probe, q, field_at(*probe.f.F, q.p));
 }
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * pi); }
@@ -93,22 +100,22 @@ class Search {
   {
     // Turned by an arbitrary angle so that symmetric scenes have no minimum on a panel's end.
     constexpr double turn = 0.1234;
-    constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
-    for (int i = 0; i < nu; ++i) {
-      for (int j = 0; j < nv; ++j) {
-        visit(
-            {turn + (2 * i + 1) * pi / nu, turn + (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
-      }
+    const FirstPanels<dim> first(probe_, turn);
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+      std::array<PanelField, 4> row = first.row(k);
+      fill_fields(*probe_.f.F, row);
+      for (const PanelField& p : row) visit(p);
     }
   }
 
  private:
-  void visit(const Panel& s)
+  void visit(const PanelField& p)
   {
-    const Local l = local_at(probe_, s.u, s.v);
+    const Panel& s = p.s;
     if (++evaluations_ > last_) give_up();
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
-    if (panel_bound(probe_, s, l.q, l.f, threshold_).bound > threshold_) return;
+    if (panel_bound(probe_, s, p.q, p.f, threshold_).bound > threshold_) return;
+    const Local l = local_of(probe_, p.q, p.f);
     // Largest curvature of the field on the panel.
     const FieldCurvature field = field_curvature(*probe_.f.F, l.f, d);
     if (field.third < std::numeric_limits<double>::infinity()) {
@@ -135,13 +142,10 @@ class Search {
         return;
       }
     } else if (std::max(probe_.Lu * s.hu, probe_.Lv * s.hv) < seed(l)) {
-      descend(s);
+      descend(s, l);
       return;
     }
-    Panel first, second;
-    split(probe_, s, first, second);
-    visit(first);
-    visit(second);
+    for (const PanelField& half : split(probe_, p)) visit(half);
   }
 
   [[noreturn]] void give_up() const
@@ -210,12 +214,10 @@ class Search {
   }
 
   /// Dimension 2: descends from the centre by damped Newton steps to the minimum whose basin holds it.
-  void descend(const Panel& s)
+  void descend(const Panel& s, Local l)
   {
     const double su = probe_.Lu, sv = probe_.Lv;  // scaled coordinates
     double u = s.u, v = s.v;
-    Local l = local_at(probe_, u, v);
-    ++evaluations_;
     for (int it = 0; it < 60; ++it) {
       const double a = l.huu / (su * su), b = l.huv / (su * sv), c = l.hvv / (sv * sv);
       const double mean = 0.5 * (a + c), dev = std::hypot(0.5 * (a - c), b), lowest = mean - dev;

@@ -1,11 +1,14 @@
 #include <hauberk/geometry/meridian.hpp>
 
+#include <Eigen/Core>
+
 namespace hauberk {
 
 namespace {
 
-/// Steps shorter than this are the last: the error that is left is of their third order.
-constexpr double last_step = 2e-6;
+/// Steps shorter than this are the last: the error of the angle that is left is of their third order, and
+/// distances know it to second order.
+constexpr double last_step = 1e-5;
 
 /// A first guess: exact for points on the ellipse, and to first order in their distance from it.
 void first_guess(double a, double b, double px, double py, double& c, double& s)
@@ -85,6 +88,94 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
   d.phi = (x - a * d.c) * d.nr + (y - b * d.s) * d.nz;
   d.k = a * b / (w * g + a * b * d.phi);  // kappa/(1 + kappa phi), kappa = ab/g^3
   return d;
+}
+
+template <std::size_t count>
+std::array<MeridianDistance, count> ellipse_distances(double a, double b, const std::array<double, count>& x,
+                                                      const std::array<double, count>& y)
+{
+  using Several = Eigen::Array<double, static_cast<int>(count), 1>;
+  const Several at_x = Eigen::Map<const Several>(x.data()), at_y = Eigen::Map<const Several>(y.data());
+  // As for one point, without a bracket: in the first quadrant there is one root with df < 0.
+  const double ab = a * b, e = a * a - b * b, least = -0.5 * std::min(a / b, b / a);
+  const Several px = at_x.abs() * a, py = at_y.abs() * b;
+  const Several qx = px / (a * a), qy = py / (b * b), qq = qx * qx + qy * qy, gx0 = b * qx, gy0 = a * qy;
+  const Several d = ((qq.sqrt() - 1.0) * ab * qq / (gx0 * gx0 + gy0 * gy0)).max(least);
+  Several c = qx * (b + d * a) * a, s = qy * (a + d * b) * b;
+  const Several length = (c * c + s * s).sqrt().inverse();
+  c *= length;
+  s *= length;
+  bool found = false;
+  for (int it = 0; it < 4 && !found; ++it) {
+    const Several bend = e * c * s, f = bend - px * s + py * c, df = e * (c * c - s * s) - px * c - py * s;
+    const Several m = -f * df, n = df * df + 0.5 * f * (f + 3.0 * bend), nn = 4.0 * n * n, mm = m * m;
+    const Several r = (nn + mm).inverse(), turn_c = (nn - mm) * r, turn_s = 4.0 * m * n * r;
+    const Several nc = turn_c * c - turn_s * s, ns = turn_c * s + turn_s * c;
+    c = nc;
+    s = ns;
+    // Not true where anything is not a number.
+    constexpr double outside = -1e-15;
+    found = (m.abs() < last_step * n && df < 0.0 && c > outside && s > outside).all();
+  }
+  std::array<MeridianDistance, count> out;
+  if (!found) {
+    for (std::size_t k = 0; k < count; ++k) out[k] = ellipse_distance(a, b, x[k], y[k]);
+    return out;
+  }
+  c = (at_x < 0.0).select(-c, c);
+  s = (at_y < 0.0).select(-s, s);
+  const Several gx = b * c, gy = a * s, w = gx * gx + gy * gy, g = w.sqrt(), r = g.inverse();
+  const Several nr = gx * r, nz = gy * r, phi = (at_x - a * c) * nr + (at_y - b * s) * nz;
+  const Several k = ab / (w * g + ab * phi);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto j = static_cast<Eigen::Index>(i);
+    out[i] = {phi[j], nr[j], nz[j], k[j], c[j], s[j]};
+  }
+  return out;
+}
+
+template std::array<MeridianDistance, 2> ellipse_distances(double, double, const std::array<double, 2>&,
+                                                           const std::array<double, 2>&);
+template std::array<MeridianDistance, 4> ellipse_distances(double, double, const std::array<double, 4>&,
+                                                           const std::array<double, 4>&);
+
+namespace {
+
+/// Fields around an ellipse for at most `n` points; what is missing of them is a copy of the first.
+template <std::size_t n>
+void some_fields_at(const Body& body, std::span<const PointField> points)
+{
+  std::array<double, n> rho{}, x{}, z{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3& p = *points[i < points.size() ? i : 0].p;
+    rho[i] = radius_of(p);
+    x[i] = rho[i] - body.R;
+    z[i] = p.z();
+  }
+  const std::array<MeridianDistance, n> found = ellipse_distances(body.r0, body.r1, x, z);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    *points[i].f = field_from_meridian(found[i], rho[i], *points[i].p);
+}
+
+}  // namespace
+
+void fields_at(const Body& body, std::span<const PointField> points)
+{
+  if (body.is_point() || body.kind == PrimitiveKind::circle_tube) {
+    for (const PointField& at : points) *at.f = field_at(body, *at.p);
+    return;
+  }
+  while (!points.empty()) {
+    const std::size_t count = std::min<std::size_t>(4, points.size());
+    const std::span<const PointField> some = points.first(count);
+    if (count == 1)
+      *some[0].f = field_at(body, *some[0].p);
+    else if (count == 2)
+      some_fields_at<2>(body, some);
+    else
+      some_fields_at<4>(body, some);
+    points = points.subspan(count);
+  }
 }
 
 FieldValue ball_field(double r0, const Vec3& p)

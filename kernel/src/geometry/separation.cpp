@@ -1,5 +1,5 @@
 #include <hauberk/geometry/closed_curve.hpp>
-#include <hauberk/geometry/panel_bound.hpp>
+#include <hauberk/geometry/panel_field.hpp>
 #include <hauberk/geometry/separation.hpp>
 
 #include <algorithm>
@@ -27,19 +27,19 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
   const double touching = rounding * (frame.a.norm() + frame.P->bound + frame.F->bound);
   Separation s;
   s.lower = s.upper = std::numeric_limits<double>::infinity();
-  std::vector<Panel> stack;
+  std::vector<PanelField> stack;
   stack.reserve(64);
-  constexpr int nu = 8;
-  constexpr int nv = dim == 2 ? 4 : 1;
-  for (int i = 0; i < nu; ++i) {
-    for (int j = 0; j < nv; ++j) {
-      stack.push_back({(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
-    }
+  const FirstPanels<dim> first(probe);
+  for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+    std::array<PanelField, 4> row = first.row(k);
+    fill_fields(*frame.F, row);
+    stack.insert(stack.end(), row.begin(), row.end());
   }
   while (!stack.empty()) {
-    const Panel panel = stack.back();
+    const PanelField panel = stack.back();
     stack.pop_back();
-    const PanelBound b = panel_bound(probe, panel, std::min(enough, tightness * s.upper) + shift);
+    const double needed = std::min(enough, tightness * s.upper);
+    const PanelBound b = panel_bound(probe, panel.s, panel.q, panel.f, needed + shift);
     ++s.evaluations;
     s.upper = std::min(s.upper, b.value - shift);
     if (s.upper <= 0.0) {
@@ -51,15 +51,14 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
       return s;
     }
     const double lower = b.bound - shift;
-    if (lower >= std::min(enough, tightness * s.upper) || panel.hu < smallest_panel ||
+    if (lower >= std::min(enough, tightness * s.upper) || panel.s.hu < smallest_panel ||
         s.evaluations >= most_evaluations) {
       s.lower = std::min(s.lower, lower);
       continue;
     }
-    Panel first, second;
-    split(probe, panel, first, second);
-    stack.push_back(second);
-    stack.push_back(first);
+    const std::array<PanelField, 2> half = split(probe, panel);
+    stack.push_back(half[1]);
+    stack.push_back(half[0]);
   }
   // Near contact the bounds are as sharp as rounding lets them be.
   if (s.lower > 0.0) s.lower = std::max(0.0, s.lower - touching);

@@ -65,7 +65,7 @@ class Assembler {
         const Body& B = m_.bodies[static_cast<std::size_t>(b)];
         const Vec3 cb = pj.position + pj.rotation * B.center;
         if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
-        for (const PairSide& side : pair_sides(A, B, settings_.formulation))
+        for (const PairSide& side : pair_sides(A, B, settings_))
           side.swapped ? evaluate_side(b, a, pj, pi, side, work) : evaluate_side(a, b, pi, pj, side, work);
       }
     }

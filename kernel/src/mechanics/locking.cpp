@@ -69,6 +69,7 @@ class Path {
     s.contact.quadrature = last                       ? schedule_.last_quadrature
                            : g_hat > schedule_.change ? Quadrature::rough
                                                       : Quadrature::fine;
+    if (!last && g_hat > schedule_.change) s.contact.sides = Sides::one;
     s.contact.threads = schedule_.threads;
     s.ccd = schedule_.ccd;
     s.target = schedule_.target;

@@ -1,6 +1,7 @@
 #include "facet_advancement.hpp"
 #include "track.hpp"
 
+#include <hauberk/geometry/panel_field.hpp>
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/motion/advancement.hpp>
 #include <hauberk/parallel.hpp>
@@ -37,7 +38,7 @@ class PairAdvance {
         count_(count),
         last_(count.evaluations + most_evaluations)
   {
-    open_.reserve(96);
+    open_.reserve(64);
   }
 
   /// Largest s <= limit such that the gap stays above `target`.
@@ -90,29 +91,27 @@ class PairAdvance {
   double certified(double tau, double target)
   {
     const Probe<dim> probe(frame_);
-    constexpr int nu = 8, nv = dim == 2 ? 4 : 1;
-    open_.clear();
-    for (int i = nu - 1; i >= 0; --i)
-      for (int j = nv - 1; j >= 0; --j)
-        open_.push_back({(2 * i + 1) * pi / nu, (2 * j + 1) * pi / nv, pi / nu, dim == 2 ? pi / nv : 0.0});
-    while (!open_.empty()) {
-      const Panel s = open_.back();
-      open_.pop_back();
-      const ProbePoint q = probe.at(s.u, s.v);
-      const FieldValue f = field_at(*frame_.F, q.p);
-      ++count_.evaluations;
-      if (f.m.phi - probe.offset - clearance_ < target) return 0.0;
-      Verdict verdict = look(probe, s, q, f, tau, target);
-      while (verdict == Verdict::too_long) {
-        tau *= 0.5;
-        if (tau < smallest_advance || count_.evaluations >= last_) return 0.0;
-        verdict = look(probe, s, q, f, tau, target);
+    const FirstPanels<dim> first(probe);
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+      std::array<PanelField, 4> row = first.row(k);
+      fill_fields(*frame_.F, row);
+      open_.assign(row.rbegin(), row.rend());
+      while (!open_.empty()) {
+        const PanelField p = open_.back();
+        open_.pop_back();
+        ++count_.evaluations;
+        if (p.f.m.phi - probe.offset - clearance_ < target) return 0.0;
+        Verdict verdict = look(probe, p.s, p.q, p.f, tau, target);
+        while (verdict == Verdict::too_long) {
+          tau *= 0.5;
+          if (tau < smallest_advance || count_.evaluations >= last_) return 0.0;
+          verdict = look(probe, p.s, p.q, p.f, tau, target);
+        }
+        if (verdict == Verdict::holds) continue;
+        const std::array<PanelField, 2> half = split(probe, p);
+        open_.push_back(half[1]);
+        open_.push_back(half[0]);
       }
-      if (verdict == Verdict::holds) continue;
-      Panel first, second;
-      split(probe, s, first, second);
-      open_.push_back(second);
-      open_.push_back(first);
     }
     return tau;
   }
@@ -219,8 +218,8 @@ class PairAdvance {
   const Track& tf_;
   double clearance_;
   SafeStep& count_;
-  long last_;                ///< evaluation after which to give up
-  std::vector<Panel> open_;  ///< panels still to be looked at
+  long last_;                     ///< evaluation after which to give up
+  std::vector<PanelField> open_;  ///< panels still to be looked at
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;

@@ -124,10 +124,10 @@ void expect_below_samples(int count, std::uint64_t seed)
     const double curved = curved_bound(probe, s, q, f, field);
     EXPECT_LE(curved, least + 1e-15) << i;
     better += curved > plain ? 1 : 0;
-    const PanelBound best = panel_bound(probe, s, std::numeric_limits<double>::infinity());
+    const PanelBound best = panel_bound(probe, s, q, f, std::numeric_limits<double>::infinity());
     EXPECT_EQ(best.value, f.m.phi);
     EXPECT_EQ(best.bound, plain);  // the centre alone fails: nothing dearer is tried
-    const PanelBound all = panel_bound(probe, s, f.m.phi);
+    const PanelBound all = panel_bound(probe, s, q, f, f.m.phi);
     EXPECT_LE(all.bound, least + 1e-15) << i;
     EXPECT_GE(all.bound, plain);
     if (F.is_tube()) continue;

@@ -17,9 +17,9 @@ struct PairSide {
   double share = 1.0;
 };
 
-/// The sides that make up the energy of a pair: the cheaper probe set; both, half each, for an arc between
-/// equals, so that labels do not matter. The difference of two curves is one side, which knows no order.
-std::span<const PairSide> pair_sides(const Body& A, const Body& B, Formulation formulation);
+/// The sides that make up the energy of a pair: the cheaper probe set; for an arc between equals as
+/// `settings.sides` says. The difference of two curves is one side, which knows no order.
+std::span<const PairSide> pair_sides(const Body& A, const Body& B, const ContactSettings& settings);
 
 /// Terms of one side by the formulation of `settings`, weight `share`.
 SideTerms side_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request,

@@ -30,6 +30,10 @@ enum class MinimaSearch { certified, sampled };
 /// 3e-5, at half the cost, for stages that only lead on to others. Lines cost little and are always fine.
 enum class Quadrature { fine, rough };
 
+/// Which of two equals an `arc` is integrated over: `both`, half each, so that labels do not matter; or
+/// `one`, the smaller ring, at half the cost, for stages that only lead on to others.
+enum class Sides { both, one };
+
 /// Activation distance and clearance, scaled by L.
 struct ContactSettings {
   Formulation formulation = Formulation::arc;
@@ -42,6 +46,7 @@ struct ContactSettings {
   /// quadratic over a panel; smaller ratios serve to measure it.
   double panel_ratio = 0.5;
   Quadrature quadrature = Quadrature::fine;
+  Sides sides = Sides::both;
   unsigned threads = 1;  ///< that evaluate pairs of a large scene; never changes a result
 };
 

@@ -27,6 +27,7 @@ struct Angle {
     }
     return turned(t);
   }
+  Angle reversed() const { return {c, -s}; }
   Angle turned(const Angle& by) const { return {c * by.c - s * by.s, s * by.c + c * by.s}; }
 
  private:

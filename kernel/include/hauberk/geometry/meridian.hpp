@@ -8,7 +8,9 @@
 #include <hauberk/geometry/body.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace hauberk {
 
@@ -28,6 +30,11 @@ struct MeridianDistance {
 /// thread safe. For points inside, `phi` is negative and exact as long as the point is closer to the curve
 /// than to its medial axis.
 MeridianDistance ellipse_distance(double a, double b, double x, double y);
+
+/// The same for two or four points at once, to rounding, in a little more than the time for one.
+template <std::size_t n>
+std::array<MeridianDistance, n> ellipse_distances(double a, double b, const std::array<double, n>& x,
+                                                  const std::array<double, n>& y);
 
 /// Signed distance of the point (rho, z) of the meridian half-plane to the body's profile.
 inline MeridianDistance meridian_distance(const Body& body, double rho, double z)
@@ -54,19 +61,38 @@ struct FieldValue {
 /// from the centre, the only place where the field is not smooth.
 FieldValue ball_field(double r0, const Vec3& p);
 
+/// The field at the point p from what is known in its meridian plane.
+inline FieldValue field_from_meridian(const MeridianDistance& m, double rho, const Vec3& p)
+{
+  FieldValue f;
+  f.rho = rho;
+  const double ex = p.x() / rho;
+  const double ey = p.y() / rho;
+  f.m = m;
+  f.n = Vec3(m.nr * ex, m.nr * ey, m.nz);
+  f.meridian = Vec3(-m.nz * ex, -m.nz * ey, m.nr);
+  f.azimuth = Vec3(-ey, ex, 0.0);
+  f.k_azimuth = m.nr / rho;
+  return f;
+}
+
+/// Distance of a point from the axis; not zero.
+inline double radius_of(const Vec3& p) { return std::max(std::sqrt(p.x() * p.x() + p.y() * p.y()), 1e-300); }
+
 inline FieldValue field_at(const Body& body, const Vec3& p)
 {
   if (body.is_point()) return ball_field(body.r0, p);
-  FieldValue f;
-  f.rho = std::max(std::sqrt(p.x() * p.x() + p.y() * p.y()), 1e-300);
-  const double ex = p.x() / f.rho;
-  const double ey = p.y() / f.rho;
-  f.m = meridian_distance(body, f.rho, p.z());
-  f.n = Vec3(f.m.nr * ex, f.m.nr * ey, f.m.nz);
-  f.meridian = Vec3(-f.m.nz * ex, -f.m.nz * ey, f.m.nr);
-  f.azimuth = Vec3(-ey, ex, 0.0);
-  f.k_azimuth = f.m.nr / f.rho;
-  return f;
+  const double rho = radius_of(p);
+  return field_from_meridian(meridian_distance(body, rho, p.z()), rho, p);
 }
+
+/// A point, and where its field goes.
+struct PointField {
+  const Vec3* p = nullptr;
+  FieldValue* f = nullptr;
+};
+
+/// field_at() for several points, to rounding: some at a time where each takes an iteration. Thread safe.
+void fields_at(const Body& body, std::span<const PointField> points);
 
 }  // namespace hauberk

@@ -176,15 +176,6 @@ inline std::array<Panel, 2> halves(const Panel& s, bool along_u)
   return out;
 }
 
-/// Splits the longer side of a panel in two.
-template <int dim>
-inline void split(const Probe<dim>& probe, const Panel& s, Panel& first, Panel& second)
-{
-  const std::array<Panel, 2> half = halves(s, dim == 1 || probe.Lu * s.hu >= probe.Lv * s.hv);
-  first = half[0];
-  second = half[1];
-}
-
 /// Which body of a pair probes the other: the one of the lower rank. A curve always does, as its field has no
 /// closed form; a surface does only where both are.
 inline int probe_rank(const Body& b) { return b.curve ? 0 : b.is_tube() ? 1 : 2; }

@@ -231,11 +231,4 @@ PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint
   return r;
 }
 
-template <int dim>
-PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, double needed)
-{
-  const ProbePoint q = probe.at(s.u, s.v);
-  return panel_bound(probe, s, q, field_at(*probe.f.F, q.p), needed);
-}
-
 }  // namespace hauberk

@@ -1,0 +1,104 @@
+#pragma once
+/// Panels with the field at their centres: what every search over a probe set looks at, some at a time.
+///
+/// The distance from an ellipse is an iteration whose operations wait for each other; for several points at
+/// once it takes little longer than for one. So centres are looked at in groups: the first panels row by row,
+/// later ones with the other half of what was split.
+
+#include <hauberk/geometry/panel_bound.hpp>
+
+#include <numbers>
+#include <span>
+
+namespace hauberk {
+
+/// A panel, its centre by angle and place, and the field there.
+struct PanelField {
+  Panel s;
+  Angle u, v;
+  ProbePoint q;
+  FieldValue f;
+};
+
+/// The field of a body for all of these panels, whose places `q` are known.
+template <typename Panels>
+void fill_fields(const Body& F, Panels& panels)
+{
+  std::array<PointField, 4> points;
+  static_assert(std::tuple_size_v<Panels> <= points.size());
+  for (std::size_t k = 0; k < panels.size(); ++k) points[k] = {&panels[k].q.p, &panels[k].f};
+  fields_at(F, std::span(points).first(panels.size()));
+}
+
+/// The first panels of a search, four at a time; from `turn` on, radians.
+template <int dim>
+class FirstPanels {
+ public:
+  static constexpr int across = dim == 2 ? 4 : 1, along = 8, rows = along * across / 4;
+
+  explicit FirstPanels(const Probe<dim>& probe, double turn = 0.0) : probe_(probe), turn_(turn)
+  {
+    for (int j = 0; dim == 2 && j < across; ++j) v_[static_cast<std::size_t>(j)] = Angle(center(j, across));
+  }
+
+  /// Row k, with places and without fields.
+  std::array<PanelField, 4> row(int k) const
+  {
+    std::array<PanelField, 4> out;
+    for (int j = 0; j < 4; ++j) {
+      PanelField& p = out[static_cast<std::size_t>(j)];
+      const int i = dim == 2 ? k : 4 * k + j;
+      p.s = {center(i, along), 0.0, std::numbers::pi / along, 0.0};
+      p.u = j > 0 && dim == 2 ? out[0].u : Angle(p.s.u);
+      if constexpr (dim == 2) {
+        p.s.v = center(j, across);
+        p.s.hv = std::numbers::pi / across;
+        p.v = v_[static_cast<std::size_t>(j)];
+      }
+      p.q = probe_.at(p.u, p.v);
+    }
+    return out;
+  }
+
+ private:
+  double center(int i, int count) const { return turn_ + (2 * i + 1) * std::numbers::pi / count; }
+
+  const Probe<dim>& probe_;
+  double turn_;
+  std::array<Angle, across> v_;
+};
+
+/// The halves of a panel along u or v, with places and without fields.
+template <int dim>
+std::array<PanelField, 2> located_halves(const Probe<dim>& probe, const PanelField& p, bool along_u)
+{
+  const std::array<Panel, 2> half = halves(p.s, along_u);
+  const Angle by(along_u ? half[0].hu : half[0].hv), back = by.reversed();
+  std::array<PanelField, 2> out;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Angle& turn = k == 0 ? back : by;
+    out[k].s = half[k];
+    out[k].u = along_u ? p.u.turned(turn) : p.u;
+    out[k].v = along_u ? p.v : p.v.turned(turn);
+    out[k].q = probe.at(out[k].u, out[k].v);
+  }
+  return out;
+}
+
+/// True where a panel is longer along u.
+template <int dim>
+bool longer_along_u(const Probe<dim>& probe, const Panel& s)
+{
+  return dim == 1 || probe.Lu * s.hu >= probe.Lv * s.hv;
+}
+
+/// The halves of a panel along its longer side, with their fields.
+template <int dim>
+std::array<PanelField, 2> split(const Probe<dim>& probe, const PanelField& p)
+{
+  std::array<PanelField, 2> out = located_halves(probe, p, longer_along_u(probe, p.s));
+  fill_fields(*probe.f.F, out);
+  return out;
+}
+
+}  // namespace hauberk

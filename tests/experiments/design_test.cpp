@@ -63,6 +63,31 @@ TEST(Design, PlainValuesMoveTheLimitToItsTarget)
   EXPECT_NEAR(number_at(plain, "/limits/0/value"), number_at(less, "/limits/0/value"), 3e-3);
 }
 
+TEST(Design, EachSearchEndsWithTheFirstIterateThatMeetsItsTargets)
+{
+  constexpr double tolerance = 0.02;
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", design_text());
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "on"}).code, 0);
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/design/tolerance=0.02"}).code, 0);
+  const json::value on = read_results(folder / "on"), r = read_results(folder / "out");
+  const json::value& d = r.at("design");
+  EXPECT_EQ(d.at("status").as_string(), "targets_met");
+  EXPECT_NE(on.at_pointer("/design/status").as_string(), "targets_met");
+  const json::array& history = d.at("history").as_array();
+  EXPECT_LT(history.size(), on.at_pointer("/design/history").as_array().size());
+  const double target = number_at(d, "/targets/0/target");
+  int searches = 0;
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    const bool last = k + 1 == history.size() || number_at(history[k + 1], "/step") == 0.0;
+    const double value = number_at(history[k], "/values/0");
+    EXPECT_EQ(std::abs(value - target) <= tolerance * target, last) << k << ": " << value;
+    searches += last ? 1 : 0;
+  }
+  EXPECT_EQ(searches, 2);
+  EXPECT_NEAR(number_at(d, "/targets/0/recomputed"), target, 2.0 * tolerance * target);
+}
+
 TEST(Design, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

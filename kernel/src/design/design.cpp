@@ -24,9 +24,9 @@ class Recorder final : public OptimizerObserver {
  public:
   Recorder(DesignProblem& problem, const DesignSpec& design, int start, const DesignObserver& observer)
       : problem_(problem),
+        design_(design),
         tasks_(target_tasks(design)),
         start_(start),
-        starts_(design.starts),
         observer_(observer),
         t0_(std::chrono::steady_clock::now())
   {
@@ -52,17 +52,29 @@ class Recorder final : public OptimizerObserver {
                                       task.sense == Sense::positive ? senses.first : senses.second));
     }
     history.push_back(d);
-    if (!observer_({start_, starts_, &history.back()})) interrupted = true;
-    return !interrupted;
+    if (!observer_({start_, design_.starts, &history.back()})) interrupted = true;
+    targets_met = all_met(p.values);
+    return !interrupted && !targets_met;
   }
 
   std::vector<DesignIterate> history;
-  bool interrupted = false;
+  bool interrupted = false, targets_met = false;
 
  private:
+  bool all_met(const std::vector<double>& values) const
+  {
+    if (!design_.tolerance || values.size() != design_.targets.size()) return false;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double target = design_.targets[k].value;
+      if (!(std::abs(values[k] - target) <= *design_.tolerance * std::abs(target))) return false;
+    }
+    return true;
+  }
+
   DesignProblem& problem_;
+  const DesignSpec& design_;
   std::vector<LimitTask> tasks_;
-  int start_, starts_;
+  int start_;
   const DesignObserver& observer_;
   std::chrono::steady_clock::time_point t0_;
 };
@@ -152,6 +164,10 @@ Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer&
   s.found = optimizer.minimize(problem, x0, recorder);
   s.history = std::move(recorder.history);
   s.interrupted = recorder.interrupted;
+  if (recorder.targets_met && !s.interrupted) {
+    s.found.status = "targets_met";
+    s.found.message = "every target is met to within design.tolerance";
+  }
   // The best point may not be the last accepted one.
   if (!s.history.empty() && problem.evaluate(s.found.x, false).ok) problem.accept(s.found.x);
   return s;

@@ -127,8 +127,7 @@ class DesignRun {
     history_.back().iteration += first_;
     keep_best(p);
     output_.write_sometimes(run_);
-    targets_met_ = fine_ && experiment_.design->tolerance && all_met(*p.iterate);
-    return !interrupted() && !targets_met_;
+    return !interrupted();
   }
 
   /// Enters the iterate into the partial results if it is the best of its search.
@@ -145,15 +144,6 @@ class DesignRun {
     d.history = history_;
     d.start = p.start;
     d.iterations = history_.back().iteration;
-  }
-
-  bool all_met(const DesignIterate& it) const
-  {
-    for (std::size_t k = 0; k < it.values.size(); ++k) {
-      const double target = spec_.targets[k].value;
-      if (std::abs(it.values[k] - target) > *experiment_.design->tolerance * std::abs(target)) return false;
-    }
-    return !it.values.empty();
   }
 
   void search()
@@ -186,9 +176,6 @@ class DesignRun {
     if (interrupted()) {
       d.status = "interrupted";
       d.message = partial.message;
-    } else if (targets_met_) {
-      d.status = "targets_met";
-      d.message = "every target is met to within design.tolerance";
     }
     d.objective = std::numeric_limits<double>::quiet_NaN();  // until limits are recomputed
     output_.write_partial(run_);
@@ -237,7 +224,6 @@ class DesignRun {
   int start_ = -1;
   bool fine_ = false;  ///< the best design is being continued with final stages
   double best_ = std::numeric_limits<double>::infinity();
-  bool targets_met_ = false;
 };
 
 }  // namespace

@@ -54,6 +54,7 @@ DesignSpec design_spec(const Experiment& experiment)
   design.perturbation = from.perturbation;
   design.seed = experiment.seed;
   design.schedule = design_schedule();
+  design.tolerance = from.tolerance;
   return design;
 }
 

@@ -47,6 +47,8 @@ struct DesignSpec {
   /// Activation distance that ends the stages of the first search, from every start. Limits at a coarse
   /// stage are smooth functions of the parameters, on the scale of its gaps, where exact ones have kinks.
   double coarse_last = 3e-3;
+  /// Each search ends once every value is within this fraction of its target.
+  std::optional<double> tolerance;
 };
 
 /// What the observer is told. Called from one thread.

@@ -1,6 +1,7 @@
 /// Derivatives of the contact energy in all unknowns and parameters, for every formulation and all pairs of
 /// primitive kinds: central differences at several step sizes must converge with second order.
 
+#include <hauberk/contact/body_pair.hpp>
 #include <hauberk/mechanics/equilibrium.hpp>
 
 #include "scenes.hpp"
@@ -14,6 +15,14 @@ struct Case {
   const char* name;
   Formulation formulation;
   double r1_first, r1_second;  ///< r0 = 0.7
+  Sides sides = Sides::both;
+
+  ContactSettings settings(double clearance) const
+  {
+    ContactSettings s{formulation, 0.25, clearance};
+    s.sides = sides;
+    return s;
+  }
 };
 
 class Derivatives : public ::testing::TestWithParam<Case> {};
@@ -37,7 +46,7 @@ TEST_P(Derivatives, GradientAndHessian)
   const Model m = make_model(spec, load, 0.01);
   std::mt19937_64 rng(7);
   std::normal_distribution<double> normal;
-  ContactSettings settings{c.formulation, 0.25, m.clearance};
+  const ContactSettings settings = c.settings(m.clearance);
   double largest = 0.0;
   for (int trial = 0; trial < 4; ++trial) {
     Vector dy(m.dofs());
@@ -76,7 +85,7 @@ TEST_P(Derivatives, HessianColumns)
   const Case& c = GetParam();
   const Sheet load(3);
   const Model m = make_model(chain({5, 0.7, c.r1_first}, {4.6, 0.7, c.r1_second}, 15.5), load, 0.01);
-  const ContactSettings settings{c.formulation, 0.25, m.clearance};
+  const ContactSettings settings = c.settings(m.clearance);
   std::mt19937_64 rng(11);
   std::normal_distribution<double> normal;
   Vector dy(m.dofs());
@@ -112,7 +121,7 @@ TEST_P(Derivatives, ParametersAndClearance)
   for (int k = 0; k < m.dofs(); ++k) dy[k] = 0.01 * normal(rng);
   const State s = advanced(m, rest_state(m), dy, 1.0);
   const auto pairs = near_pairs(m, s, 1.0);
-  const ContactSettings settings{c.formulation, 0.25, m.clearance};
+  const ContactSettings settings = c.settings(m.clearance);
   const ContactEnergy e = contact_energy(m, s, pairs, settings, {1, true, false});
   const double scale = e.parameters.norm();
   ASSERT_GT(scale, 1e-3);
@@ -192,11 +201,41 @@ TEST(Objective, FiniteTarget)
   EXPECT_EQ(total_energy(m, s, t, stage, {}, 0).energy, -t.dot(s.macro));
 }
 
+/// One side is the smaller ring's, whatever its label; both sides are the mean of it and of the other one.
+TEST(Sides, OneIsTheSmallerRingsAndBothAreTheMean)
+{
+  for (const double high : {0.15, 0.2}) {
+    Primitive small, large;
+    small.kind = large.kind = high == 0.15 ? PrimitiveKind::circle_tube : PrimitiveKind::revolved_ellipse;
+    small.size = {0.9, 0.15, high};
+    large.size = {1.0, 0.15, high};
+    const Body a = make_body(small, 0, 0, 1.0), b = make_body(large, 1, 0, 1.0);
+    Pose at;
+    at.position = Vec3(1.55, 0.03, 0.05);
+    at.rotation = Eigen::AngleAxisd(1.4, Vec3(1.0, 0.2, 0.1).normalized()).toRotationMatrix();
+    ContactSettings settings{Formulation::arc, 0.1, 0.0};
+    const auto energy = [&settings](const Body& first, const Pose& p, const Body& second, const Pose& q) {
+      return pair_contact(first, p, second, q, settings, 0).terms.energy;
+    };
+    const Request request{0, false, false};
+    const double over_small = side_terms(PairFrame(a, Pose{}, b, at), settings, request, 1.0).energy;
+    const double over_large = side_terms(PairFrame(b, at, a, Pose{}), settings, request, 1.0).energy;
+    ASSERT_GT(over_small, 0.0);
+    ASSERT_GT(std::abs(over_small - over_large), 1e-3 * over_small);
+    EXPECT_NEAR(energy(a, Pose{}, b, at), 0.5 * (over_small + over_large), 1e-14 * over_small);
+    settings.sides = Sides::one;
+    EXPECT_EQ(energy(a, Pose{}, b, at), over_small);
+    EXPECT_EQ(energy(b, at, a, Pose{}), over_small);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Pairs, Derivatives,
     ::testing::Values(Case{"arc_circle_circle", Formulation::arc, 0.7, 0.7},
                       Case{"arc_circle_ellipse", Formulation::arc, 0.7, 0.95},
                       Case{"arc_ellipse_ellipse", Formulation::arc, 0.5, 0.95},
+                      Case{"arc_over_one_circle", Formulation::arc, 0.7, 0.7, Sides::one},
+                      Case{"arc_over_one_ellipse", Formulation::arc, 0.5, 0.95, Sides::one},
                       Case{"nearest_circle_circle", Formulation::nearest, 0.7, 0.7},
                       Case{"nearest_circle_ellipse", Formulation::nearest, 0.7, 0.95},
                       Case{"nearest_ellipse_ellipse", Formulation::nearest, 0.5, 0.95},

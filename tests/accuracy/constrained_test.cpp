@@ -68,6 +68,22 @@ TEST(Constrained, AgreesWithTheBarriersAndTheirForcesAndSensitivities)
               1e-4 * std::abs(*barrier.sensitivity_clearance));
 }
 
+/// Compressed along a lattice direction the symmetric state of the threefold element is a saddle (-0.06095), at
+/// which forces balance: an unperturbed start runs into it.
+TEST(Constrained, LeavesASaddle)
+{
+  LimitSettings settings = constrained();
+  settings.perturbation = 0.0;
+  const LimitResult r = limit(test::threefold_round(), 90.0, Sense::negative, settings);
+  ASSERT_EQ(r.status, LimitStatus::locked) << r.message;
+  EXPECT_EQ(r.message, "");
+  EXPECT_LT(*r.value, -0.0629);
+  settings.perturbation = 1e-3;
+  const LimitResult perturbed = limit(test::threefold_round(), 90.0, Sense::negative, settings);
+  ASSERT_EQ(perturbed.status, LimitStatus::locked) << perturbed.message;
+  EXPECT_NEAR(*r.value, *perturbed.value, 1e-8);
+}
+
 /// Steps are no longer than half a tube is thick, so that none passes through another: too short for
 /// hair-thin ones.
 TEST(Constrained, SaysWhereItDoesNotConverge)

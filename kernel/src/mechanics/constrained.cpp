@@ -24,6 +24,12 @@ constexpr double penalty_of_force = 1.5;  ///< penalty of a violation over the l
 constexpr double enough = 1e-4;           ///< part of the predicted improvement that a step must bring
 constexpr std::size_t remembered = 5;  ///< values of the penalty function; curved gaps make it rise at times
 constexpr int most_halvings = 19;      ///< of a step
+constexpr int most_escapes = 10;       ///< saddles left in one solve
+/// Steps of Newton's method that tests for a saddle, and the gain (of the value) after which it has left one.
+constexpr int steps_of_test = 300;
+constexpr double left_behind = 1e-3;
+/// A state further by more than so many times what the margin takes is further than the limit would be.
+constexpr double beyond_limit = 2.0;
 
 /// A gap or wall with its scaled gradient.
 struct Row {
@@ -57,6 +63,7 @@ class Search {
          const KeepGoing& keep_going)
       : m_(m),
         load_(load),
+        schedule_(schedule),
         most_iterations_(schedule.most_iterations),
         keep_going_(keep_going),
         margin_(constrained_margin(schedule)),
@@ -90,8 +97,11 @@ class Search {
       residual_ = (now_.gradient - now_.normals().transpose() * forces_).norm();
       const double to_gain =
           std::abs(now_.gradient.dot(step.x));  // by gaps that press and are wider than the margin
-      if (residual_ < balanced && std::max(now_.worst, to_gain) < std::max(kept * margin_, rounding))
-        return finish(LockStatus::locked, "");
+      if (residual_ < balanced && std::max(now_.worst, to_gain) < std::max(kept * margin_, rounding)) {
+        if (!leaves_saddle(fresh)) return finish(LockStatus::locked, untested_);
+        if (++escapes_ > most_escapes) return stalled("one saddle after the other");
+        continue;
+      }
       if (out_.iterations >= most_iterations_) return stalled("no balance of forces");
       const double norm = step.x.norm();
       const Vector d = norm > longest_ ? Vector(longest_ / norm * step.x) : step.x;
@@ -206,6 +216,41 @@ class Search {
     return out;
   }
 
+  /// Balanced forces may belong to a saddle. A barrier as narrow as the margin has its minimum next to a
+  /// limit; from a saddle its Newton's method goes on along the negative curvature, and the search goes on
+  /// from there.
+  bool leaves_saddle(bool& fresh)
+  {
+    Stage stage = out_.stage;
+    stage.contact.g_hat = 10.0 * margin_;
+    stage.ccd = CollisionCheck::certified;
+    stage.mu = schedule_.stiffness * stage.contact.g_hat * size_;
+    stage.tolerance = schedule_.tolerance;
+    stage.most_iterations = schedule_.most_iterations;
+    State state = now_.state;
+    const auto gain = [&] { return load_.dot(state.macro - now_.state.macro) / size_; };
+    int steps = 0;
+    const StageResult r = solve_stage(m_, state, load_, stage, [&] {
+      return keep_going_() && steps++ < steps_of_test && gain() < left_behind;
+    });
+    out_.evaluations += r.evaluations;
+    if (gain() <= beyond_limit * margin_ * forces_.sum()) {
+      if (r.status != StageStatus::minimum) {
+        untested_ = fmt::format("whether it is a saddle is not known: {} in {} Newton steps", r.message,
+                                r.iterations);
+      }
+      return false;
+    }
+    out_.iterations += r.iterations;
+    most_iterations_ += r.iterations;
+    now_ = at(std::move(state));
+    forces_ = Vector::Zero(static_cast<Eigen::Index>(now_.rows.size()));
+    past_.clear();
+    bfgs_.reset(m_.dofs(), 1.0);
+    fresh = true;
+    return true;
+  }
+
   bool runaway() const
   {
     const auto [lo, hi] =
@@ -285,6 +330,7 @@ class Search {
 
   const Model& m_;
   const Vector& load_;
+  const Schedule& schedule_;
   int most_iterations_;
   const KeepGoing& keep_going_;
   double margin_, size_;
@@ -294,6 +340,8 @@ class Search {
   DampedBfgs bfgs_;
   Vector forces_;  ///< multipliers, of the load's norm
   double residual_ = 0.0, penalty_ = 0.0;
+  int escapes_ = 0;
+  std::string untested_;                        ///< why nothing is known of the second order
   std::deque<std::pair<double, double>> past_;  ///< objective and violation
   Locked out_;
 };

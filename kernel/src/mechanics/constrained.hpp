@@ -18,8 +18,9 @@ namespace hauberk {
 /// is constrained_margin; forces are the multipliers, and margin times their sum is the error estimate.
 ///
 /// Surfaces may overlap on the way, by less than half of the thinnest tube; steps are shorter than that too,
-/// and keep every link. Nothing is certified, and no second-order condition is tested: what is `locked` is a
-/// point where forces balance. Dense: for up to some hundred unknowns. Thread safe; deterministic.
+/// and keep every link. Nothing is certified. Where forces balance, a barrier as narrow as the margin tests
+/// for a saddle, and leaves it; where it does not get there, `message` says so. Dense: for up to some hundred
+/// unknowns. Thread safe; deterministic.
 Locked constrained_lock(const Model& model, const State& start, const Vector& load, const Schedule& schedule,
                         const KeepGoing& keep_going);
 

@@ -68,8 +68,8 @@ TEST(Constrained, AgreesWithTheBarriersAndTheirForcesAndSensitivities)
               1e-4 * std::abs(*barrier.sensitivity_clearance));
 }
 
-/// Compressed along a lattice direction the symmetric state of the threefold element is a saddle (-0.06095), at
-/// which forces balance: an unperturbed start runs into it.
+/// Compressed along a lattice direction the symmetric state of the threefold element is a saddle (-0.06095),
+/// at which forces balance: an unperturbed start runs into it.
 TEST(Constrained, LeavesASaddle)
 {
   LimitSettings settings = constrained();

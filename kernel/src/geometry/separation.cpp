@@ -19,50 +19,65 @@ constexpr double pi = std::numbers::pi;
 /// Gaps below this part of the lengths they are the difference of are none: rounding decides their sign.
 constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
+/// Branch and bound over the panels of one frame.
+template <int dim>
+class PanelSearch {
+ public:
+  PanelSearch(const PairFrame& frame, double clearance, double enough, double tightness)
+      : probe_(frame),
+        shift_(probe_.offset + clearance),
+        touching_(rounding * (frame.a.norm() + frame.P->bound + frame.F->bound)),
+        enough_(enough),
+        tightness_(tightness)
+  {
+    found_.lower = found_.upper = std::numeric_limits<double>::infinity();
+  }
+
+  Separation run()
+  {
+    const FirstPanels<dim> first(probe_);
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+      std::array<PanelField, 4> row = first.row(k);
+      fill_fields(*probe_.f.F, row);
+      for (const PanelField& p : row)
+        if (!visit(p)) return found_;
+    }
+    // Near contact the bounds are as sharp as rounding lets them be.
+    if (found_.lower > 0.0) found_.lower = std::max(0.0, found_.lower - touching_);
+    return found_;
+  }
+
+ private:
+  double needed() const { return std::min(enough_, tightness_ * found_.upper); }
+
+  /// False where the search is over: the bodies touch.
+  bool visit(const PanelField& p)
+  {
+    const PanelBound b = panel_bound(probe_, p.s, p.q, p.f, needed() + shift_);
+    ++found_.evaluations;
+    found_.upper = std::min(found_.upper, b.value - shift_);
+    if (found_.upper <= touching_) {
+      found_.lower = std::min(found_.upper, 0.0);
+      return false;
+    }
+    const double lower = b.bound - shift_;
+    if (lower >= needed() || p.s.hu < smallest_panel || found_.evaluations >= most_evaluations) {
+      found_.lower = std::min(found_.lower, lower);
+      return true;
+    }
+    const std::array<PanelField, 2> half = split(probe_, p);
+    return visit(half[0]) && visit(half[1]);
+  }
+
+  Probe<dim> probe_;
+  double shift_, touching_, enough_, tightness_;
+  Separation found_;
+};
+
 template <int dim>
 Separation bound_over_panels(const PairFrame& frame, double clearance, double enough, double tightness)
 {
-  const Probe<dim> probe(frame);
-  const double shift = probe.offset + clearance;
-  const double touching = rounding * (frame.a.norm() + frame.P->bound + frame.F->bound);
-  Separation s;
-  s.lower = s.upper = std::numeric_limits<double>::infinity();
-  std::vector<PanelField> stack;
-  stack.reserve(64);
-  const FirstPanels<dim> first(probe);
-  for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
-    std::array<PanelField, 4> row = first.row(k);
-    fill_fields(*frame.F, row);
-    stack.insert(stack.end(), row.begin(), row.end());
-  }
-  while (!stack.empty()) {
-    const PanelField panel = stack.back();
-    stack.pop_back();
-    const double needed = std::min(enough, tightness * s.upper);
-    const PanelBound b = panel_bound(probe, panel.s, panel.q, panel.f, needed + shift);
-    ++s.evaluations;
-    s.upper = std::min(s.upper, b.value - shift);
-    if (s.upper <= 0.0) {
-      s.lower = s.upper;
-      return s;
-    }
-    if (s.upper <= touching) {
-      s.lower = 0.0;
-      return s;
-    }
-    const double lower = b.bound - shift;
-    if (lower >= std::min(enough, tightness * s.upper) || panel.s.hu < smallest_panel ||
-        s.evaluations >= most_evaluations) {
-      s.lower = std::min(s.lower, lower);
-      continue;
-    }
-    const std::array<PanelField, 2> half = split(probe, panel);
-    stack.push_back(half[1]);
-    stack.push_back(half[0]);
-  }
-  // Near contact the bounds are as sharp as rounding lets them be.
-  if (s.lower > 0.0) s.lower = std::max(0.0, s.lower - touching);
-  return s;
+  return PanelSearch<dim>(frame, clearance, enough, tightness).run();
 }
 
 /// Corners of a polygon that is nowhere farther than `near` from the core of a body, world frame.

@@ -38,7 +38,6 @@ class PairAdvance {
         count_(count),
         last_(count.evaluations + most_evaluations)
   {
-    open_.reserve(64);
   }
 
   /// Largest s <= limit such that the gap stays above `target`.
@@ -95,25 +94,26 @@ class PairAdvance {
     for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
       std::array<PanelField, 4> row = first.row(k);
       fill_fields(*frame_.F, row);
-      open_.assign(row.rbegin(), row.rend());
-      while (!open_.empty()) {
-        const PanelField p = open_.back();
-        open_.pop_back();
-        ++count_.evaluations;
-        if (p.f.m.phi - probe.offset - clearance_ < target) return 0.0;
-        Verdict verdict = look(probe, p.s, p.q, p.f, tau, target);
-        while (verdict == Verdict::too_long) {
-          tau *= 0.5;
-          if (tau < smallest_advance || count_.evaluations >= last_) return 0.0;
-          verdict = look(probe, p.s, p.q, p.f, tau, target);
-        }
-        if (verdict == Verdict::holds) continue;
-        const std::array<PanelField, 2> half = split(probe, p);
-        open_.push_back(half[1]);
-        open_.push_back(half[0]);
-      }
+      for (const PanelField& p : row)
+        if (!holds(probe, p, tau, target)) return 0.0;
     }
     return tau;
+  }
+
+  /// True where a panel holds for the time tau, which it may halve.
+  bool holds(const Probe<dim>& probe, const PanelField& p, double& tau, double target)
+  {
+    ++count_.evaluations;
+    if (p.f.m.phi - probe.offset - clearance_ < target) return false;
+    Verdict verdict = look(probe, p.s, p.q, p.f, tau, target);
+    while (verdict == Verdict::too_long) {
+      tau *= 0.5;
+      if (tau < smallest_advance || count_.evaluations >= last_) return false;
+      verdict = look(probe, p.s, p.q, p.f, tau, target);
+    }
+    if (verdict == Verdict::holds) return true;
+    const std::array<PanelField, 2> half = split(probe, p);
+    return holds(probe, half[0], tau, target) && holds(probe, half[1], tau, target);
   }
 
   enum class Verdict { holds, too_wide, too_long };
@@ -218,8 +218,7 @@ class PairAdvance {
   const Track& tf_;
   double clearance_;
   SafeStep& count_;
-  long last_;                     ///< evaluation after which to give up
-  std::vector<PanelField> open_;  ///< panels still to be looked at
+  long last_;  ///< evaluation after which to give up
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;

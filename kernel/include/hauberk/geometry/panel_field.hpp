@@ -24,6 +24,10 @@ struct PanelField {
 template <typename Panels>
 void fill_fields(const Body& F, Panels& panels)
 {
+  if (F.is_point() || F.is_tube()) {
+    for (PanelField& p : panels) p.f = field_at(F, p.q.p);
+    return;
+  }
   std::array<PointField, 4> points;
   static_assert(std::tuple_size_v<Panels> <= points.size());
   for (std::size_t k = 0; k < panels.size(); ++k) points[k] = {&panels[k].q.p, &panels[k].f};

@@ -36,11 +36,11 @@ class PanelSearch {
   Separation run()
   {
     const FirstPanels<dim> first(probe_);
-    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+    for (int k = FirstPanels<dim>::rows; k-- > 0;) {
       std::array<PanelField, 4> row = first.row(k);
       fill_fields(*probe_.f.F, row);
-      for (const PanelField& p : row)
-        if (!visit(p)) return found_;
+      for (std::size_t j = row.size(); j-- > 0;)
+        if (!visit(row[j])) return found_;
     }
     // Near contact the bounds are as sharp as rounding lets them be.
     if (found_.lower > 0.0) found_.lower = std::max(0.0, found_.lower - touching_);

@@ -98,7 +98,10 @@ class Search {
       const double to_gain =
           std::abs(now_.gradient.dot(step.x));  // by gaps that press and are wider than the margin
       if (residual_ < balanced && std::max(now_.worst, to_gain) < std::max(kept * margin_, rounding)) {
-        if (!leaves_saddle(fresh)) return finish(LockStatus::locked, untested_);
+        if (!leaves_saddle(fresh)) {
+          return keep_going_() ? finish(LockStatus::locked, untested_)
+                               : finish(LockStatus::interrupted, "interrupted");
+        }
         if (++escapes_ > most_escapes) return stalled("one saddle after the other");
         continue;
       }

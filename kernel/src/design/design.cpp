@@ -19,6 +19,9 @@ double seconds_since(std::chrono::steady_clock::time_point t0)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
 }
 
+/// Violation of a constraint (L) that counts as none.
+constexpr double negligible_violation = 1e-6;
+
 /// Records every iterate and passes it on.
 class Recorder final : public OptimizerObserver {
  public:
@@ -53,14 +56,13 @@ class Recorder final : public OptimizerObserver {
     }
     history.push_back(d);
     if (!observer_({start_, design_.starts, &history.back()})) interrupted = true;
-    targets_met = all_met(p.values);
+    targets_met = it.constraint_violation <= negligible_violation && all_met(p.values);
     return !interrupted && !targets_met;
   }
 
   std::vector<DesignIterate> history;
   bool interrupted = false, targets_met = false;
 
- private:
   bool all_met(const std::vector<double>& values) const
   {
     if (!design_.tolerance || values.size() != design_.targets.size()) return false;
@@ -71,6 +73,7 @@ class Recorder final : public OptimizerObserver {
     return true;
   }
 
+ private:
   DesignProblem& problem_;
   const DesignSpec& design_;
   std::vector<LimitTask> tasks_;
@@ -164,12 +167,12 @@ Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer&
   s.found = optimizer.minimize(problem, x0, recorder);
   s.history = std::move(recorder.history);
   s.interrupted = recorder.interrupted;
-  if (recorder.targets_met && !s.interrupted) {
+  // The best point may not be the last accepted one.
+  if (!s.history.empty() && problem.evaluate(s.found.x, false).ok) problem.accept(s.found.x);
+  if (recorder.targets_met && !s.interrupted && recorder.all_met(problem.current().values)) {
     s.found.status = "targets_met";
     s.found.message = "every target is met to within design.tolerance";
   }
-  // The best point may not be the last accepted one.
-  if (!s.history.empty() && problem.evaluate(s.found.x, false).ok) problem.accept(s.found.x);
   return s;
 }
 

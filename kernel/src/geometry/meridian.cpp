@@ -6,9 +6,16 @@ namespace hauberk {
 
 namespace {
 
-/// Steps shorter than this are the last: the error of the angle that is left is of their third order, and
-/// distances know it to second order.
+/// Newton steps shorter than this are the last: the error of the angle that is left is of their third order,
+/// and distances know it to second order.
 constexpr double last_step = 1e-5;
+/// Ellipses flatter than this take as much shorter ones, as the third order grows.
+constexpr double flat = 0.2;
+
+double last_step_for(double a, double b)
+{
+  return last_step * std::min(1.0, std::min(a, b) / (flat * std::max(a, b)));
+}
 
 /// A first guess: exact for points on the ellipse, and to first order in their distance from it.
 void first_guess(double a, double b, double px, double py, double& c, double& s)
@@ -41,11 +48,13 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
   double c = 1.0, s = 0.0;
   first_guess(a, b, px, py, c, s);
   constexpr int limit = 60;
+  const double last = last_step_for(a, b);
   for (int it = 0; it < limit; ++it) {
     const double bend = e * c * s;
     const double f = bend - px * a * s + py * b * c;
     const double df = e * (c * c - s * s) - px * a * c - py * b * s;
-    if (f > 0.0) {
+    // On the axis, inside of the evolute, the end of the bracket is a root that is no closest point.
+    if (f > 0.0 || (f == 0.0 && s == 0.0 && df > 0.0)) {
       lc = c;
       ls = s;
     } else {
@@ -72,7 +81,7 @@ MeridianDistance ellipse_distance(double a, double b, double x, double y)
       nc /= q;
       ns /= q;
     }
-    const bool done = inside ? std::abs(m) < last_step * n : std::abs(nc - c) + std::abs(ns - s) < 4e-16;
+    const bool done = inside ? std::abs(f) < -last * df : std::abs(nc - c) + std::abs(ns - s) < 4e-16;
     c = nc;
     s = ns;
     if (done) break;
@@ -105,6 +114,7 @@ std::array<MeridianDistance, count> ellipse_distances(double a, double b, const 
   const Several length = (c * c + s * s).sqrt().inverse();
   c *= length;
   s *= length;
+  const double last = last_step_for(a, b);
   bool found = false;
   for (int it = 0; it < 4 && !found; ++it) {
     const Several bend = e * c * s, f = bend - px * s + py * c, df = e * (c * c - s * s) - px * c - py * s;
@@ -115,7 +125,7 @@ std::array<MeridianDistance, count> ellipse_distances(double a, double b, const 
     s = ns;
     // Not true where anything is not a number.
     constexpr double outside = -1e-15;
-    found = (m.abs() < last_step * n && df < 0.0 && c > outside && s > outside).all();
+    found = (f.abs() < -last * df && c > outside && s > outside).all();
   }
   std::array<MeridianDistance, count> out;
   if (!found) {

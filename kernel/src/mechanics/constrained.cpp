@@ -24,7 +24,7 @@ constexpr double penalty_of_force = 1.5;  ///< penalty of a violation over the l
 constexpr double enough = 1e-4;           ///< part of the predicted improvement that a step must bring
 constexpr std::size_t remembered = 5;  ///< values of the penalty function; curved gaps make it rise at times
 constexpr int most_halvings = 19;      ///< of a step
-constexpr int most_escapes = 10;       ///< saddles left in one solve
+constexpr int most_escapes = 5;        ///< saddles left in one solve
 /// Steps of Newton's method that tests for a saddle, and the gain (of the value) after which it has left one.
 constexpr int steps_of_test = 300;
 constexpr double left_behind = 1e-3;
@@ -239,8 +239,7 @@ class Search {
     out_.evaluations += r.evaluations;
     if (gain() <= beyond_limit * margin_ * forces_.sum()) {
       if (r.status != StageStatus::minimum) {
-        untested_ = fmt::format("whether it is a saddle is not known: {} in {} Newton steps", r.message,
-                                r.iterations);
+        untested_ = fmt::format("whether it is a saddle is not known after {} Newton steps", r.iterations);
       }
       return false;
     }

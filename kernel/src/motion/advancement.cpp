@@ -13,7 +13,6 @@
 namespace hauberk {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advances are not worth their cost
 constexpr int most_advances = 4000;
 constexpr double smallest_panel = 1e-9;  ///< radians

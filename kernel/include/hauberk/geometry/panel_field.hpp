@@ -7,6 +7,7 @@
 
 #include <hauberk/geometry/panel_bound.hpp>
 
+#include <array>
 #include <numbers>
 #include <span>
 

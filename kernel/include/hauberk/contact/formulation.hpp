@@ -31,7 +31,7 @@ enum class MinimaSearch { certified, sampled };
 enum class Quadrature { fine, rough };
 
 /// Which of two equals an `arc` is integrated over: `both`, half each, so that labels do not matter; or
-/// `one`, the smaller ring, at half the cost, for stages that only lead on to others.
+/// `one`, the smaller ring (of two as large the first), at half the cost, for stages that only lead on.
 enum class Sides { both, one };
 
 /// Activation distance and clearance, scaled by L.

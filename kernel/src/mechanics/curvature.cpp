@@ -141,10 +141,7 @@ class SparseCurvature final : public Curvature {
     double shift = positive;
     for (int k = 0; k < 10 && factor(0.5 * shift); ++k) shift *= 0.5;
     if (!factor(shift)) return 0.0;
-    const Eigen::Index n = m_.metric.size();
-    Vector x(n);
-    // Any start that is no eigenvector by symmetry.
-    for (Eigen::Index k = 0; k < n; ++k) x[k] = std::sin(1.0 + 12.9898 * static_cast<double>(k));
+    Vector x = unsymmetric(m_.metric.size());
     double value = 0.0;
     for (int k = 0; k < most; ++k) {
       x = solve(m_.metric.cwiseProduct(x));
@@ -189,6 +186,13 @@ class SparseCurvature final : public Curvature {
 };
 
 }  // namespace
+
+Vector unsymmetric(Eigen::Index n)
+{
+  Vector x(n);
+  for (Eigen::Index k = 0; k < n; ++k) x[k] = std::sin(1.0 + 12.9898 * static_cast<double>(k));
+  return x;
+}
 
 void hold(const Model& m, Matrix& hessian)
 {

@@ -11,6 +11,9 @@ namespace hauberk {
 /// moves nothing there: P H P + s Q Q^T with P = I - Q Q^T.
 void hold(const Model& m, Matrix& hessian);
 
+/// A vector that no symmetry makes orthogonal to an eigenvector: where iterations for one start.
+Vector unsymmetric(Eigen::Index n);
+
 /// Systems with H + lambda M, M the metric, on the motions that the load case leaves: solutions have no held
 /// part.
 class Curvature {

@@ -191,13 +191,23 @@ class Newton {
     const double scale = curvature_->scale();
     const double floor = std::max(load_shift * load_norm_, rounding_shift * scale);
     double lambda = floor, too_low = 0.0;
+    const auto raise = [&] {
+      too_low = lambda;
+      lambda = std::max(8.0 * lambda, 1e-4 * load_norm_);
+      s.shifted = true;
+    };
+    // Shifts that a known direction of negative curvature rules out are not tried.
+    if (soft_.size() > 0) {
+      for (const double needed = -soft_.dot(curvature_->times(soft_)); lambda <= needed;) raise();
+    }
+    bool softened = false;
     for (int it = 0; it < 60; ++it) {
       if (!curvature_->factor(lambda)) {
-        too_low = lambda;
-        lambda = std::max(8.0 * lambda, 1e-4 * load_norm_);
-        s.shifted = true;
+        raise();
         continue;
       }
+      if (s.shifted && !softened) soften();
+      softened = true;
       s.dy = -curvature_->solve(e.gradient);
       s.lambda = lambda;
       const double norm = step_norm(m_, s.dy);
@@ -213,6 +223,20 @@ class Newton {
     s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(curvature_->times(s.dy)));
     if (s.predicted < 0.0) s.predicted = -0.5 * e.gradient.dot(s.dy);
     return s;
+  }
+
+  /// Turns `soft_` towards the direction of least curvature, by inverse iteration with what was factored.
+  void soften()
+  {
+    int steps = 2;
+    if (soft_.size() == 0) {
+      steps = 5;
+      soft_ = unsymmetric(m_.dofs());
+    }
+    for (int k = 0; k < steps; ++k) {
+      soft_ = curvature_->solve(m_.metric.cwiseProduct(soft_));
+      soft_ /= step_norm(m_, soft_);
+    }
   }
 
   /// At a stationary point that may be a saddle: a step along the most negative curvature, or false.
@@ -272,6 +296,7 @@ class Newton {
   std::vector<ElementPair> pairs_;
   EliminationOrder order_;
   std::unique_ptr<Curvature> curvature_;  ///< of the state's energy
+  Vector soft_;  ///< unit length in the step norm, of little curvature when last looked at; or empty
   StageResult result_;
 };
 

@@ -1,10 +1,10 @@
 #include "curvature.hpp"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 
 #include <cmath>
+#include <mutex>
 #include <optional>
 
 namespace hauberk {
@@ -46,6 +46,29 @@ class DenseCurvature final : public Curvature {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+/// What Eigen's interface to CHOLMOD keeps to itself: the order that an analysis has chosen.
+class Ordering : public Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> {
+ public:
+  explicit Ordering(const Sparse& lower)
+  {
+    cholmod().print = 0;
+    cholmod().error_handler = nullptr;
+    // METIS, which CHOLMOD tries where minimum degree leaves much to do, draws random numbers of one generator
+    // for the whole process. It seeds it anew each time, so one call at a time is reproducible.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    analyzePattern(lower);
+  }
+
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation() const
+  {
+    const auto n = static_cast<Eigen::Index>(m_cholmodFactor->n);
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse(n);
+    inverse.indices() = Eigen::Map<const Eigen::VectorXi>(static_cast<const int*>(m_cholmodFactor->Perm), n);
+    return inverse.inverse();
+  }
+};
+
 /// In unknowns scaled by the root of the metric, P D H D P^T with D = M^(-1/2) and an elimination order P.
 ///
 /// What is held, Q^T x = 0 with k columns, couples all elements, so it is not put into the matrix. With
@@ -66,11 +89,7 @@ class SparseCurvature final : public Curvature {
     constexpr double more = 1.02;
     if (static_cast<double>(lower.nonZeros()) > more * static_cast<double>(order.entries)) {
       order.entries = lower.nonZeros();
-      Eigen::AMDOrdering<int> amd;
-      Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
-      const Sparse full = scaled.selfadjointView<Eigen::Lower>();
-      amd(full, inverse);
-      order.permutation = inverse.inverse();
+      order.permutation = Ordering(scaled).permutation();
     }
     p_ = order.permutation;
     held_ = p_ * m.held;  // the metric is 1 there

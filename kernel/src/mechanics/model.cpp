@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -60,8 +61,13 @@ class ImageRange {
 /// Refuses scenes whose images would take forever to look at.
 void check_images(const Model& m)
 {
-  if (m.lattice.empty()) return;
+  if (m.lattice.empty() || m.rest.empty()) return;
   const ImageRange range(m);
+  Eigen::AlignedBox3d box;
+  for (const Pose& p : m.rest) box.extend(p.position);
+  const double furthest = *std::max_element(m.reach.begin(), m.reach.end());
+  // All pairs at once, before each on its own.
+  if (range.within(box.diagonal().norm() + 2.0 * furthest + m.clearance, most_images_at_rest)) return;
   for (std::size_t i = 0; i < m.rest.size(); ++i) {
     for (std::size_t j = i; j < m.rest.size(); ++j) {
       const double far =

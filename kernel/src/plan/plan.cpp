@@ -45,6 +45,7 @@ bool spins(const Model& m, std::size_t element)
 /// The closest pairs of bodies at rest, each once.
 void list_tightest(Plan& p, const Model& m, const State& rest)
 {
+  std::map<std::tuple<int, int, Image>, std::size_t> seen;  // bodies and image: where in the list
   for (const Gap& g : find_gaps(m, rest, tight_range, false)) {
     const Body& A = m.bodies[static_cast<std::size_t>(g.a)];
     const Body& B = m.bodies[static_cast<std::size_t>(g.b)];
@@ -55,13 +56,12 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
     t.distance = (g.gap + m.clearance) * m.length;
     t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B,
                               image_pose(m, rest, B.element, g.image)) != 0;
-    const auto same = std::find_if(p.tightest.begin(), p.tightest.end(), [&t](const TightPair& o) {
-      return o.elements == t.elements && o.primitives == t.primitives && o.image == t.image;
-    });
-    if (same == p.tightest.end()) {
+    const auto [at, added] = seen.try_emplace({g.a, g.b, g.image}, p.tightest.size());
+    if (added) {
       p.tightest.push_back(t);
     } else {
-      same->distance = std::min(same->distance, t.distance);
+      TightPair& same = p.tightest[at->second];
+      same.distance = std::min(same.distance, t.distance);
     }
   }
   std::stable_sort(p.tightest.begin(), p.tightest.end(),

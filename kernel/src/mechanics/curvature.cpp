@@ -1,10 +1,8 @@
 #include "curvature.hpp"
 
-#include <Eigen/CholmodSupport>
-#include <Eigen/SparseCholesky>
+#include "sparse_ldlt.hpp"
 
 #include <cmath>
-#include <mutex>
 #include <optional>
 
 namespace hauberk {
@@ -44,32 +42,7 @@ class DenseCurvature final : public Curvature {
   std::optional<Eigen::LLT<Eigen::Ref<Matrix>>> llt_;
 };
 
-using Sparse = Eigen::SparseMatrix<double>;
-
-/// What Eigen's interface to CHOLMOD keeps to itself: the order that an analysis has chosen.
-class Ordering : public Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> {
- public:
-  explicit Ordering(const Sparse& lower)
-  {
-    cholmod().print = 0;
-    cholmod().error_handler = nullptr;
-    // METIS, which CHOLMOD tries where minimum degree leaves much to do, draws random numbers of one generator
-    // for the whole process. It seeds it anew each time, so one call at a time is reproducible.
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    analyzePattern(lower);
-  }
-
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation() const
-  {
-    const auto n = static_cast<Eigen::Index>(m_cholmodFactor->n);
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse(n);
-    inverse.indices() = Eigen::Map<const Eigen::VectorXi>(static_cast<const int*>(m_cholmodFactor->Perm), n);
-    return inverse.inverse();
-  }
-};
-
-/// In unknowns scaled by the root of the metric, P D H D P^T with D = M^(-1/2) and an elimination order P.
+/// In unknowns scaled by the root of the metric, D H D with D = M^(-1/2).
 ///
 /// What is held, Q^T x = 0 with k columns, couples all elements, so it is not put into the matrix. With
 /// K = H + lambda M, Y = K^-1 Q and S = Q^T Y
@@ -85,70 +58,47 @@ class SparseCurvature final : public Curvature {
       : m_(m), lower_(lower), root_(m.metric.cwiseSqrt().cwiseInverse())
   {
     const Sparse scaled = root_.asDiagonal() * lower * root_.asDiagonal();
+    scale_ = scaled.diagonal().cwiseAbs().maxCoeff();
     // An order for few contacts is a bad one for many: elimination would fill nearly everything.
     constexpr double more = 1.02;
     if (static_cast<double>(lower.nonZeros()) > more * static_cast<double>(order.entries)) {
       order.entries = lower.nonZeros();
-      order.permutation = Ordering(scaled).permutation();
+      order.rows.clear();
     }
-    p_ = order.permutation;
-    held_ = p_ * m.held;  // the metric is 1 there
-    permuted_.resize(lower.rows(), lower.cols());
-    permuted_.selfadjointView<Eigen::Lower>() = scaled.selfadjointView<Eigen::Lower>().twistedBy(p_);
-    solver_.cholmod().nmethods = 1;
-    solver_.cholmod().method[0].ordering = CHOLMOD_NATURAL;
-    solver_.cholmod().print = 0;
-    solver_.cholmod().error_handler = nullptr;
-    solver_.analyzePattern(permuted_);
+    solver_.emplace(scaled, order.rows);
+    order.rows = solver_->order();
   }
 
   Vector times(const Vector& x) const override
   {
     return free_part(m_, lower_.selfadjointView<Eigen::Lower>() * free_part(m_, x));
   }
-  double scale() const override { return permuted_.diagonal().cwiseAbs().maxCoeff(); }
+  double scale() const override { return scale_; }
 
   bool factor(double lambda) override
   {
     shift_ = lambda;
-    solver_.setShift(lambda);
-    solver_.factorize(permuted_);
-    definite_ = solver_.info() == Eigen::Success;
-    if (held_.cols() == 0) return definite_;
-    Eigen::Index negative = 0;
-    if (!definite_) {
-      if (!analyzed_) indefinite_.analyzePattern(permuted_);
-      analyzed_ = true;
-      indefinite_.setShift(lambda);
-      indefinite_.factorize(permuted_);
-      if (indefinite_.info() != Eigen::Success) return false;
-      negative = (indefinite_.vectorD().array() < 0.0).count();
-      if (negative > held_.cols()) return false;
-    }
-    moved_ = unconstrained(held_);
-    const Matrix S = held_.transpose() * moved_;
+    const auto held = static_cast<int>(m_.held.cols());
+    if (!solver_->factor(lambda, held)) return false;
+    if (held == 0) return true;
+    moved_ = solver_->solve(m_.held);  // the metric is 1 there
+    const Matrix S = m_.held.transpose() * moved_;
     const Eigen::SelfAdjointEigenSolver<Matrix> inertia(0.5 * (S + S.transpose()));
-    if (negative + (inertia.eigenvalues().array() > 0.0).count() != held_.cols()) return false;
+    if (solver_->negative() + (inertia.eigenvalues().array() > 0.0).count() != held) return false;
     reaction_.compute(S);
     return true;
   }
 
   Vector solve(const Vector& b) const override
   {
-    const Vector right = p_ * root_.cwiseProduct(b);
-    Vector x;
-    if (held_.cols() == 0) {
-      x = solver_.solve(right);
-    } else {
-      const Vector wanted = without_held(right);
-      x = constrained(wanted);
-      // Soft motions that are held make K nearly singular; what that costs in digits is got back once.
-      const Vector y = root_.cwiseProduct(p_.transpose() * x);
-      const Vector reached = p_ * root_.cwiseProduct(lower_.selfadjointView<Eigen::Lower>() * y);
-      x += constrained(wanted - without_held(reached + shift_ * x));
-    }
-    const Vector left = p_.transpose() * x;
-    return root_.cwiseProduct(left);
+    const Vector right = root_.cwiseProduct(b);
+    if (m_.held.cols() == 0) return root_.cwiseProduct(Vector(solver_->solve(right)));
+    const Vector wanted = free_part(m_, right);
+    Vector x = constrained(wanted);
+    // Soft motions that are held make K nearly singular; what that costs in digits is got back once.
+    const Vector reached = root_.cwiseProduct(lower_.selfadjointView<Eigen::Lower>() * root_.cwiseProduct(x));
+    x += constrained(wanted - free_part(m_, reached + shift_ * x));
+    return root_.cwiseProduct(x);
   }
 
   double lowest(double positive, Vector& direction) override
@@ -175,33 +125,21 @@ class SparseCurvature final : public Curvature {
   }
 
  private:
-  Matrix unconstrained(const Matrix& right) const
-  {
-    if (definite_) return solver_.solve(right);
-    return indefinite_.solve(right);
-  }
-
-  Vector without_held(const Vector& x) const { return x - held_ * (held_.transpose() * x); }
-
   Vector constrained(const Vector& right) const
   {
-    const Vector x = unconstrained(right);
-    return without_held(x - moved_ * reaction_.solve(held_.transpose() * x));
+    const Vector x = solver_->solve(right);
+    return free_part(m_, x - moved_ * reaction_.solve(m_.held.transpose() * x));
   }
 
   const Model& m_;
   const Sparse& lower_;
   Vector root_;
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> p_;
-  Sparse permuted_;
-  Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> solver_;
+  double scale_ = 0.0, shift_ = 0.0;
+  std::optional<SparseLdlt> solver_;
 
   // Of what is held:
-  Matrix held_, moved_;                ///< Q and Y, permuted
+  Matrix moved_;                       ///< Y
   Eigen::FullPivLU<Matrix> reaction_;  ///< S
-  double shift_ = 0.0;
-  bool definite_ = false, analyzed_ = false;
-  Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> indefinite_;
 };
 
 }  // namespace

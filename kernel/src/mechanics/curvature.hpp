@@ -31,11 +31,11 @@ class Curvature {
   virtual double lowest(double positive, Vector& direction) = 0;
 };
 
-/// What stays from one Hessian of a stage to the next while contacts do not become more: positions in the
-/// order of elimination, chosen for a Hessian with so many entries.
+/// What stays from one Hessian of a stage to the next while contacts do not become more: the order of
+/// elimination, chosen for a Hessian with so many entries.
 struct EliminationOrder {
   Eigen::Index entries = 0;
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  std::vector<int> rows;
 };
 
 /// Of the energy, with the storage that it has.

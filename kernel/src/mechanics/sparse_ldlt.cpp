@@ -166,6 +166,7 @@ bool SparseLdlt::factor(double shift, int most_negative)
   std::vector<MatrixXd> left(blocks_.size());  // of each block, until its parent takes it
   std::vector<std::vector<int>> children(blocks_.size());
   std::vector<int> place(order_.size());  // of a row in the front
+  std::vector<int> to;                    // of a child's rows
   std::vector<double> storage;
   MatrixXd scaled;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -183,11 +184,13 @@ bool SparseLdlt::factor(double shift, int most_negative)
     for (const int child : children[k]) {
       const Block& from = blocks_[static_cast<std::size_t>(child)];
       MatrixXd& part = left[static_cast<std::size_t>(child)];
-      const int* own = from.rows.data() + from.columns;
+      to.clear();
+      for (auto row = from.rows.begin() + from.columns; row != from.rows.end(); ++row)
+        to.push_back(place[static_cast<std::size_t>(*row)]);
       for (Eigen::Index c = 0; c < part.cols(); ++c) {
-        const int to = place[static_cast<std::size_t>(own[c])];
-        for (Eigen::Index r = c; r < part.rows(); ++r)
-          front(place[static_cast<std::size_t>(own[r])], to) += part(r, c);
+        double* column = &front(0, to[static_cast<std::size_t>(c)]);
+        const double* added = &part(0, c);
+        for (Eigen::Index r = c; r < part.rows(); ++r) column[to[static_cast<std::size_t>(r)]] += added[r];
       }
       part.resize(0, 0);
     }

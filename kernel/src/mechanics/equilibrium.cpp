@@ -12,7 +12,9 @@ namespace hauberk {
 namespace {
 
 constexpr double first_radius = 0.1;    ///< L: trust radius at the start of a stage
-constexpr double largest_radius = 0.5;  ///< L
+constexpr double largest_radius = 0.5;  ///< L, of few elements
+/// Of more the norm of a step grows with the root of their number, where each moves as far.
+constexpr double few_elements = 32.0;
 constexpr double smallest_radius = 1e-13;
 constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
 constexpr double keep_gap = 0.1;          ///< a step may use up this much less than all of any gap
@@ -55,6 +57,7 @@ class Newton {
   Newton(const Model& m, State& state, const Vector& load, const Stage& stage, const KeepGoing& keep_going)
       : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going)
   {
+    most_radius_ = largest_radius * std::sqrt(std::max(1.0, m.element_count() / few_elements));
     load_norm_ = std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
   }
 
@@ -161,7 +164,7 @@ class Newton {
       if (ratio < 0.25) {
         radius = 0.5 * std::min(radius, alpha * length);
       } else if (ratio > 0.6) {
-        radius = std::min(largest_radius, std::max(radius, 2.5 * alpha * length));
+        radius = std::min(most_radius_, std::max(radius, 2.5 * alpha * length));
       }
       state_ = std::move(trial);
       now = std::move(next);
@@ -292,7 +295,7 @@ class Newton {
   const Vector& load_;
   const Stage& stage_;
   const KeepGoing& keep_going_;
-  double load_norm_ = 1.0;
+  double load_norm_ = 1.0, most_radius_ = largest_radius;
   std::vector<ElementPair> pairs_;
   EliminationOrder order_;
   std::unique_ptr<Curvature> curvature_;  ///< of the state's energy

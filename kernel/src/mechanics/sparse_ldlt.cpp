@@ -172,8 +172,9 @@ bool SparseLdlt::factor(double shift, int most_negative)
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const Block& b = blocks_[k];
     const auto rows = static_cast<Eigen::Index>(b.rows.size());
-    storage.assign(b.rows.size() * b.rows.size(), 0.0);
+    if (storage.size() < b.rows.size() * b.rows.size()) storage.resize(b.rows.size() * b.rows.size());
     Eigen::Map<MatrixXd> front(storage.data(), rows, rows);
+    front.triangularView<Eigen::Lower>().setZero();
     for (std::size_t r = 0; r < b.rows.size(); ++r)
       place[static_cast<std::size_t>(b.rows[r])] = static_cast<int>(r);
     for (int c = 0; c < b.columns; ++c) {
@@ -198,7 +199,8 @@ bool SparseLdlt::factor(double shift, int most_negative)
     Eigen::Map<MatrixXd>(values_.data() + b.at, rows, b.columns) = front.leftCols(b.columns);
     if (b.parent >= 0) {
       const Eigen::Index rest = rows - b.columns;
-      left[k] = front.bottomRightCorner(rest, rest);
+      left[k].resize(rest, rest);
+      left[k].triangularView<Eigen::Lower>() = front.bottomRightCorner(rest, rest);
       children[static_cast<std::size_t>(b.parent)].push_back(static_cast<int>(k));
     }
   }
@@ -207,31 +209,39 @@ bool SparseLdlt::factor(double shift, int most_negative)
 
 MatrixXd SparseLdlt::solve(const MatrixXd& b) const
 {
-  MatrixXd x = permutation_ * b;
-  MatrixXd rest;
+  const MatrixXd permuted = permutation_ * b;
+  MatrixXd x(b.rows(), b.cols());
+  // One column at a time: of few columns a product of matrices costs more than those of vectors.
+  for (Eigen::Index k = 0; k < b.cols(); ++k) x.col(k) = solve_permuted(permuted.col(k));
+  return permutation_.transpose() * x;
+}
+
+Eigen::VectorXd SparseLdlt::solve_permuted(Eigen::VectorXd x) const
+{
+  Eigen::VectorXd rest;
   const auto l_of = [this](const Block& block) {
     return Eigen::Map<const MatrixXd>(values_.data() + block.at, static_cast<Eigen::Index>(block.rows.size()),
                                       block.columns);
   };
   for (const Block& block : blocks_) {
     const auto l = l_of(block);
-    auto own = x.middleRows(block.first, block.columns);
+    auto own = x.segment(block.first, block.columns);
     l.topRows(block.columns).triangularView<Eigen::UnitLower>().solveInPlace(own);
     rest.noalias() = l.bottomRows(l.rows() - block.columns) * own;
-    for (Eigen::Index r = 0; r < rest.rows(); ++r)
-      x.row(block.rows[static_cast<std::size_t>(block.columns + r)]) -= rest.row(r);
+    for (Eigen::Index r = 0; r < rest.size(); ++r)
+      x[block.rows[static_cast<std::size_t>(block.columns + r)]] -= rest[r];
   }
   for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) {
     const auto l = l_of(*block);
-    auto own = x.middleRows(block->first, block->columns);
-    own.array().colwise() /= l.diagonal().array();
-    rest.resize(l.rows() - block->columns, x.cols());
-    for (Eigen::Index r = 0; r < rest.rows(); ++r)
-      rest.row(r) = x.row(block->rows[static_cast<std::size_t>(block->columns + r)]);
-    own.noalias() -= l.bottomRows(rest.rows()).transpose() * rest;
+    auto own = x.segment(block->first, block->columns);
+    own.array() /= l.diagonal().array();
+    rest.resize(l.rows() - block->columns);
+    for (Eigen::Index r = 0; r < rest.size(); ++r)
+      rest[r] = x[block->rows[static_cast<std::size_t>(block->columns + r)]];
+    own.noalias() -= l.bottomRows(rest.size()).transpose() * rest;
     l.topRows(block->columns).triangularView<Eigen::UnitLower>().transpose().solveInPlace(own);
   }
-  return permutation_.transpose() * x;
+  return x;
 }
 
 }  // namespace hauberk

@@ -46,6 +46,7 @@ class SparseLdlt {
   };
 
   void analyze(const Sparse& lower, const std::vector<int>& order);
+  Eigen::VectorXd solve_permuted(Eigen::VectorXd x) const;
 
   std::vector<int> order_;
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation_;

@@ -118,11 +118,10 @@ TEST_F(MeshFiles, LimitOfFramesIsExact)
                   .code,
               0);
     const json::value results = read_results(folder_ / preset);
-    EXPECT_NEAR(number_at(results, "/limits/0/value"), 4.0 * (4.0 - 0.75 / std::sqrt(3.0)) / 12.0 - 1.0,
-                tolerance);
+    EXPECT_NEAR(number_at(results, "/limits/0/value"), exact(8), tolerance);
     EXPECT_EQ(number_at(results, "/scene/elements/1/primitives/0/surface"), 0.0);
     EXPECT_EQ(results.at_pointer("/scene/surfaces").as_array().size(), 1U);
-    EXPECT_EQ(results.at_pointer("/scene/surfaces/0/triangles").as_array().size(), 48U);
+    EXPECT_EQ(results.at_pointer("/scene/surfaces/0/triangles").as_array().size(), 128U);
     const Outcome verified = run_program({"verify", folder_ / (std::string(preset) + "/results.json")});
     EXPECT_EQ(verified.code, 0) << verified.out;
   }
@@ -147,7 +146,7 @@ TEST_F(MeshFiles, VerifyRecomputesThem)
   caught("/limits/0/value", shifted("/limits/0/value", 1e-4), "value");
   caught("/scene/surfaces/0/points/3/0", shifted("/scene/surfaces/0/points/3/0", 1e-3),
          "a mean distance of 1 from the origin expected");
-  caught("/scene/surfaces/0/triangles/3/0", 15, "an edge");
+  caught("/scene/surfaces/0/triangles/3/0", 15, "/scene/surfaces/0/triangles");
   caught("/scene/surfaces/0/triangles/3/0", 99, "the index of a point expected");
   caught("/scene/elements/0/primitives/0/surface", 1, "the index of one of the scene's surfaces expected");
   caught("/scene/elements/0/primitives/0/parameters/r0", 1.0, "not those of the surface");
@@ -167,8 +166,8 @@ TEST_F(MeshFiles, Refusals)
   refused({"/solver/ccd=sampled"}, "sampled collision checks");
   refused({"/elements/link/file=ring.obj"}, "there is no such file");
   refused({"/elements/link/file=m.json"}, "expected a file .obj or .stl");
-  refused({"/cell/vectors=[[17,0],[0,100]]", "/cell/place/1/position=[8.5,0,0]"},
-          "meet at rest; move them apart");
+  refused({"/cell/vectors=[[18.5,0],[0,100]]", "/cell/place/1/position=[9.25,0,0]"},
+          "meet at rest, as do 1 other pairs; move them apart");
   folder_.write("frame.obj", "v 1 2\n");
   refused({}, "frame.obj:1: expected three numbers after 'v'");
 }
@@ -179,14 +178,13 @@ TEST_F(MeshFiles, RowsOfSweepsFindTheFile)
 {
   const std::string sweep =
       with(text_, "\"task\": \"limits\"",
-           "\"task\": \"sweep\", \"sweep\": { \"axes\": [ { \"name\": \"scale\", \"values\": "
+           "\"task\": \"sweep\", \"sweep\": { \"vary\": [ { \"name\": \"scale\", \"values\": "
            "[1, 1.05], \"pointers\": [\"/elements/link/parameters/scale\"] } ] }");
   const Outcome o = run_program({"run", folder_.write("s.json", sweep), "-o", folder_ / "out", "--set",
                                  "/solver/preset=fast", "--set", "/expect=[]"});
   ASSERT_EQ(o.code, 0) << o.err;
   const json::value results = read_results(folder_ / "out");
-  EXPECT_NEAR(number_at(results, "/sweep/rows/1/result/limits/0/value"),
-              1.05 * 4.0 * (4.0 - 0.75 / std::sqrt(3.0)) / 12.0 - 1.0, 1e-3);
+  EXPECT_NEAR(number_at(results, "/sweep/rows/1/result/limits/0/value"), 1.05 * (exact(8) + 1.0) - 1.0, 1e-3);
 }
 
 TEST_F(MeshFiles, RoomIsFound)

@@ -48,14 +48,13 @@ inline Triangles frame(double length = 3.5, double width = 2.0, double bar = 1.5
   });
 }
 
-/// Hexagonal frame of square bars, 1.5 thick, with corners 4 from the middle inside, two of them on the x
-/// axis.
-inline Triangles hexagon()
+/// Octagonal ring of octagonal section: points of a torus of R = 5 and r = 0.7, with corners on the x axis.
+inline Triangles octagon()
 {
   constexpr double pi = 3.14159265358979323846;
-  return tube(6, 4, [](int i, int j) {
-    const double rho = j == 0 || j == 3 ? 5.5 : 4.0, u = pi * i / 3.0;
-    return Vec3(rho * std::cos(u), rho * std::sin(u), j < 2 ? -0.75 : 0.75);
+  return tube(8, 8, [](int i, int j) {
+    const double u = pi * i / 4.0, v = pi + pi * (j + 0.5) / 4.0, rho = 5.0 + 0.7 * std::cos(v);
+    return Vec3(rho * std::cos(u), rho * std::sin(u), 0.7 * std::sin(v));
   });
 }
 

@@ -78,6 +78,7 @@ std::vector<std::vector<Vec3>> loops_of(const Torus& torus)
   }
   for (const std::vector<int>& loop : torus.surface->loops) {
     std::vector<Vec3>& corners = out.emplace_back();
+    corners.reserve(loop.size());
     for (const int k : loop)
       corners.emplace_back(torus.place.position +
                            torus.place.rotation *

@@ -88,6 +88,7 @@ std::array<int, 2> crossings(const std::vector<Vec3>& p, const std::vector<Vec3>
   std::array<int, 2> out{};
   const auto seen = [&axes](const std::vector<Vec3>& polygon) {
     std::vector<Vec3> turned;
+    turned.reserve(polygon.size());
     for (const Vec3& x : polygon) turned.emplace_back(axes.transpose() * x);
     return turned;
   };

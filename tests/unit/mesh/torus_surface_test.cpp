@@ -29,6 +29,7 @@ Triangles torus(double R, double r0, double r1, int n)
 {
   const Facets facets(R, r0, r1, n);
   Triangles out{facets.points(), {}};
+  out.triangles.reserve(facets.triangles().size());
   for (const Facets::Triangle& t : facets.triangles()) out.triangles.push_back(t.points);
   return out;
 }

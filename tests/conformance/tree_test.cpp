@@ -17,6 +17,9 @@ HAUBERK_CONFORMANCE_TESTS(TorusUnionThreefold, folder + "torus_union.so", R"({
   ],
   "parameters": { "centre.R": 4.25, "centre.r0": 0.95, "centre.r1": 0.95,
                   "side.R": 2.575, "side.r0": 0.95, "side.r1": 1.5 } })");
+HAUBERK_CONFORMANCE_TESTS(Mesh, folder + "mesh.so",
+                          R"({ "shape": "mesh", "file": ")" HAUBERK_SOURCE_DIR
+                          R"(/shapes/mesh/frame.obj" })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicPaper, folder + "in_plane_periodic.so", R"({ "measure": "paper" })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicLayer, folder + "in_plane_periodic.so",

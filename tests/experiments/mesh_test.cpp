@@ -10,6 +10,9 @@
 #include <boost/json/object.hpp>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 namespace hauberk::test {
@@ -83,6 +86,112 @@ TEST(Mesh, Refusals)
                                 "\"preset\": \"fast\", \"contact\": \"mesh\", \"facets\": 10");
   refused(mail, "other pairs; use more facets, or give them more room");
   refused(with(mail, "\"cell\": {", "\"cell\": { \"relax\": true,"), "meet at rest");
+}
+
+/// Of a chain of frames, in a folder of its own with the file beside it.
+class MeshFiles : public testing::Test {
+ protected:
+  MeshFiles()
+  {
+    std::filesystem::copy_file(HAUBERK_SOURCE_DIR "/shapes/mesh/frame.obj", folder_ / "frame.obj");
+    std::ifstream file(HAUBERK_SOURCE_DIR "/shapes/mesh/example.json");
+    text_.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  void refused(const std::vector<std::string>& settings, const std::string& message)
+  {
+    std::vector<std::string> words{"check", folder_.write("m.json", text_)};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    const Outcome o = run_program(words);
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find(message), std::string::npos) << "missing: " << message << '\n' << o.err;
+  }
+
+  TemporaryFolder folder_;
+  std::string text_;
+};
+
+TEST_F(MeshFiles, LimitOfFramesIsExact)
+{
+  for (const auto& [preset, tolerance] : {std::pair{"fast", 1e-3}, std::pair{"accurate", 1e-8}}) {
+    ASSERT_EQ(run_program({"run", folder_.write("m.json", text_), "-o", folder_ / preset, "--set",
+                           "/expect=[]", "--set", std::string("/solver/preset=") + preset})
+                  .code,
+              0);
+    const json::value results = read_results(folder_ / preset);
+    EXPECT_NEAR(number_at(results, "/limits/0/value"), exact(8), tolerance);
+    EXPECT_EQ(number_at(results, "/scene/elements/1/primitives/0/surface"), 0.0);
+    EXPECT_EQ(results.at_pointer("/scene/surfaces").as_array().size(), 1U);
+    EXPECT_EQ(results.at_pointer("/scene/surfaces/0/triangles").as_array().size(), 128U);
+    const Outcome verified = run_program({"verify", folder_ / (std::string(preset) + "/results.json")});
+    EXPECT_EQ(verified.code, 0) << verified.out;
+  }
+}
+
+TEST_F(MeshFiles, VerifyRecomputesThem)
+{
+  ASSERT_EQ(run_program({"run", folder_.write("m.json", text_), "-o", folder_ / "out"}).code, 0);
+  const json::value results = read_results(folder_ / "out");
+  const auto caught = [&](const std::string& pointer, const json::value& now, const std::string& message) {
+    json::value tampered = results;
+    tampered.at_pointer(pointer) = now;
+    const Outcome o = run_program({"verify", folder_.write("t.json", write_json(tampered))});
+    EXPECT_EQ(o.code, 1);
+    EXPECT_NE(o.out.find(message), std::string::npos) << "missing: " << message << '\n' << o.out;
+  };
+  const auto shifted = [&](const std::string& pointer, double change) {
+    return json::value(number_at(results, pointer) + change);
+  };
+  caught("/limits/0/min_gap", shifted("/limits/0/min_gap", 1e-4), "min_gap");
+  caught("/limits/0/contacts/0/points/0/0", shifted("/limits/0/contacts/0/points/0/0", 1e-4), "off its mesh");
+  caught("/limits/0/value", shifted("/limits/0/value", 1e-4), "value");
+  caught("/scene/surfaces/0/points/3/0", shifted("/scene/surfaces/0/points/3/0", 1e-3),
+         "a mean distance of 1 from the origin expected");
+  caught("/scene/surfaces/0/triangles/3/0", 15, "/scene/surfaces/0/triangles");
+  caught("/scene/surfaces/0/triangles/3/0", 99, "the index of a point expected");
+  caught("/scene/elements/0/primitives/0/surface", 1, "the index of one of the scene's surfaces expected");
+  caught("/scene/elements/0/primitives/0/parameters/r0", 1.0, "not those of the surface");
+  caught("/experiment/solver/contact", "arc", "mesh expected, as the scene has triangle meshes");
+  // Frames that are apart at rest are not linked there.
+  caught("/scene/elements/1/rest/position/2", 30.0, "linking number of elements");
+}
+
+TEST_F(MeshFiles, Refusals)
+{
+  refused(
+      {"/solver/contact=auto"},
+      "this scene has elements that are triangle meshes, and contact 'auto' knows surfaces of other kinds "
+      "only: set solver.contact to \"mesh\"");
+  refused({"/solver/contact=constrained"}, "set solver.contact to \"mesh\"");
+  refused({"/solver/contact=published"}, "set solver.contact to \"mesh\"");
+  refused({"/solver/ccd=sampled"}, "sampled collision checks");
+  refused({"/elements/link/file=ring.obj"}, "there is no such file");
+  refused({"/elements/link/file=m.json"}, "expected a file .obj or .stl");
+  refused({"/cell/vectors=[[18.5,0],[0,100]]", "/cell/place/1/position=[9.25,0,0]"},
+          "meet at rest, as do 1 other pairs; move them apart");
+  folder_.write("frame.obj", "v 1 2\n");
+  refused({}, "frame.obj:1: expected three numbers after 'v'");
+}
+
+/// Where the file is, it is found from: the experiment's folder, also for rows of sweeps, whatever the
+/// working directory is.
+TEST_F(MeshFiles, RowsOfSweepsFindTheFile)
+{
+  const std::string sweep =
+      with(text_, "\"task\": \"limits\"",
+           "\"task\": \"sweep\", \"sweep\": { \"vary\": [ { \"name\": \"scale\", \"values\": "
+           "[1, 1.05], \"pointers\": [\"/elements/link/parameters/scale\"] } ] }");
+  const Outcome o = run_program({"run", folder_.write("s.json", sweep), "-o", folder_ / "out", "--set",
+                                 "/solver/preset=fast", "--set", "/expect=[]"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json::value results = read_results(folder_ / "out");
+  EXPECT_NEAR(number_at(results, "/sweep/rows/1/result/limits/0/value"), 1.05 * (exact(8) + 1.0) - 1.0, 1e-3);
+}
+
+TEST_F(MeshFiles, RoomIsFound)
+{
+  const Outcome o = run_program({"room", folder_.write("m.json", text_), "--starts", "1", "--fixed-cell"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("largest rest clearance"), std::string::npos) << o.out;
 }
 
 }  // namespace

@@ -80,8 +80,10 @@ struct Field {
 
   std::string name;
   Kind kind = Kind::number;
-  std::string doc;   ///< one sentence
-  std::string unit;  ///< "length", "degree", "1", "" (none)
+  std::string doc;  ///< one sentence
+  /// "length", "degree", "1", "" (none); of a string "file": a path, relative to the experiment's file where
+  /// it is not absolute. Factories are given the path from the working directory.
+  std::string unit;
   bool required = false;
   std::string default_json;  ///< default as JSON text; empty: none (absent stays absent)
   double minimum = -std::numeric_limits<double>::infinity();

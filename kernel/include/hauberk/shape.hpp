@@ -11,6 +11,8 @@
 
 namespace hauberk {
 
+class TriangleSurface;
+
 /// One design parameter of a shape. Lengths are in the unit of the experiment file.
 struct ParameterInfo {
   std::string name;
@@ -33,6 +35,11 @@ enum class PrimitiveKind {
   /// Tube of constant radius around a closed smooth curve: size = (-, r, r), core x(u) = sum of c_k cos k u +
   /// s_k sin k u over `curve`. The kernel sets size[0] to the mean radius sqrt(sum (|c_k|^2 + |s_k|^2)/2).
   curve_tube,
+  /// Closed surface of flat triangles: R times the points of `surface`, whose mean distance from the origin
+  /// is
+  /// 1, so R is the mean distance of its points from `position`. Contact "mesh" knows it, and nothing else.
+  /// The kernel sets size[1] = size[2] to R times the surface's thickness.
+  triangle_mesh,
 };
 
 /// Its name in results.
@@ -45,6 +52,8 @@ inline const char* name_of(PrimitiveKind kind)
       return "revolved_ellipse";
     case PrimitiveKind::curve_tube:
       return "curve_tube";
+    case PrimitiveKind::triangle_mesh:
+      return "triangle_mesh";
   }
   return "";
 }
@@ -62,6 +71,7 @@ struct Primitive {
   Mat3 rotation = Mat3::Identity();  ///< columns are the primitive's axes in the element frame
   std::array<double, 3> size{};      ///< R, r0, r1
   std::vector<Harmonic> curve;       ///< of a curve tube: k = 1, 2, ...; its mean point is `position`
+  std::shared_ptr<const TriangleSurface> surface;  ///< of a triangle mesh; else null
 
   double R() const { return size[0]; }
   double r0() const { return size[1]; }
@@ -80,7 +90,8 @@ inline int geometric_dofs(const Primitive& primitive)
 }
 
 /// d(position, size, curve)/d(parameters), row-major geometric_dofs x parameter count. Rotations of
-/// primitives do not depend on parameters. The row of R of a curve tube is not used.
+/// primitives do not depend on parameters. The row of R of a curve tube is not used, nor are
+/// those of r0 and r1 of a triangle mesh.
 using PrimitiveJacobian = std::vector<double>;
 
 /// A parametric element: a union of primitives. Immutable after construction, so all calls are thread safe.
@@ -94,9 +105,9 @@ class Shape {
   const std::vector<ParameterInfo>& parameters() const { return do_parameters(); }
 
   /// Primitives at parameters p (lengths in file units). Number, kind-independent names and order must not
-  /// depend on p, nor must the number of harmonics. A primitive that is a circle_tube for r0 == r1 may change
-  /// its kind with p.
-  /// Throws InputError naming the parameter when p is inadmissible (for instance r0 >= R).
+  /// depend on p, nor must the number of harmonics or the surface of a triangle mesh. A primitive that is a
+  /// circle_tube for r0 == r1 may change its kind with p. Throws InputError naming the parameter when p is
+  /// inadmissible (for instance r0 >= R).
   std::vector<Primitive> primitives(std::span<const double> p) const;
 
   /// Jacobian of each primitive's (position, size, curve) with respect to p.

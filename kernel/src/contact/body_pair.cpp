@@ -15,6 +15,13 @@ namespace {
   throw InputError(std::string(what) + " knows tori only, no tubes around curves; use arc, nearest or auto");
 }
 
+/// Everything but contact of meshes takes a body for a torus, or for a tube around its curve.
+void refuse_surfaces(const PairFrame& frame)
+{
+  if (frame.P->surface || frame.F->surface)
+    throw InputError("contact of surfaces knows no triangle meshes: set solver.contact to \"mesh\"");
+}
+
 template <int dim>
 void add_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
                SideTerms& out)
@@ -89,6 +96,7 @@ SideTerms side_terms(const PairFrame& frame, const ContactSettings& settings, co
                      double share)
 {
   SideTerms out;
+  if (settings.formulation != Formulation::mesh) refuse_surfaces(frame);
   if (probe_dimension(frame) == 1)
     add_terms<1>(frame, settings, request, share, out);
   else
@@ -140,6 +148,7 @@ std::vector<ContactMinimum> contact_minima(const Body& A, const Pose& pose_a, co
   const bool swapped = probe_rank(B) < probe_rank(A);
   const PairFrame frame = swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
   if (frame.P->curve) refuse_curve("the list of contact minima");
+  refuse_surfaces(frame);
   std::vector<ContactMinimum> out = probe_dimension(frame) == 1
                                         ? minima_of<1>(frame, threshold, clearance, evaluations)
                                         : minima_of<2>(frame, threshold, clearance, evaluations);

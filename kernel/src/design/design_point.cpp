@@ -2,6 +2,7 @@
 #include <hauberk/error.hpp>
 #include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/separation.hpp>
+#include <hauberk/geometry/triangle_surface.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,10 @@ Model between(const Model& a, const Model& b, double t)
 
 double shape_speed(const Body& a, const Body& b)
 {
-  const double core = a.curve && b.curve ? farthest_apart(*a.curve, *b.curve) : std::abs(a.R - b.R);
+  const double core = a.surface && b.surface
+                          ? std::abs(a.R - b.R) * std::max(a.surface->bound(), b.surface->bound())
+                      : a.curve && b.curve ? farthest_apart(*a.curve, *b.curve)
+                                           : std::abs(a.R - b.R);
   return core + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
 }
 

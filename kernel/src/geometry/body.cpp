@@ -1,5 +1,6 @@
 #include <hauberk/geometry/body.hpp>
 #include <hauberk/geometry/closed_curve.hpp>
+#include <hauberk/geometry/triangle_surface.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,10 @@ Body make_body(const Primitive& primitive, int element, int index, double length
   b.bound = b.R + std::max(b.r0, b.r1);
   if (b.kind == PrimitiveKind::curve_tube)
     set_core(b, std::make_shared<const ClosedCurve>(primitive.curve, 1.0 / length), b.r0);
+  if (primitive.surface) {
+    b.surface = primitive.surface;
+    b.bound = b.R * b.surface->bound();
+  }
   b.reach = b.center.norm() + b.bound;
   return b;
 }

@@ -13,6 +13,13 @@ struct Box {
   Vec3 center, half;
 };
 
+inline Box box_around(const std::array<Vec3, 3>& corners)
+{
+  const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  return {0.5 * (low + high), 0.5 * (high - low)};
+}
+
 /// Split at the median of centres along the longest side; one triangle a leaf. Nodes are in depth-first
 /// order.
 class Facets::Tree {

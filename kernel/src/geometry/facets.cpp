@@ -1,4 +1,5 @@
 #include <hauberk/geometry/facets.hpp>
+#include <hauberk/geometry/triangle_surface.hpp>
 
 #include "box_tree.hpp"
 
@@ -36,6 +37,13 @@ void give_features(std::vector<Facets::Triangle>& triangles, std::vector<std::ar
   }
 }
 
+std::array<Vec3, 3> corners_of(const Facets& facets, const Facets::Triangle& t)
+{
+  std::array<Vec3, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = facets.points()[static_cast<std::size_t>(t.points[k])];
+  return out;
+}
+
 }  // namespace
 
 Facets::Facets(double R, double r0, double r1, int n)
@@ -62,7 +70,39 @@ Facets::Facets(double R, double r0, double r1, int n)
       triangles_.push_back({{a, c, d}, {}, {}});
     }
   }
-  edges_.reserve(3 * size * size);
+  loops_.emplace_back();
+  for (int i = 0; i < n; ++i) {
+    const double u = 2.0 * pi * (i + 0.5) / n;
+    loops_[0].emplace_back(R * std::cos(u), R * std::sin(u), 0.0);
+  }
+  parts_ = {0};
+  complete();
+}
+
+Facets::Facets(const TriangleSurface& surface, double R) : parts_(surface.parts())
+{
+  points_.reserve(surface.points().size());
+  by_size_.reserve(surface.points().size());
+  for (const Vec3& x : surface.points()) {
+    points_.emplace_back(R * x);
+    Mat3 by = Mat3::Zero();
+    by.col(0) = x;
+    by_size_.push_back(by);
+  }
+  triangles_.reserve(surface.triangles().size());
+  for (const auto& t : surface.triangles()) triangles_.push_back({t, {}, {}});
+  loops_.reserve(surface.loops().size());
+  for (const std::vector<int>& loop : surface.loops()) {
+    std::vector<Vec3>& corners = loops_.emplace_back();
+    corners.reserve(loop.size());
+    for (const int k : loop) corners.push_back(points_[static_cast<std::size_t>(k)]);
+  }
+  complete();
+}
+
+void Facets::complete()
+{
+  edges_.reserve(3 * triangles_.size() / 2);
   give_features(triangles_, edges_, points_.size());
   double sum = 0.0;
   for (const auto& [a, b] : edges_)
@@ -71,14 +111,7 @@ Facets::Facets(double R, double r0, double r1, int n)
 
   std::vector<Box> boxes;
   boxes.reserve(triangles_.size());
-  for (const Triangle& t : triangles_) {
-    Vec3 low = points_[static_cast<std::size_t>(t.points[0])], high = low;
-    for (const int k : t.points) {
-      low = low.cwiseMin(points_[static_cast<std::size_t>(k)]);
-      high = high.cwiseMax(points_[static_cast<std::size_t>(k)]);
-    }
-    boxes.push_back({0.5 * (low + high), 0.5 * (high - low)});
-  }
+  for (const Triangle& t : triangles_) boxes.push_back(box_around(corners_of(*this, t)));
   tree_ = std::make_unique<const Tree>(boxes);
 }
 
@@ -93,13 +126,6 @@ std::array<Vec3, 3> corners_in(const PairFrame& frame, const Mat3& axes, const F
   std::array<Vec3, 3> out;
   for (std::size_t k = 0; k < 3; ++k)
     out[k] = frame.a + axes * facets.points()[static_cast<std::size_t>(t.points[k])];
-  return out;
-}
-
-std::array<Vec3, 3> corners_of(const Facets& facets, const Facets::Triangle& t)
-{
-  std::array<Vec3, 3> out;
-  for (std::size_t k = 0; k < 3; ++k) out[k] = facets.points()[static_cast<std::size_t>(t.points[k])];
   return out;
 }
 
@@ -142,23 +168,21 @@ void near_features(const PairFrame& frame, double range, const FeatureVisitor& v
   });
 }
 
-namespace {
-
-/// True if the segment from a to b meets the triangle.
-bool segment_meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t)
+bool segment_meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle)
 {
-  const Vec3 along = b - a, e1 = t[1] - t[0], e2 = t[2] - t[0];
-  const Vec3 q = along.cross(e2);
-  const double det = e1.dot(q);
-  if (det == 0.0) return false;
-  const Vec3 s = a - t[0];
-  const double u = s.dot(q) / det;
-  const Vec3 r = s.cross(e1);
-  const double v = along.dot(r) / det, w = e2.dot(r) / det;
-  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && w >= 0.0 && w <= 1.0;
+  // Heights over the triangle's plane, times twice its area.
+  const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double ha = normal.dot(a - triangle[0]), hb = normal.dot(b - triangle[0]);
+  const double size = a.norm() + b.norm() + triangle[0].norm();
+  constexpr double roundings = 16.0 * std::numeric_limits<double>::epsilon();
+  if (std::max(std::abs(ha), std::abs(hb)) <= roundings * size * normal.norm()) return false;
+  if ((ha > 0.0 && hb > 0.0) || (ha < 0.0 && hb < 0.0)) return false;
+  const Vec3 x = a + ha / (ha - hb) * (b - a);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (normal.dot((triangle[(k + 1) % 3] - triangle[k]).cross(x - triangle[k])) < 0.0) return false;
+  }
+  return true;
 }
-
-}  // namespace
 
 bool facets_intersect(const PairFrame& frame)
 {
@@ -173,6 +197,38 @@ bool facets_intersect(const PairFrame& frame)
       found = segment_meets(cp[k], cp[(k + 1) % 3], cf) || segment_meets(cf[k], cf[(k + 1) % 3], cp);
   });
   return found;
+}
+
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+namespace {
+
+/// True if x, in the mesh's frame, is inside of it: its parts, seen from there, cover the sphere.
+bool encloses(const Facets& mesh, const Vec3& x)
+{
+  double angle = 0.0;
+  for (const Facets::Triangle& t : mesh.triangles()) {
+    const std::array<Vec3, 3> c = corners_of(mesh, t);
+    angle += solid_angle(c[0] - x, c[1] - x, c[2] - x);
+  }
+  return std::abs(angle) > 2.0 * pi;
+}
+
+}  // namespace
+
+bool facets_inside(const PairFrame& frame)
+{
+  const Facets &P = *frame.P->facets, &F = *frame.F->facets;
+  const Mat3 axes = axes_of(frame);
+  const auto point_of = [](const Facets& mesh, int k) { return mesh.points()[static_cast<std::size_t>(k)]; };
+  return std::any_of(P.parts().begin(), P.parts().end(),
+                     [&](int k) { return encloses(F, frame.a + axes * point_of(P, k)); }) ||
+         std::any_of(F.parts().begin(), F.parts().end(),
+                     [&](int k) { return encloses(P, axes.transpose() * (point_of(F, k) - frame.a)); });
 }
 
 }  // namespace hauberk

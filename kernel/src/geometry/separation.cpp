@@ -1,4 +1,6 @@
+#include <hauberk/error.hpp>
 #include <hauberk/geometry/closed_curve.hpp>
+#include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/panel_field.hpp>
 #include <hauberk/geometry/separation.hpp>
 
@@ -6,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace hauberk {
@@ -100,21 +103,11 @@ std::vector<Vec3> core_polygon(const Body& body, const Pose& pose, double near)
 /// Cores closer than this part of their sizes are counted as if they were not: tubes are thicker.
 constexpr double closest_cores = 2e-5;
 
-/// Solid angle of a triangle seen from the origin, with sign (van Oosterom and Strackee 1983).
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c)
+/// Gauss's integral over two closed polygons that do not meet: the differences of two sides are a
+/// parallelogram, and what it covers of the sphere, seen from inside, is its part of 4 pi times the linking
+/// number.
+int linking_of_polygons(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
-
-/// Gauss's integral over two polygons to which the cores may be pulled without crossing each other, as both
-/// together go less far than the cores are apart: the differences of two sides are a parallelogram, and
-/// what it covers of the sphere, seen from inside, is its part of 4 pi times the linking number.
-int linking_of_curves(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
-{
-  const double cores = separation(A, pose_a, B, pose_b, -(A.r0 + std::min(B.r0, B.r1)), A.bound).lower;
-  const double near = 0.4 * std::max(cores, closest_cores * (A.bound + B.bound));
-  const std::vector<Vec3> a = core_polygon(A, pose_a, near), b = core_polygon(B, pose_b, near);
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec3 &p = a[i], &pn = a[(i + 1) % a.size()];
@@ -126,11 +119,63 @@ int linking_of_curves(const Body& A, const Pose& pose_a, const Body& B, const Po
   return static_cast<int>(-std::lround(sum / (4.0 * pi)));
 }
 
+/// That of two polygons to which the cores may be pulled without crossing each other, as both together go
+/// less far than the cores are apart.
+int linking_of_curves(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
+{
+  const double cores = separation(A, pose_a, B, pose_b, -(A.r0 + std::min(B.r0, B.r1)), A.bound).lower;
+  const double near = 0.4 * std::max(cores, closest_cores * (A.bound + B.bound));
+  return linking_of_polygons(core_polygon(A, pose_a, near), core_polygon(B, pose_b, near));
+}
+
+/// A loop of a mesh in the world, and a ball that holds it.
+struct PlacedLoop {
+  std::vector<Vec3> corners;
+  Vec3 center = Vec3::Zero();
+  double radius = 0.0;
+};
+
+std::vector<PlacedLoop> placed_loops(const Body& body, const Pose& pose)
+{
+  const Frame frame = world_frame(body, pose);
+  std::vector<PlacedLoop> out;
+  out.reserve(body.facets->loops().size());
+  for (const std::vector<Vec3>& loop : body.facets->loops()) {
+    PlacedLoop& placed = out.emplace_back();
+    placed.corners.reserve(loop.size());
+    for (const Vec3& x : loop) {
+      placed.corners.emplace_back(frame.center + frame.axes * x);
+      placed.center += placed.corners.back() / static_cast<double>(loop.size());
+    }
+    for (const Vec3& x : placed.corners) placed.radius = std::max(placed.radius, (x - placed.center).norm());
+  }
+  return out;
+}
+
+/// Greatest common divisor of the linking numbers of all loops of one with all of the other. Loops generate
+/// what there is to be linked, so other generators give the same.
+int linking_of_meshes(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
+{
+  const std::vector<PlacedLoop> a = placed_loops(A, pose_a), b = placed_loops(B, pose_b);
+  int divisor = 0;
+  for (const PlacedLoop& p : a) {
+    for (const PlacedLoop& q : b) {
+      if ((p.center - q.center).norm() >= p.radius + q.radius) continue;
+      divisor = std::gcd(divisor, linking_of_polygons(p.corners, q.corners));
+      if (divisor == 1) return divisor;
+    }
+  }
+  return divisor;
+}
+
 }  // namespace
 
 Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance,
                       double enough, double tightness)
 {
+  if (A.surface || B.surface)
+    throw InputError(
+        "distances of surfaces are not known of triangle meshes: set solver.contact to \"mesh\"");
   // Spheres about the centres first: most pairs end here.
   const Vec3 ca = pose_a.position + pose_a.rotation * A.center;
   const Vec3 cb = pose_b.position + pose_b.rotation * B.center;
@@ -161,6 +206,11 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
 
 int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
 {
+  if (A.surface || B.surface) {
+    if (!A.facets || !B.facets)
+      throw InputError("links of triangle meshes are those of facets: set solver.contact to \"mesh\"");
+    return linking_of_meshes(A, pose_a, B, pose_b);
+  }
   if (A.curve || B.curve) return linking_of_curves(A, pose_a, B, pose_b);
   // In B's frame the disc is z = 0, rho < R_B. The core of A is a + R (cos u e1 + sin u e2), so
   // z(u) = a_z + R h cos(u - u0) with h = hypot(e1_z, e2_z).

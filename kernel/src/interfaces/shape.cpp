@@ -1,5 +1,6 @@
 #include <hauberk/error.hpp>
 #include <hauberk/geometry/closed_curve.hpp>
+#include <hauberk/geometry/triangle_surface.hpp>
 #include <hauberk/shape.hpp>
 
 #include <Eigen/LU>
@@ -69,6 +70,9 @@ std::string defect(const Primitive& primitive)
   if ((primitive.kind == PrimitiveKind::curve_tube) == primitive.curve.empty())
     return primitive.curve.empty() ? "is a curve tube without harmonics"
                                    : "has harmonics, but is no curve tube";
+  if ((primitive.kind == PrimitiveKind::triangle_mesh) != (primitive.surface != nullptr))
+    return primitive.surface ? "has a surface of triangles, but is no triangle mesh"
+                             : "is a triangle mesh without surface";
   if (primitive.kind == PrimitiveKind::curve_tube) return curve_defect(primitive);
   if (primitive.kind == PrimitiveKind::circle_tube && primitive.r0() != primitive.r1()) {
     return "is a circle tube with two radii";
@@ -86,6 +90,8 @@ std::vector<Primitive> Shape::primitives(std::span<const double> p) const
   if (out.empty()) throw PluginError("shape: no primitives returned");
   for (Primitive& primitive : out) {
     if (!primitive.curve.empty()) primitive.size[0] = mean_radius(primitive.curve);
+    if (primitive.surface)
+      primitive.size[1] = primitive.size[2] = primitive.R() * primitive.surface->thickness();
     const std::string what = defect(primitive);
     if (!what.empty()) throw PluginError("shape: primitive '" + primitive.name + "' " + what);
   }

@@ -24,7 +24,8 @@ RoomyState grow(const Model& m, State state, const RoomSettings& settings, const
   double step = first_step;
   for (int it = 0; it < most_steps && step >= settings.resolution && keep_going(); ++it) {
     const Relaxed r = relax(m, out.state, out.gap + step, settings.cell);
-    const double gap = links_kept(m, r.state) ? smallest_gap(m, r.state, far) : out.gap;
+    const double gap =
+        links_kept(m, r.state) && !meshes_meet(m, r.state) ? smallest_gap(m, r.state, far) : out.gap;
     const double gain = gap - out.gap;
     // What is gained counts also where it is less than was asked for.
     if (gain > 0.0) {

@@ -1,4 +1,5 @@
 #include <hauberk/contact/mesh.hpp>
+#include <hauberk/geometry/facets.hpp>
 #include <hauberk/mechanics/gaps.hpp>
 
 #include <fmt/format.h>
@@ -202,6 +203,21 @@ double smallest_gap(const Model& m, const State& s, double range)
   double g = std::numeric_limits<double>::infinity();
   for (const Gap& x : find_gaps(m, s, range, false)) g = std::min(g, x.gap);
   return g;
+}
+
+bool meshes_meet(const Model& m, const State& s)
+{
+  for (const ElementPair& pair : near_pairs(m, s, 0.0)) {
+    const Pose pi = image_pose(m, s, pair.i, {0, 0}), pj = image_pose(m, s, pair.j, pair.image);
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+        if (A.facets && B.facets && facets_intersect(PairFrame(A, pi, B, pj))) return true;
+      }
+    }
+  }
+  return false;
 }
 
 std::string body_name(const SceneSpec& spec, const Body& body)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace hauberk {
 namespace {
@@ -119,19 +120,31 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 
 namespace {
 
-/// Gives every body its mesh; bodies of one size share one.
+/// Gives every body its mesh; bodies of one size, and of one surface, share one.
 void set_facets(Model& m, int count)
 {
-  std::map<std::array<double, 3>, std::shared_ptr<const Facets>> made;
+  using Key = std::tuple<const TriangleSurface*, double, double, double>;
+  std::map<Key, std::shared_ptr<const Facets>> made;
   for (Body& b : m.bodies) {
     if (b.curve) {
       throw InputError(
-          "contact 'mesh' knows tori only, no tubes around curves; use solver.contact auto, arc or nearest");
+          "contact 'mesh' knows tori and meshes, no tubes around curves; use solver.contact auto, arc or "
+          "nearest");
     }
-    std::shared_ptr<const Facets>& facets = made[{b.R, b.r0, b.r1}];
-    if (!facets) facets = std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
+    std::shared_ptr<const Facets>& facets = made[{b.surface.get(), b.R, b.r0, b.r1}];
+    if (!facets) {
+      facets = b.surface ? std::make_shared<const Facets>(*b.surface, b.R)
+                         : std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
+    }
     b.facets = facets;
   }
+}
+
+/// Nothing but contact of meshes knows where the surface of a triangle mesh is.
+void refuse_surfaces(const Model& m)
+{
+  if (std::any_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.surface != nullptr; }))
+    throw InputError("this scene has elements that are triangle meshes: set solver.contact to \"mesh\"");
 }
 
 }  // namespace
@@ -166,7 +179,11 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
     positions.push_back(m.rest.back().position);
   }
   m.first_body.push_back(static_cast<int>(m.bodies.size()));
-  if (spec.facets > 0) set_facets(m, spec.facets);
+  if (spec.facets > 0) {
+    set_facets(m, spec.facets);
+  } else {
+    refuse_surfaces(m);
+  }
   check_images(m);
   m.walls = load.inequalities(positions);
   set_metric(m);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -17,6 +18,8 @@ constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 
 std::string reduction(const Body& a, const Body& b)
 {
+  if (a.surface || b.surface)
+    return "meshes: points and triangles, edges and edges, nearest points in closed form";
   if (a.curve && b.curve) return "distance of two curves minus radii: both coordinates searched";
   if (a.curve || b.curve)
     return "one coordinate of the curve searched, the distance to the torus in closed form or by one angle";
@@ -35,7 +38,7 @@ bool spins(const Model& m, std::size_t element)
   for (int k = m.first_body[element]; k < m.first_body[element + 1]; ++k) {
     const Body& b = m.bodies[static_cast<std::size_t>(k)];
     const Vec3 axis = first.axes.col(2);
-    if (b.curve || b.axes.col(2).cross(axis).norm() > 1e-12 ||
+    if (b.curve || b.surface || b.axes.col(2).cross(axis).norm() > 1e-12 ||
         (b.center - first.center).cross(axis).norm() > 1e-12)
       return false;
   }
@@ -69,6 +72,21 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
   if (p.tightest.size() > most_tight_pairs) p.tightest.resize(most_tight_pairs);
 }
 
+/// Triangles and edges of the primitives, of which each may have others.
+std::string mesh_decision(const Model& m)
+{
+  std::size_t least = std::numeric_limits<std::size_t>::max(), most = 0, edges = 0;
+  for (const Body& b : m.bodies) {
+    least = std::min(least, b.facets->triangles().size());
+    most = std::max(most, b.facets->triangles().size());
+    edges = std::max(edges, b.facets->edges().size());
+  }
+  const std::string triangles = least == most ? fmt::format("{} triangles and {} edges", most, edges)
+                                              : fmt::format("{} to {} triangles", least, most);
+  return fmt::format("contact: of meshes in every stage, {} a primitive; values are those of the meshes",
+                     triangles);
+}
+
 void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const LimitSettings& settings)
 {
   if (p.inert > 0) {
@@ -100,10 +118,7 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
           "contact: published in every stage (squared distances of charts, faded by an eigenvalue)");
       break;
     case ContactChoice::mesh:
-      p.decisions.push_back(
-          fmt::format("contact: of meshes in every stage, {} triangles and {} edges a primitive; values are "
-                      "those of the meshes",
-                      m.bodies.front().facets->triangles().size(), m.bodies.front().facets->edges().size()));
+      p.decisions.push_back(mesh_decision(m));
       break;
     case ContactChoice::constrained:
       p.decisions.push_back(fmt::format(

@@ -32,7 +32,9 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
         const bool known = std::any_of(worst.begin(), worst.end(), [&](const Gap& g) {
           return g.a == a && g.b == b && g.image == pair.image && g.gap + m.clearance < 0.0;
         });
-        if (known) continue;
+        const bool meshes =
+            m.bodies[static_cast<std::size_t>(a)].surface || m.bodies[static_cast<std::size_t>(b)].surface;
+        if (known || meshes) continue;  // mesh_problem tells of meshes
         const Separation s = separation(m.bodies[static_cast<std::size_t>(a)], pi,
                                         m.bodies[static_cast<std::size_t>(b)], pj, 0.0, touching);
         if (s.upper >= -touching) continue;
@@ -52,6 +54,7 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
 std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& state)
 {
   for (const Body& b : m.bodies) {
+    if (b.surface) continue;
     // Links are those of core circles, which must be inside of their meshes.
     const double cosine = std::cos(std::numbers::pi / spec.facets);
     if (b.R * (1.0 - cosine) < std::min(b.r0, b.r1) * cosine) continue;
@@ -61,15 +64,20 @@ std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& sta
         body_name(spec, b), spec.facets);
   }
   std::string first;
+  const char* how = "meet";
+  bool coarse = true;
   int others = 0;
   for (const ElementPair& pair : near_pairs(m, state, 0.0)) {
     const Pose pi = image_pose(m, state, pair.i, {0, 0}), pj = image_pose(m, state, pair.j, pair.image);
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const PairFrame frame(m.bodies[static_cast<std::size_t>(a)], pi,
-                              m.bodies[static_cast<std::size_t>(b)], pj);
-        if (!facets_intersect(frame)) continue;
+        const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+        const PairFrame frame(A, pi, B, pj);
+        const bool surfaces = A.surface || B.surface;
+        const bool meet = facets_intersect(frame);
+        // Tori inside of each other are found by their surfaces.
+        if (!meet && !(surfaces && facets_inside(frame))) continue;
         if (!first.empty()) {
           ++others;
           continue;
@@ -79,12 +87,15 @@ std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& sta
         g.b = b;
         g.image = pair.image;
         first = pair_name(spec, m, g);
+        how = meet ? "meet" : "are inside of each other";
+        coarse = !surfaces;
       }
     }
   }
   if (first.empty()) return {};
   const std::string more = others > 0 ? fmt::format(", as do {} other pairs", others) : "";
-  return fmt::format("the meshes of {} meet at rest{}; use more facets, or give them more room", first, more);
+  return fmt::format("the meshes of {} {} at rest{}; {}", first, how, more,
+                     coarse ? "use more facets, or give them more room" : "move them apart");
 }
 
 }  // namespace
@@ -92,16 +103,15 @@ std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& sta
 std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bool relax_allowed)
 {
   std::vector<std::string> out;
-  if (m.links.empty()) {
+  // Meshes that meet have no links, or wrong ones.
+  const std::string meeting = spec.facets > 0 ? mesh_problem(spec, m, rest_state(m)) : std::string();
+  if (m.links.empty() && meeting.empty()) {
     out.emplace_back(
         "nothing is linked: no ring passes through another, so no direction has a limit; check positions, "
         "rotations and the cell's vectors");
     return out;
   }
-  if (spec.facets > 0) {
-    if (const std::string problem = mesh_problem(spec, m, rest_state(m)); !problem.empty())
-      out.push_back(problem);
-  }
+  if (!meeting.empty()) out.push_back(meeting);
   if (relax_allowed) return out;
   // The deepest gap of every pair of bodies.
   std::vector<Gap> worst;

@@ -182,6 +182,7 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
   const Experiment& e = loaded.experiment;
   for (const Problem& problem : solver_problems(e))
     diagnostics.problems.add(nearest_node(e.resolved, problem.pointer), problem.message);
+  if (meshes_without_contact(e)) stop_on_problems();  // the scene would say so again
   if (!prepare_scene(loaded, diagnostics)) stop_on_problems();
 
   if (e.task == Task::stability) {

@@ -81,16 +81,43 @@ std::string paper_problem(const SceneSpec& scene, const std::string& unit)
   return {};
 }
 
-bool has_curve_tube(const SceneSpec& scene)
+bool has_primitive(const SceneSpec& scene, PrimitiveKind kind)
 {
-  return std::any_of(scene.elements.begin(), scene.elements.end(), [&scene](const PlacedElement& e) {
+  return std::any_of(scene.elements.begin(), scene.elements.end(), [&scene, kind](const PlacedElement& e) {
     const auto primitives = scene.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters);
     return std::any_of(primitives.begin(), primitives.end(),
-                       [](const Primitive& p) { return p.kind == PrimitiveKind::curve_tube; });
+                       [kind](const Primitive& p) { return p.kind == kind; });
   });
 }
 
+/// Triangle meshes have contact of meshes and nothing else.
+void add_mesh_problems(const Experiment& e, std::vector<Problem>& out)
+{
+  if (meshes_without_contact(e)) {
+    out.push_back({"/solver/contact", 0,
+                   fmt::format("this scene has elements that are triangle meshes, and contact '{}' knows "
+                               "surfaces of other kinds only: set solver.contact to \"mesh\"",
+                               e.solver.contact)});
+  }
+  if (!has_primitive(e.scene, PrimitiveKind::triangle_mesh)) return;
+  if (e.task == Task::transition) {
+    out.push_back({"/task", 0,
+                   "this scene has elements that are triangle meshes, and task 'transition' knows tori only; "
+                   "use task limits"});
+  }
+  if (preset_schedule(e.solver, e.scene, e.length_unit).ccd == CollisionCheck::sampled) {
+    out.push_back({"/solver", 0,
+                   "this scene has elements that are triangle meshes, and sampled collision checks (ccd "
+                   "'sampled', preset 'paper') know tori only; use ccd 'certified'"});
+  }
+}
+
 }  // namespace
+
+bool meshes_without_contact(const Experiment& e)
+{
+  return e.solver.contact != "mesh" && has_primitive(e.scene, PrimitiveKind::triangle_mesh);
+}
 
 std::vector<Problem> solver_problems(const Experiment& e)
 {
@@ -128,11 +155,12 @@ std::vector<Problem> solver_problems(const Experiment& e)
     out.push_back({"/solver/ccd", 0, "contact 'constrained' checks no steps for collisions; remove this"});
   const bool published = contact_choice(solver) == ContactChoice::published;
   const bool tori_only = published || solver.contact == "mesh" || solver.ccd == "sampled";
-  if ((tori_only || e.task == Task::transition) && has_curve_tube(e.scene)) {
+  if ((tori_only || e.task == Task::transition) && has_primitive(e.scene, PrimitiveKind::curve_tube)) {
     out.push_back({tori_only ? "/solver" : "/task", 0,
                    "this scene has tubes around curves, and contact 'published' or 'mesh', ccd 'sampled', "
                    "preset 'paper' and task 'transition' know tori only; use contact auto, arc or nearest"});
   }
+  add_mesh_problems(e, out);
   if (!published && solver.closest_points == "sampled") {
     out.push_back(
         {"/solver/closest_points", 0,

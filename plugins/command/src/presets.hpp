@@ -12,6 +12,9 @@ namespace hauberk::command {
 /// What of the section `solver` cannot be used with this experiment (places as pointers, no lines).
 std::vector<Problem> solver_problems(const Experiment& experiment);
 
+/// True if there are triangle meshes and the contact is not that of meshes, without which there is no model.
+bool meshes_without_contact(const Experiment& experiment);
+
 /// Settings of limits: the preset, then what the file says beyond it (tolerance, max_stages, max_iterations,
 /// contact, searches, target, starts, perturbation, start_seed). Preset paper has absolute lengths, so the
 /// unit of the scene's file counts.

@@ -4,8 +4,11 @@
 
 #include "checks.hpp"
 
+#include <hauberk/contact/mesh.hpp>
 #include <hauberk/geometry/body.hpp>
+#include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/separation.hpp>
+#include <hauberk/geometry/triangle_surface.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -162,6 +165,45 @@ double nearest_pass(const Primitive& primitive)
   return nearest;
 }
 
+/// A surface of triangles is closed where its triangles, as vectors, add up to nothing, and the volume within
+/// them is positive and the same from everywhere; its thickness and its ball are what the kernel says.
+void check_triangles(const Primitive& primitive, Trial& trial)
+{
+  const TriangleSurface& surface = *primitive.surface;
+  Vec3 area = Vec3::Zero();
+  const Vec3 from = trial.random.vector(2.0);
+  double total = 0.0, six = 0.0, six_from = 0.0, sum = 0.0, farthest = 0.0;
+  for (const auto& t : surface.triangles()) {
+    const Vec3 &a = surface.points()[static_cast<std::size_t>(t[0])],
+               &b = surface.points()[static_cast<std::size_t>(t[1])],
+               &c = surface.points()[static_cast<std::size_t>(t[2])];
+    const Vec3 twice = (b - a).cross(c - a);
+    area += 0.5 * twice;
+    total += 0.5 * twice.norm();
+    six += a.dot(b.cross(c));
+    six_from += (a - from).dot((b - from).cross(c - from));
+  }
+  for (const Vec3& x : surface.points()) {
+    sum += x.norm();
+    farthest = std::max(farthest, x.norm());
+  }
+  const double count = static_cast<double>(surface.points().size());
+  require(area.norm() <= rounding * count * total && std::abs(six - six_from) <= rounding * count * total,
+          "the triangles of '{}' are not closed: their areas add up to {:.3g} of all", primitive.name,
+          area.norm() / total);
+  require(six > 0.0, "the triangles of '{}' point inwards: their volume is {:.6g}", primitive.name,
+          six / 6.0);
+  require(std::abs(sum / count - 1.0) <= rounding, "points of '{}' have a mean distance of {:.12g}, not 1",
+          primitive.name, sum / count);
+  require(std::abs(primitive.r0() - primitive.R() * six / (3.0 * total)) <= rounding * count * primitive.R(),
+          "'{}' is said to be {:.12g} thick; twice its volume over its area is {:.12g}", primitive.name,
+          primitive.r0(), primitive.R() * six / (3.0 * total));
+  const double bound = make_body(primitive, 0, 0, 1.0).bound;
+  require(primitive.R() * farthest <= bound * (1.0 + rounding),
+          "'{}' reaches {:.6g} from its centre, its bounding sphere {:.6g}", primitive.name,
+          primitive.R() * farthest, bound);
+}
+
 /// A primitive in its own frame, in the unit of its size.
 Body body_of(Primitive primitive)
 {
@@ -177,6 +219,10 @@ void check_surfaces(Trial& trial)
   const Object object = trial.make();
   for (int draw = 0; draw < 3; ++draw) {
     for (const Primitive& primitive : object.shape->primitives(draw_point(*object.shape, trial).p)) {
+      if (primitive.surface) {
+        check_triangles(primitive, trial);
+        continue;
+      }
       const double exact = exact_volume(primitive);
       const int fine = 64 * static_cast<int>(std::max<std::size_t>(1, primitive.curve.size()));
       const std::vector<Vec3> points = surface_points(primitive, fine);
@@ -206,6 +252,74 @@ void check_surfaces(Trial& trial)
   }
 }
 
+namespace {
+
+/// Points of a surface's triangles: n (n + 1)/2 of each.
+std::vector<Vec3> triangle_points(const Primitive& primitive, int n)
+{
+  std::vector<Vec3> out;
+  const auto at = [&primitive](int k) -> Vec3 {
+    return primitive.R() * primitive.surface->points()[static_cast<std::size_t>(k)];
+  };
+  for (const auto& t : primitive.surface->triangles()) {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j)
+        out.push_back((i * at(t[0]) + j * at(t[1]) + (n - i - j) * at(t[2])) / n);
+    }
+  }
+  return out;
+}
+
+/// The smallest distance of features of two meshes, against points of their triangles: these are never
+/// nearer, and where the nearest lie within some length of the nearest points, at most that much farther.
+void check_mesh_distances(const Primitive& p, const Primitive& f, Trial& trial)
+{
+  constexpr std::size_t most_points = 4000;
+  const auto with_facets = [](const Primitive& primitive) {
+    Primitive own = primitive;
+    own.position = Vec3::Zero();
+    own.rotation = Mat3::Identity();
+    Body body = make_body(own, 0, 0, 1.0);
+    body.facets = std::make_shared<const Facets>(*primitive.surface, primitive.R());
+    return body;
+  };
+  const auto sampled = [](const Primitive& primitive, double& known_to) {
+    int n = 6;
+    while (n > 1 && primitive.surface->triangles().size() * static_cast<std::size_t>((n + 1) * (n + 2) / 2) >
+                        most_points)
+      --n;
+    double longest = 0.0;
+    for (const auto& t : primitive.surface->triangles()) {
+      for (std::size_t k = 0; k < 3; ++k)
+        longest = std::max(longest, (primitive.surface->points()[static_cast<std::size_t>(t[k])] -
+                                     primitive.surface->points()[static_cast<std::size_t>(t[(k + 1) % 3])])
+                                        .norm());
+    }
+    known_to += primitive.R() * longest / n;
+    return triangle_points(primitive, n);
+  };
+  const Body a = with_facets(p), b = with_facets(f);
+  Pose pose;
+  pose.rotation = rotation_exp(trial.random.vector(2.0));
+  pose.position =
+      (a.bound + b.bound) * trial.random.between(0.9, 1.2) * trial.random.vector(1.0).normalized();
+  const PairFrame frame(a, {}, b, pose);
+  if (facets_intersect(frame)) return;
+  double known_to = 0.0, nearest = std::numeric_limits<double>::infinity();
+  const std::vector<Vec3> of_p = sampled(p, known_to), of_f = sampled(f, known_to);
+  for (const Vec3& x : of_p) {
+    for (const Vec3& y : of_f) nearest = std::min(nearest, (x - pose.position - pose.rotation * y).norm());
+  }
+  const double size = a.bound + b.bound;
+  const double found = smallest_feature_distance(frame, 4.0 * size);
+  require(found <= nearest + rounding * size && nearest <= found + known_to,
+          "the gap of '{}' and '{}' is {:.6g}, says the kernel; samples of their triangles are {:.6g} apart, "
+          "known to {:.2g}",
+          p.name, f.name, found, nearest, known_to);
+}
+
+}  // namespace
+
 void check_distances(Trial& trial)
 {
   constexpr int n = 48;
@@ -214,6 +328,8 @@ void check_distances(Trial& trial)
     const std::vector<Primitive> primitives = object.shape->primitives(draw_point(*object.shape, trial).p);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const Primitive &p = primitives[i], &f = primitives[(i + 1) % primitives.size()];
+      if (p.surface && f.surface) check_mesh_distances(p, f, trial);
+      if (p.surface || f.surface) continue;  // of tori and meshes only facets of both have a distance
       const Body a = body_of(p), b = body_of(f);
       // Turned at random, a little within or beyond the least distance at which they are certainly apart.
       Pose pose;

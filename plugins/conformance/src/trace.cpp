@@ -1,6 +1,7 @@
 #include "trace.hpp"
 
 #include <hauberk/conformance/known_problems.hpp>
+#include <hauberk/geometry/triangle_surface.hpp>
 #include <hauberk/host/floating_point.hpp>
 
 #include <cstring>
@@ -25,6 +26,9 @@ void trace_shape(const Shape& shape, const Numbers& p, Numbers& out)
     out.push_back(static_cast<double>(primitive.kind));
     append(out, quantities(primitive));
     append(out, {primitive.rotation.data(), 9});
+    if (!primitive.surface) continue;
+    for (const Vec3& x : primitive.surface->points()) append(out, {x.data(), 3});
+    for (const auto& t : primitive.surface->triangles()) out.insert(out.end(), t.begin(), t.end());
   }
   for (const PrimitiveJacobian& jacobian : shape.jacobians(p)) append(out, jacobian);
 }

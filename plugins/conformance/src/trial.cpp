@@ -136,8 +136,10 @@ std::vector<double> quantities(const Primitive& primitive)
 {
   std::vector<double> out(primitive.position.begin(), primitive.position.end());
   out.insert(out.end(), primitive.size.begin(), primitive.size.end());
+  // What the kernel sets has no row of a Jacobian.
+  if (primitive.surface) out[4] = out[5] = 0.0;
   if (primitive.curve.empty()) return out;
-  out[3] = 0.0;  // the kernel's: no row of a Jacobian belongs to it
+  out[3] = 0.0;
   for (const Harmonic& h : primitive.curve) {
     out.insert(out.end(), h.c.begin(), h.c.end());
     out.insert(out.end(), h.s.begin(), h.s.end());

@@ -90,7 +90,8 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   std::optional<Node> root = read_jsonc(source.text, problems);
   if (!root) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
-  return read_tree(std::move(*root), {lookup, source.weaves}, diagnostics);
+  const std::string folder = std::filesystem::path(source.file).parent_path().string();
+  return read_tree(std::move(*root), {lookup, source.weaves, folder}, diagnostics);
 }
 
 std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnostics& diagnostics,
@@ -102,10 +103,10 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   constexpr std::array variant_sections{"stability", "sweep", "chart"};
   const bool has_variants = std::any_of(variant_sections.begin(), variant_sections.end(),
                                         [&root](const char* key) { return root->find(key) != nullptr; });
-  const VariantBase base = has_variants ? variant_base(*root, lookups.weaves) : VariantBase{};
+  const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
-  PluginResolver plugins(lookups.plugins);
+  PluginResolver plugins(lookups.plugins, lookups.folder);
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };

@@ -4,6 +4,8 @@
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/host/factories.hpp>
 
+#include <filesystem>
+
 namespace hauberk {
 
 namespace {
@@ -24,14 +26,28 @@ bool is_intact(const Node& section, const PluginTable& table)
   return missing.empty();
 }
 
-/// Calls a factory; what it throws is reported at the section.
+/// The section with paths of files, which are relative to `folder`, as they are seen from here.
+Node located(const Node& section, const PluginTable& table, const std::string& folder)
+{
+  Node copy = section;
+  for (const Field& field : plugin_fields(table)) {
+    if (field.kind != Field::Kind::string || field.unit != "file") continue;
+    for (auto& [key, value] : copy.members) {
+      // An absolute path stays as it is.
+      if (key == field.name) value.string = (std::filesystem::path(folder) / value.string).string();
+    }
+  }
+  return copy;
+}
+
+/// Calls a factory with the located section; what it throws is reported at the section.
 template <class Factory>
-auto make_guarded(const Node& section, const PluginTable* table, Problems& problems, const Factory& factory)
-    -> decltype(factory())
+auto make_guarded(const Node& section, const PluginTable* table, const std::string& folder,
+                  Problems& problems, const Factory& factory) -> decltype(factory(section))
 {
   if (table == nullptr) return nullptr;
   try {
-    if (is_intact(section, *table)) return factory();
+    if (is_intact(section, *table)) return factory(located(section, *table, folder));
   } catch (const InputError& error) {
     problems.add(section, error.what());
   } catch (const PluginError& error) {
@@ -82,21 +98,23 @@ ExtraFields PluginResolver::extra_fields(const Field& field, const Node& object,
 std::shared_ptr<const Shape> PluginResolver::shape(const Node& section, Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::shape, "shape");
-  return make_guarded(section, table, problems, [&] { return make_shape(*table, section, problems); });
+  return make_guarded(section, table, folder_, problems,
+                      [&](const Node& own) { return make_shape(*table, own, problems); });
 }
 
 std::shared_ptr<const LoadCase> PluginResolver::load_case(const Node& section, double length,
                                                           Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::load_case, "plugin");
-  return make_guarded(section, table, problems,
-                      [&] { return make_load_case(*table, section, length, problems); });
+  return make_guarded(section, table, folder_, problems,
+                      [&](const Node& own) { return make_load_case(*table, own, length, problems); });
 }
 
 std::shared_ptr<const Optimizer> PluginResolver::optimizer(const Node& section, Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::optimizer, "plugin");
-  return make_guarded(section, table, problems, [&] { return make_optimizer(*table, section, problems); });
+  return make_guarded(section, table, folder_, problems,
+                      [&](const Node& own) { return make_optimizer(*table, own, problems); });
 }
 
 }  // namespace hauberk

@@ -12,7 +12,10 @@ namespace hauberk {
 /// problem.
 class PluginResolver {
  public:
-  explicit PluginResolver(const PluginLookup& lookup) : lookup_(lookup) {}
+  /// `folder`: that plugins' files are relative to.
+  PluginResolver(const PluginLookup& lookup, std::string folder) : lookup_(lookup), folder_(std::move(folder))
+  {
+  }
 
   /// The plugin named by `section`, null when it names none or there is none.
   const PluginTable* find(const Node& section, PluginKind kind, const char* key);
@@ -32,6 +35,7 @@ class PluginResolver {
   const Found& look_up(PluginKind kind, const std::string& id);
 
   const PluginLookup& lookup_;
+  std::string folder_;
   std::map<std::pair<PluginKind, std::string>, Found> found_;
 };
 

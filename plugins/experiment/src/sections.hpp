@@ -12,6 +12,13 @@
 
 namespace hauberk {
 
+/// Where an experiment finds what it names.
+struct Lookups {
+  const PluginLookup& plugins;
+  WeaveLookup weaves;
+  std::string folder;  ///< that paths of plugins' files are relative to; empty: the working directory
+};
+
 /// Reports entries of `directions` that repeat an earlier one modulo 180 degrees.
 void check_directions(const std::vector<std::pair<const Node*, double>>& directions, Problems& problems);
 
@@ -37,7 +44,7 @@ std::vector<ExperimentVariable> read_variables(const Node& list, const SceneSpec
                                                Problems& problems);
 
 /// What variants of the file start from; `file` is the whole file before it was checked.
-VariantBase variant_base(const Node& file, WeaveLookup weaves);
+VariantBase variant_base(const Node& file, const Lookups& lookups);
 
 /// stability.
 ExperimentStability read_stability(const Node& section, VariantBase base, Problems& problems);
@@ -57,12 +64,6 @@ ExperimentChart read_chart(const Node& section, VariantBase base, Problems& prob
 /// transition; fills in the range. `clearance` is the solver's.
 ExperimentTransition read_transition(Node& section, const SceneSpec& scene, double clearance,
                                      bool scene_complete, Problems& problems);
-
-/// Where an experiment finds what it names.
-struct Lookups {
-  const PluginLookup& plugins;
-  WeaveLookup weaves;
-};
 
 /// Everything from a tree with values in place to an experiment. `well_formed`, when wanted: nothing was
 /// wrong with its form (keys, types, ranges).

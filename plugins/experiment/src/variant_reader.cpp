@@ -18,10 +18,10 @@ void set_member(Node& root, const std::string& key, Node value)
 
 }  // namespace
 
-VariantBase variant_base(const Node& file, WeaveLookup weaves)
+VariantBase variant_base(const Node& file, const Lookups& lookups)
 {
   constexpr std::array dropped{"stability", "transition", "sweep", "chart", "design", "expect"};
-  VariantBase base{file, std::move(weaves)};
+  VariantBase base{file, lookups.weaves, lookups.folder};
   std::erase_if(base.file.members, [&dropped](const auto& member) {
     return std::find(dropped.begin(), dropped.end(), member.first) != dropped.end();
   });
@@ -42,7 +42,8 @@ VariantReading read_variant(const VariantBase& base, const std::vector<Assignmen
   set_member(root, "name", string_node(name));
   bool well_formed = false;
   VariantReading out;
-  if (found.empty()) out.experiment = read_tree(std::move(root), {lookup, base.weaves}, found, &well_formed);
+  if (found.empty())
+    out.experiment = read_tree(std::move(root), {lookup, base.weaves, base.folder}, found, &well_formed);
   for (const Problem& problem : found.problems.list()) {
     if (!well_formed) {
       diagnostics.problems.add({problem.pointer, problem.line, place + problem.message});

@@ -1,13 +1,45 @@
 #include "json_parts.hpp"
 
+#include <hauberk/geometry/triangle_surface.hpp>
+
 #include <Eigen/Geometry>
+
+#include <algorithm>
 
 namespace hauberk::detail {
 namespace {
 
 namespace json = boost::json;
 
-json::object primitive_json(const Primitive& primitive)
+/// Surfaces of triangle meshes that primitives refer to, each once.
+class Surfaces {
+ public:
+  /// The number of a surface.
+  std::size_t number(const std::shared_ptr<const TriangleSurface>& shared)
+  {
+    const TriangleSurface& surface = *shared;
+    const auto same = std::find_if(found_.begin(), found_.end(), [&](const auto& known) {
+      return known == shared ||
+             (known->points() == surface.points() && known->triangles() == surface.triangles());
+    });
+    if (same != found_.end()) return static_cast<std::size_t>(same - found_.begin());
+    found_.push_back(shared);
+    json::object out;
+    json::array& points = out["points"].emplace_array();
+    for (const Vec3& x : surface.points()) points.push_back(vector_json(x));
+    json::array& triangles = out["triangles"].emplace_array();
+    for (const auto& t : surface.triangles()) triangles.push_back(json::array{t[0], t[1], t[2]});
+    json_.push_back(std::move(out));
+    return found_.size() - 1;
+  }
+  const json::array& list() const { return json_; }
+
+ private:
+  std::vector<std::shared_ptr<const TriangleSurface>> found_;
+  json::array json_;
+};
+
+json::object primitive_json(const Primitive& primitive, Surfaces& surfaces)
 {
   json::object out;
   out["name"] = primitive.name;
@@ -16,6 +48,7 @@ json::object primitive_json(const Primitive& primitive)
       {"R", number(primitive.R())}, {"r0", number(primitive.r0())}, {"r1", number(primitive.r1())}};
   out["position"] = vector_json(primitive.position);
   out["quaternion"] = quaternion_json(primitive.rotation);
+  if (primitive.surface) out["surface"] = surfaces.number(primitive.surface);
   if (primitive.curve.empty()) return out;
   json::array& curve = out["curve"].emplace_array();
   for (const Harmonic& h : primitive.curve)
@@ -23,7 +56,7 @@ json::object primitive_json(const Primitive& primitive)
   return out;
 }
 
-json::object element_json(const PlacedElement& element, const ElementType& type)
+json::object element_json(const PlacedElement& element, const ElementType& type, Surfaces& surfaces)
 {
   json::object out;
   out["type"] = type.name;
@@ -34,7 +67,7 @@ json::object element_json(const PlacedElement& element, const ElementType& type)
   out["rest"] = pose_json(element.rest);
   json::array& primitives = out["primitives"].emplace_array();
   for (const Primitive& primitive : type.shape->primitives(element.parameters))
-    primitives.push_back(primitive_json(primitive));
+    primitives.push_back(primitive_json(primitive, surfaces));
   return out;
 }
 
@@ -78,9 +111,12 @@ json::object scene_json(const SceneSpec& scene)
     vectors.push_back(std::move(components));
   }
   out["length"] = number(scene.length > 0.0 ? scene.length : characteristic_length(scene));
+  Surfaces surfaces;
   json::array& elements = out["elements"].emplace_array();
   for (const PlacedElement& element : scene.elements)
-    elements.push_back(element_json(element, scene.types.at(static_cast<std::size_t>(element.type))));
+    elements.push_back(
+        element_json(element, scene.types.at(static_cast<std::size_t>(element.type)), surfaces));
+  if (!surfaces.list().empty()) out["surfaces"] = surfaces.list();
   return out;
 }
 

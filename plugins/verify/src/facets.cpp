@@ -26,34 +26,83 @@ Ball ball_of(const std::vector<Vec3>& points)
   return out;
 }
 
-/// The triangles between two neighbouring sections of the tube.
+/// Triangles that lie together: of a torus those between two neighbouring sections of its tube.
 struct Sector {
   std::vector<Triangle> triangles;
   std::vector<Ball> balls;  ///< of the triangles
   Ball ball;
 };
 
-std::vector<Sector> sectors(const Torus& torus)
+Sector sector_of(std::vector<Triangle> triangles)
+{
+  Sector out;
+  std::vector<Vec3> all;
+  for (const Triangle& t : triangles) {
+    out.balls.push_back(ball_of({t[0], t[1], t[2]}));
+    all.insert(all.end(), t.begin(), t.end());
+  }
+  out.ball = ball_of(all);
+  out.triangles = std::move(triangles);
+  return out;
+}
+
+std::vector<Sector> torus_sectors(const Torus& torus)
 {
   const int n = torus.facets;
   const double step = 2.0 * std::numbers::pi / n;
   const auto corner = [&](int i, int j) {
     return surface_point(torus, (i + 0.5) * step, std::numbers::pi + (j + 0.5) * step);
   };
-  std::vector<Sector> out(static_cast<std::size_t>(n));
+  std::vector<Sector> out;
   for (int i = 0; i < n; ++i) {
-    Sector& sector = out[static_cast<std::size_t>(i)];
-    std::vector<Vec3> all;
+    std::vector<Triangle> triangles;
     for (int j = 0; j < n; ++j) {
       const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
-      for (const Triangle& t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
-        sector.triangles.push_back(t);
-        sector.balls.push_back(ball_of({t[0], t[1], t[2]}));
-      }
-      all.insert(all.end(), {a, b});
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
     }
-    sector.ball = ball_of(all);
+    out.push_back(sector_of(std::move(triangles)));
   }
+  return out;
+}
+
+/// Halves a list across the longest side of its box until few triangles are left.
+void add_sectors(std::vector<Triangle> triangles, std::vector<Sector>& out)
+{
+  constexpr std::size_t few = 24;
+  if (triangles.size() <= few) {
+    out.push_back(sector_of(std::move(triangles)));
+    return;
+  }
+  Vec3 low = triangles[0][0], high = low;
+  for (const Triangle& t : triangles) {
+    for (const Vec3& x : t) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+  }
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  std::sort(triangles.begin(), triangles.end(), [axis](const Triangle& a, const Triangle& b) {
+    return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
+  });
+  const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
+  add_sectors({triangles.begin(), middle}, out);
+  add_sectors({middle, triangles.end()}, out);
+}
+
+std::vector<Sector> sectors(const Torus& torus)
+{
+  if (!torus.surface) return torus_sectors(torus);
+  std::vector<Triangle> triangles;
+  for (const auto& t : torus.surface->triangles) {
+    Triangle& placed = triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      placed[k] = torus.place.position +
+                  torus.place.rotation * (torus.R * torus.surface->points[static_cast<std::size_t>(t[k])]);
+  }
+  std::vector<Sector> out;
+  add_sectors(std::move(triangles), out);
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Meshes of tori, as contact `mesh` has them; by their rule and by brute force, not by the program's code.
+/// Meshes, as contact `mesh` has them: of tori by their rule, of surfaces as they are; by brute force, not by
+/// the program's code.
 #include "model.hpp"
 
 namespace hauberk::verification {

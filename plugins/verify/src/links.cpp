@@ -1,5 +1,6 @@
 #include "links.hpp"
 
+#include "loops.hpp"
 #include "neighbours.hpp"
 #include "surface.hpp"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace hauberk::verification {
 namespace {
@@ -63,10 +65,47 @@ int gauss_number(const Torus& a, const Torus& b)
                   a.name, b.name));
 }
 
+/// Loops that generate what can be linked with a mesh.
+std::vector<std::vector<Vec3>> loops_of(const Torus& torus)
+{
+  std::vector<std::vector<Vec3>> out;
+  if (!torus.surface) {
+    // Through the middles of the mesh's sections: what lies between two of them is inside of it.
+    out.emplace_back();
+    for (int i = 0; i < torus.facets; ++i)
+      out[0].push_back(core_point(torus, 2.0 * std::numbers::pi * (i + 0.5) / torus.facets));
+    return out;
+  }
+  for (const std::vector<int>& loop : torus.surface->loops) {
+    std::vector<Vec3>& corners = out.emplace_back();
+    corners.reserve(loop.size());
+    for (const int k : loop)
+      corners.emplace_back(torus.place.position +
+                           torus.place.rotation *
+                               (torus.R * torus.surface->points[static_cast<std::size_t>(k)]));
+  }
+  return out;
+}
+
+int mesh_number(const Torus& a, const Torus& b)
+{
+  int divisor = 0;
+  const auto first = loops_of(a), second = loops_of(b);
+  for (const auto& p : first)
+    for (const auto& q : second) {
+      const std::optional<int> number = crossing_number(p, q);
+      if (!number)
+        throw Malformed(fmt::format("{} and {}: their linking number is not decided", a.name, b.name));
+      divisor = std::gcd(divisor, *number);
+    }
+  return divisor;
+}
+
 }  // namespace
 
 int linking_number(const Torus& a, const Torus& b)
 {
+  if (a.surface || b.surface) return mesh_number(a, b);
   if (!a.curve.empty() || !b.curve.empty()) return gauss_number(a, b);
   // Height of b's circle above a's plane: alpha cos u + beta sin u + gamma.
   const Vec3 n = a.place.rotation.col(2);

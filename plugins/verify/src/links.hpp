@@ -7,6 +7,8 @@ namespace hauberk::verification {
 
 /// Linking number of two disjoint core circles, each oriented about its z axis: the crossings of b through
 /// a's disc, each counted by its direction. -1, 0 or 1.
+/// Of curves Gauss's integral; with surfaces of triangles the greatest common divisor of the linking numbers
+/// of loops that generate the homology of both.
 int linking_number(const Torus& a, const Torus& b);
 
 /// A pair of core circles that are linked.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -31,13 +32,23 @@ struct Place {
   Mat3 rotation = Mat3::Identity();
 };
 
+/// A closed surface of triangles, whose points have a mean distance of 1 from the origin.
+struct Surface {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::vector<int>> loops;  ///< see homology_loops
+  double reach = 0.0;                   ///< largest distance of a point from the origin
+};
+
 /// An ellipse with half-axes r0 (radial) and r1 (axial), revolved at distance R about its own z axis; or a
-/// tube of radius r0 = r1 around a curve, the sum of c cos k u + s sin k u over k = 1, 2, ...
+/// tube of radius r0 = r1 around a curve, the sum of c cos k u + s sin k u over k = 1, 2, ...;
+/// or R times a surface of triangles, and then r0 = r1 is its thickness.
 struct Torus {
   std::string name;
   Place place;  ///< in its element's frame, or in space
   double R = 0.0, r0 = 0.0, r1 = 0.0;
   std::vector<std::array<Vec3, 2>> curve{};  ///< (c, s) of each k; none: a torus
+  std::shared_ptr<const Surface> surface{};  ///< null: a torus, or a tube around a curve
   int facets = 0;  ///< its surface is a mesh of facets x facets quadrilaterals; 0: the surface itself
 };
 

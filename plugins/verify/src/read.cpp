@@ -1,5 +1,6 @@
 #include "read.hpp"
 
+#include "loops.hpp"
 #include "surface.hpp"
 
 #include <Eigen/Geometry>
@@ -47,19 +48,86 @@ Place read_place(const json::value& v, const std::string& where)
   return out;
 }
 
-Torus read_torus(const json::value& v, const std::string& where)
+std::array<int, 3> read_triangle(const json::value& v, std::size_t points, const std::string& where)
+{
+  const json::array& a = array(v, where);
+  std::array<int, 3> out{};
+  if (a.size() != 3) throw Malformed(where + ": three indices expected");
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!a[k].is_int64() || a[k].get_int64() < 0 || static_cast<std::size_t>(a[k].get_int64()) >= points)
+      throw Malformed(where + ": the index of a point expected");
+    out[k] = static_cast<int>(a[k].get_int64());
+  }
+  return out;
+}
+
+/// Points at a mean distance of 1, and triangles that close; their loops are found anew.
+Surface read_surface(const json::value& v, const std::string& where)
+{
+  Surface out;
+  for (const json::value& x : array(member(v, "points", where), where + "/points")) {
+    out.points.push_back(read_vector(x, where + "/points/" + std::to_string(out.points.size())));
+    out.reach = std::max(out.reach, out.points.back().norm());
+  }
+  for (const json::value& t : array(member(v, "triangles", where), where + "/triangles"))
+    out.triangles.push_back(
+        read_triangle(t, out.points.size(), where + "/triangles/" + std::to_string(out.triangles.size())));
+  double mean = 0.0;
+  for (const Vec3& x : out.points) mean += x.norm() / static_cast<double>(out.points.size());
+  if (!(std::abs(mean - 1.0) <= unit_tolerance))
+    throw Malformed(where + "/points: a mean distance of 1 from the origin expected");
+  out.loops = homology_loops(out, where);
+  return out;
+}
+
+/// Twice the volume over the area.
+double thickness(const Surface& surface)
+{
+  double six = 0.0, twice = 0.0;
+  for (const auto& t : surface.triangles) {
+    const Vec3 &a = surface.points[static_cast<std::size_t>(t[0])],
+               &b = surface.points[static_cast<std::size_t>(t[1])],
+               &c = surface.points[static_cast<std::size_t>(t[2])];
+    six += a.dot(b.cross(c));
+    twice += (b - a).cross(c - a).norm();
+  }
+  return 2.0 * (six / 6.0) / (0.5 * twice);
+}
+
+/// What a primitive of triangles says about its surface.
+void read_mesh(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces, Torus& out,
+               const std::string& where)
+{
+  const json::value& number = member(v, "surface", where);
+  const bool known = number.is_int64() && number.get_int64() >= 0 &&
+                     static_cast<std::size_t>(number.get_int64()) < surfaces.size();
+  if (!known) throw Malformed(where + "/surface: the index of one of the scene's surfaces expected");
+  out.surface = surfaces[static_cast<std::size_t>(number.get_int64())];
+  constexpr double rounding = 1e-9;  // of sums over many triangles
+  if (!(out.R > 0.0) || out.r0 != out.r1 ||
+      !(std::abs(out.r0 - out.R * thickness(*out.surface)) <= rounding * out.R))
+    throw Malformed(where + "/parameters: not those of the surface (R > 0, r0 = r1 its thickness)");
+}
+
+Torus read_torus(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces,
+                 const std::string& where)
 {
   Torus out;
   out.name = text(member(v, "name", where), where + "/name");
   out.place = read_place(v, where);
   const std::string kind = text(member(v, "kind", where), where + "/kind");
-  if (kind != "circle_tube" && kind != "revolved_ellipse" && kind != "curve_tube")
-    throw Malformed(where + "/kind: circle_tube, revolved_ellipse or curve_tube expected, found " + kind);
+  if (kind != "circle_tube" && kind != "revolved_ellipse" && kind != "curve_tube" && kind != "triangle_mesh")
+    throw Malformed(
+        where + "/kind: circle_tube, revolved_ellipse, curve_tube or triangle_mesh expected, found " + kind);
   const std::string at = where + "/parameters";
   const json::value& parameters = member(v, "parameters", where);
   out.R = number(member(parameters, "R", at), at + "/R");
   out.r0 = number(member(parameters, "r0", at), at + "/r0");
   out.r1 = number(member(parameters, "r1", at), at + "/r1");
+  if (kind == "triangle_mesh") {
+    read_mesh(v, surfaces, out, where);
+    return out;
+  }
   if (!(out.R > out.r0 && out.r0 > 0.0 && out.r1 > 0.0))
     throw Malformed(at + ": not a torus (R > r0 > 0, r1 > 0)");
   if (kind != "revolved_ellipse" && out.r0 != out.r1) throw Malformed(at + ": a " + kind + " has r0 = r1");
@@ -173,16 +241,23 @@ Scene read_scene(const json::value& scene, const std::string& where)
     throw Malformed(where +
                     "/cell_vectors: independent vectors expected, two in the plane or three in space; none "
                     "for a patch");
+  std::vector<std::shared_ptr<const Surface>> surfaces;
+  if (scene.as_object().contains("surfaces")) {
+    const std::string at = where + "/surfaces";
+    for (const json::value& v : array(member(scene, "surfaces", where), at))
+      surfaces.push_back(
+          std::make_shared<const Surface>(read_surface(v, at + "/" + std::to_string(surfaces.size()))));
+  }
   std::size_t k = 0;
   for (const json::value& e : array(member(scene, "elements", where), where + "/elements")) {
     const std::string at = where + "/elements/" + std::to_string(k++);
     Element element;
     element.rest = read_place(member(e, "rest", at), at + "/rest");
     for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
-      element.tori.push_back(read_torus(p, at + "/primitives/" + std::to_string(element.tori.size())));
+      element.tori.push_back(
+          read_torus(p, surfaces, at + "/primitives/" + std::to_string(element.tori.size())));
       const Torus& torus = element.tori.back();
-      element.reach = std::max(
-          element.reach, torus.place.position.norm() + core_reach(torus) + std::max(torus.r0, torus.r1));
+      element.reach = std::max(element.reach, torus.place.position.norm() + reach(torus));
     }
     out.elements.push_back(std::move(element));
   }

@@ -164,6 +164,7 @@ double separation(const Torus& a, const Torus& b)
 
 double separation_bound(const Torus& a, const Torus& b)
 {
+  if (a.surface || b.surface) return (a.place.position - b.place.position).norm() - reach(a) - reach(b);
   const double excess = a.facets > 0 ? mesh_excess(a) + mesh_excess(b) : 0.0;
   Torus thin_a = a, thin_b = b;
   thin_a.r0 = thin_a.r1 = std::max(a.r0, a.r1);

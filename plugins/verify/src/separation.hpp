@@ -13,6 +13,7 @@ namespace hauberk::verification {
 double separation(const Torus& a, const Torus& b);
 
 /// Lower bound of the separation: distance of the core circles less the largest half-axes. Exact for circles.
+/// Of surfaces of triangles that of the balls around them.
 double separation_bound(const Torus& a, const Torus& b);
 
 }  // namespace hauberk::verification

@@ -139,6 +139,11 @@ Vec3 core_tangent(const Torus& torus, double u)
 
 double core_reach(const Torus& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 0); }
 
+double reach(const Torus& torus)
+{
+  return torus.surface ? torus.R * torus.surface->reach : core_reach(torus) + std::max(torus.r0, torus.r1);
+}
+
 double core_speed(const Torus& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 1); }
 
 Vec3 surface_point(const Torus& torus, double u, double v)

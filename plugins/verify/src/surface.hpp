@@ -21,6 +21,8 @@ Vec3 core_tangent(const Torus& torus, double u);
 /// Bounds of the distance of its points from its centre, and of the length of its tangent.
 double core_reach(const Torus& torus);
 double core_speed(const Torus& torus);
+/// Bound of the distance of points of the surface from its centre; of surfaces of triangles the largest.
+double reach(const Torus& torus);
 /// Point of the surface, V(u, v).
 Vec3 surface_point(const Torus& torus, double u, double v);
 

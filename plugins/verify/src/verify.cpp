@@ -56,7 +56,12 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
   const Setting setting = read_setting(member(results, "experiment", prefix));
   Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
   for (Element& element : scene.elements)
-    for (Torus& torus : element.tori) torus.facets = setting.facets;
+    for (Torus& torus : element.tori) {
+      torus.facets = setting.facets;
+      if (torus.surface && setting.facets == 0)
+        throw Malformed(prefix +
+                        "/experiment/solver/contact: mesh expected, as the scene has triangle meshes");
+    }
   if (scene.cell.size() != cell_dimension(setting.load)) throw wrong_cell(prefix);
   check_length(scene, scene.length, prefix + "/scene");
   const auto limits =

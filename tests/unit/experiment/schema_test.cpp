@@ -115,13 +115,14 @@ TEST(Schema, ShippedExperimentsAreCorrect)
       if (entry.path().extension() != ".json") continue;
       SCOPED_TRACE(entry.path().string());
       Diagnostics diagnostics;
-      const auto experiment = read_experiment(
-          {entry.path().filename(), read_text_file(entry.path()), {}, weaves}, lookup, diagnostics);
+      const auto experiment =
+          read_experiment({entry.path(), read_text_file(entry.path()), {}, weaves}, lookup, diagnostics);
       EXPECT_EQ(diagnostics.text(), "");
       if (experiment) {
         Diagnostics again;
-        EXPECT_TRUE(
-            read_experiment({"resolved", write_json(experiment->resolved), {}, weaves}, lookup, again))
+        // Beside it, as files of plugins are relative to it.
+        const std::string beside = entry.path().parent_path() / "resolved";
+        EXPECT_TRUE(read_experiment({beside, write_json(experiment->resolved), {}, weaves}, lookup, again))
             << again.text();
       }
       ++count;

@@ -179,7 +179,8 @@ TEST(Malformed, EverythingMissingIsAFailingLine)
   expect_caught(document, "/scene/length: not the median ring radius of the initial scene");
   document = chain_document();
   document.at_pointer("/scene/elements/0/primitives/0/kind") = "sphere";
-  expect_caught(document, "circle_tube, revolved_ellipse or curve_tube expected, found sphere");
+  expect_caught(document,
+                "circle_tube, revolved_ellipse, curve_tube or triangle_mesh expected, found sphere");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace hauberk {
 
 class ClosedCurve;
 class Facets;
+class TriangleSurface;
 
 /// A primitive of a placed element, lengths scaled by L, placed in the element frame.
 struct Body {
@@ -25,12 +26,16 @@ struct Body {
   std::shared_ptr<const ClosedCurve> curve;
   /// Of a curve tube: a tube as thick around a circle of no radius, which is a ball. See PairFrame.
   std::shared_ptr<const Body> point;
+  /// Of a triangle mesh: its surface is R times this; else null. Then r0 = r1 is its thickness, which says
+  /// how thin it is and nothing else, and only `facets` know where it is.
+  std::shared_ptr<const TriangleSurface> surface;
 
   bool is_tube() const { return kind == PrimitiveKind::circle_tube; }
   /// A ball of radius r0.
   bool is_point() const { return R == 0.0; }
-  /// Radius of a ball about `center` that holds the core.
-  double core_bound() const { return curve ? bound - r0 : R; }
+  /// Radius of a ball about `center` that holds the core
+  /// (of a triangle mesh, which has none, the mesh).
+  double core_bound() const { return curve ? bound - r0 : surface ? bound : R; }
 };
 
 /// Gives a body the core `curve` (scaled lengths) of a tube of radius r.

@@ -8,16 +8,20 @@
 
 namespace hauberk {
 
-/// Closed triangle mesh of a torus' surface in the frame of its body, scaled lengths, with a tree of boxes
-/// around its triangles. Immutable: thread safe.
+class TriangleSurface;
+
+/// Closed triangle mesh in the frame of its body, scaled lengths, with a tree of boxes around its triangles:
+/// of a torus' surface, or of a surface of triangles as it is. Immutable: thread safe.
 ///
-/// Points lie on the surface at u = 2 pi (i + 1/2)/n, v = pi + 2 pi (j + 1/2)/n: facets, not points or edges,
-/// lie on the inner equator and where the body's axes cross the tube. With points there two linked
-/// perpendicular rings would nest in each other, and the mesh would be exact by luck.
+/// Points of a torus lie on the surface at u = 2 pi (i + 1/2)/n, v = pi + 2 pi (j + 1/2)/n: facets, not
+/// points or edges, lie on the inner equator and where the body's axes cross the tube. With points there two
+/// linked perpendicular rings would nest in each other, and the mesh would be exact by luck.
 class Facets {
  public:
   /// n x n quadrilaterals of the surface of a body of this size, each as two triangles; n >= 3.
   Facets(double R, double r0, double r1, int n);
+  /// R times a surface.
+  Facets(const TriangleSurface& surface, double R);
   ~Facets();
   Facets(const Facets&) = delete;
   Facets& operator=(const Facets&) = delete;
@@ -30,18 +34,28 @@ class Facets {
   const std::vector<Vec3>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
-  /// d point / d (R, r0, r1), columns, at fixed chart coordinates.
+  /// d point / d (R, r0, r1), columns, at fixed chart coordinates; of a surface (point/R, 0, 0).
   const Mat3& size_derivative(int point) const { return by_size_[static_cast<std::size_t>(point)]; }
   double mean_edge() const { return mean_edge_; }
+  /// Closed polygons on the mesh or inside of it: what a closed curve outside of the mesh is linked with, it
+  /// is linked with one of them. Of a torus one, around its tube's middle.
+  const std::vector<std::vector<Vec3>>& loops() const { return loops_; }
+  /// A point of each connected part.
+  const std::vector<int>& parts() const { return parts_; }
 
   class Tree;
   const Tree& tree() const { return *tree_; }
 
  private:
+  /// Edges, and what follows from them, of points and triangles.
+  void complete();
+
   std::vector<Vec3> points_;
   std::vector<Mat3> by_size_;
   std::vector<Triangle> triangles_;
   std::vector<std::array<int, 2>> edges_;
+  std::vector<std::vector<Vec3>> loops_;
+  std::vector<int> parts_;
   double mean_edge_ = 0.0;
   std::unique_ptr<const Tree> tree_;
 };
@@ -84,5 +98,15 @@ void near_features(const PairFrame& frame, double range, const FeatureVisitor& v
 
 /// True if an edge of one mesh meets a triangle of the other.
 bool facets_intersect(const PairFrame& frame);
+
+/// True if the segment from a to b meets the triangle; false where it lies in the triangle's plane
+/// up to rounding.
+bool segment_meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle);
+
+/// True if a part of one of two meshes that do not intersect is inside of the other.
+bool facets_inside(const PairFrame& frame);
+
+/// Solid angle of a triangle seen from the origin, with sign (van Oosterom and Strackee 1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace hauberk

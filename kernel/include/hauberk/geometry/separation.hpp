@@ -17,12 +17,17 @@ struct Separation {
 /// `clearance`, here and in the result. So lower >= min(enough, tightness * upper) whenever the gap is
 /// positive; otherwise lower <= upper <= 0. A surface wholly inside of the other overlaps it. Where the gap
 /// is below rounding lower is 0; where it is near rounding all along two surfaces, which takes millions of
-/// panels, lower may be less than promised. Thread safe.
+/// panels, lower may be less than promised. Throws InputError for triangle meshes, which only
+/// facets know. Thread safe.
 Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance,
                       double enough, double tightness = 0.5);
 
 /// Number of times the core circle of A crosses the disc of B, counted with sign: the linking number of the
 /// two circles. Exact up to rounding as long as the cores do not touch. Symmetric up to sign.
+///
+/// With a triangle mesh, the greatest common divisor of the linking numbers of all loops of one body's facets
+/// with all of the other's: kept by every motion without intersection, and for two solid tori the size of
+/// their cores' linking number. Throws InputError where bodies have no facets.
 int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b);
 
 }  // namespace hauberk

@@ -25,6 +25,10 @@ std::vector<Gap> find_gaps(const Model& model, const State& state, double range,
 /// Smallest gap over all pairs within `range`, infinity if none.
 double smallest_gap(const Model& model, const State& state, double range);
 
+/// True if facets of two bodies meet: gaps of meshes are distances, and do not tell on which side of each
+/// other they are.
+bool meshes_meet(const Model& model, const State& state);
+
 /// "element 3 (side_1 of threefold)": the number as in the results, names as in the experiment.
 std::string body_name(const SceneSpec& spec, const Body& body);
 

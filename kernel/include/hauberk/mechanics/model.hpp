@@ -20,7 +20,7 @@ using Image = std::array<int, 3>;
 struct Link {
   int a = 0, b = 0;  ///< bodies
   Image image{};
-  int number = 0;  ///< linking number of the core circles
+  int number = 0;  ///< see linking_number
 };
 
 /// Immutable description of what is simulated; lengths scaled by `length`. Thread safe to read.

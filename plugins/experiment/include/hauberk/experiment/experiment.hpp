@@ -89,6 +89,7 @@ struct Assignment {
 struct VariantBase {
   Node file;
   WeaveLookup weaves;
+  std::string folder;  ///< of the experiment, that its paths are relative to
 };
 
 /// A way of solving: what it sets, usually below /solver.
@@ -212,7 +213,7 @@ struct Experiment {
 
 /// What to read.
 struct ExperimentSource {
-  std::string file;                    ///< named in messages
+  std::string file;                    ///< named in messages; plugins' files are relative to its folder
   std::string text;                    ///< JSON with comments and trailing commas
   std::vector<std::string> overrides;  ///< --set assignments, applied in order
   WeaveLookup weaves = {};             ///< for cell.weave

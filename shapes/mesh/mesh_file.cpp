@@ -1,0 +1,204 @@
+#include "mesh_file.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+namespace hauberk {
+namespace {
+
+constexpr std::streamsize largest_file = 64 << 20;
+constexpr std::size_t longest_quote = 24;
+
+std::string read_bytes(const std::string& path)
+{
+  const auto refuse = [&path](const std::string& why) {
+    throw InputError(fmt::format("{}: cannot be read: {}", path, why));
+  };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    refuse("there is no such file; paths are relative to the experiment's folder");
+  // A device or a pipe might never end.
+  if (!std::filesystem::is_regular_file(status)) refuse("it is not a regular file");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(errno != 0 ? std::generic_category().message(errno) : "it cannot be opened");
+  std::string bytes, block(1 << 16, '\0');
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (static_cast<std::streamsize>(bytes.size()) > largest_file) refuse("it is larger than 64 MB");
+  }
+  if (file.bad()) refuse("reading failed");
+  return bytes;
+}
+
+/// Replaces points by those that `number` says, and leaves out triangles that have one twice.
+void renumber(MeshFile& mesh, const std::vector<int>& number)
+{
+  for (auto& t : mesh.triangles) {
+    for (int& k : t) k = number[static_cast<std::size_t>(k)];
+  }
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+}
+
+}  // namespace
+
+namespace detail {
+
+void join_equal_points(MeshFile& mesh)
+{
+  const auto same = [&mesh](int i, int j) {
+    const Vec3 &a = mesh.points[static_cast<std::size_t>(i)], &b = mesh.points[static_cast<std::size_t>(j)];
+    return a == b;
+  };
+  std::vector<int> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&mesh](int i, int j) {
+    const Vec3 &a = mesh.points[static_cast<std::size_t>(i)], &b = mesh.points[static_cast<std::size_t>(j)];
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (a[k] != b[k]) return a[k] < b[k];
+    }
+    return i < j;
+  });
+  // Of equal ones the first stands for all.
+  std::vector<int> first(mesh.points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool again = k > 0 && same(order[k - 1], order[k]);
+    first[static_cast<std::size_t>(order[k])] =
+        again ? first[static_cast<std::size_t>(order[k - 1])] : order[k];
+  }
+  std::vector<int> number(mesh.points.size());
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    if (first[k] == static_cast<int>(k)) {
+      number[k] = static_cast<int>(points.size());
+      points.push_back(mesh.points[k]);
+    } else {
+      number[k] = number[static_cast<std::size_t>(first[k])];
+    }
+  }
+  mesh.points = std::move(points);
+  renumber(mesh, number);
+}
+
+void join_near_points(MeshFile& mesh, double distance)
+{
+  if (!(distance > 0.0) || mesh.points.empty()) return;
+  Vec3 low = mesh.points.front();
+  for (const Vec3& x : mesh.points) low = low.cwiseMin(x);
+  using Cell = std::array<long, 3>;
+  const auto cell_of = [&](const Vec3& x) {
+    Cell cell;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      cell[k] = static_cast<long>(std::floor((x[i] - low[i]) / distance));
+    }
+    return cell;
+  };
+  std::map<Cell, std::vector<int>> kept;
+  const auto near = [&](const Vec3& x, const Cell& at, const std::vector<Vec3>& points) {
+    for (int k = 0; k < 27; ++k) {
+      const auto found = kept.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
+      if (found == kept.end()) continue;
+      for (const int i : found->second) {
+        if ((points[static_cast<std::size_t>(i)] - x).norm() < distance) return i;
+      }
+    }
+    return -1;
+  };
+  std::vector<int> number;
+  number.reserve(mesh.points.size());
+  std::vector<Vec3> points;
+  for (const Vec3& x : mesh.points) {
+    const Cell cell = cell_of(x);
+    int same = near(x, cell, points);
+    if (same < 0) {
+      same = static_cast<int>(points.size());
+      points.push_back(x);
+      kept[cell].push_back(same);
+    }
+    number.push_back(same);
+  }
+  mesh.points = std::move(points);
+  renumber(mesh, number);
+}
+
+bool has_pairs_of_edges(const MeshFile& mesh)
+{
+  std::vector<std::pair<int, int>> edges, back;
+  edges.reserve(3 * mesh.triangles.size());
+  back.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.emplace_back(t[k], t[(k + 1) % 3]);
+      back.emplace_back(t[(k + 1) % 3], t[k]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::sort(back.begin(), back.end());
+  return edges == back;
+}
+
+bool read_number(std::string_view word, double& value)
+{
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+}
+
+std::string_view next_word(std::string_view& line)
+{
+  constexpr std::string_view blanks = " \t\r\f\v";
+  const std::size_t begin = std::min(line.find_first_not_of(blanks), line.size());
+  line.remove_prefix(begin);
+  const std::size_t end = std::min(line.find_first_of(blanks), line.size());
+  const std::string_view word = line.substr(0, end);
+  line.remove_prefix(end);
+  return word;
+}
+
+std::string_view next_line(std::string_view& text)
+{
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+std::string quoted(std::string_view word)
+{
+  std::string out = "'";
+  for (const char c : word.substr(0, longest_quote))
+    out += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+  return out + (word.size() > longest_quote ? "...'" : "'");
+}
+
+}  // namespace detail
+
+MeshFile read_mesh_file(const std::string& path)
+{
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".obj" && extension != ".stl")
+    throw InputError(fmt::format("{}: expected a file .obj or .stl", path));
+  const std::string bytes = read_bytes(path);
+  if (bytes.empty()) throw InputError(fmt::format("{}: is empty", path));
+  return extension == ".obj" ? read_obj(bytes, path) : read_stl(bytes, path);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,58 @@
+#pragma once
+/// Readers of triangle meshes.
+
+#include <hauberk/linalg.hpp>
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hauberk {
+
+/// Points in the file's unit, and triangles of their indices from 0; indices are valid. No two points are the
+/// same.
+struct MeshFile {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// Reads a file whose name ends in .obj or .stl, in any case. Throws InputError that begins with the path,
+/// and the line where there is one.
+MeshFile read_mesh_file(const std::string& path);
+
+/// Wavefront OBJ: lines `v` and `f`; everything else is passed over. Faces of more than three corners are cut
+/// from their first corner on, which suits convex ones. Points at the same place are one, and triangles that
+/// have one twice are left out. `name`: for messages.
+MeshFile read_obj(std::string_view text, const std::string& name);
+
+/// STL, binary or text; normals are not read. Corners at the same place are one point; if edges stay without
+/// partner then, also corners that are nearer to each other than 1e-6 of the diagonal of the mesh's box.
+MeshFile read_stl(std::string_view bytes, const std::string& name);
+
+namespace detail {
+
+/// Joins points at the same place, in order of first mention; leaves out triangles that have one twice.
+void join_equal_points(MeshFile& mesh);
+
+/// Joins points nearer to each other than `distance`, each to the first such.
+void join_near_points(MeshFile& mesh, double distance);
+
+/// True if every edge of a triangle is that of another one in the opposite sense.
+bool has_pairs_of_edges(const MeshFile& mesh);
+
+/// Reads a number that is the whole of `word`; false if it is none, or not finite.
+bool read_number(std::string_view word, double& value);
+
+/// Cuts the next word off a line; empty at its end.
+std::string_view next_word(std::string_view& line);
+
+/// Cuts the next line off a text, without what ends it.
+std::string_view next_line(std::string_view& text);
+
+/// A word of the file for messages: short, and printable.
+std::string quoted(std::string_view word);
+
+}  // namespace detail
+
+}  // namespace hauberk

@@ -187,6 +187,33 @@ TEST_F(MeshFiles, RowsOfSweepsFindTheFile)
   EXPECT_NEAR(number_at(results, "/sweep/rows/1/result/limits/0/value"), 1.05 * (exact(8) + 1.0) - 1.0, 1e-3);
 }
 
+/// The experiment is the same, what it names is not.
+TEST_F(MeshFiles, ResumedOnlyWithTheSameFile)
+{
+  const std::string sweep =
+      with(text_, "\"task\": \"limits\"",
+           "\"task\": \"sweep\", \"sweep\": { \"vary\": [ { \"name\": \"frame\", \"values\": "
+           "[\"frame.obj\", \"other.obj\"], \"pointers\": [\"/elements/link/file\"] } ] }");
+  for (const auto& [text, other] : {std::pair{text_, "frame.obj"}, std::pair{sweep, "other.obj"}}) {
+    std::ifstream file(HAUBERK_SOURCE_DIR "/shapes/mesh/frame.obj");
+    const std::string frame{std::istreambuf_iterator<char>(file), {}};
+    for (const char* name : {"frame.obj", "other.obj"}) folder_.write(name, frame);
+    const std::string out = folder_ / (std::string("results of ") + other);
+    const std::vector<std::string> run{"run",     folder_.write("m.json", text), "-o",    out,
+                                       "--set",   "/solver/preset=fast",         "--set", "/expect=[]",
+                                       "--resume"};
+    ASSERT_EQ(run_program(run).code, 0);
+    EXPECT_TRUE(read_results(out).at_pointer("/provenance/files").as_object().contains(other));
+    EXPECT_EQ(run_program(run).code, 0);
+    folder_.write(other, frame + "# thinner one day\n");
+    const Outcome changed = run_program(run);
+    EXPECT_EQ(changed.code, 2);
+    EXPECT_NE(changed.err.find("cannot be resumed: it was computed from another file of the same name"),
+              std::string::npos)
+        << changed.err;
+  }
+}
+
 TEST_F(MeshFiles, RoomIsFound)
 {
   const Outcome o = run_program({"room", folder_.write("m.json", text_), "--starts", "1", "--fixed-cell"});

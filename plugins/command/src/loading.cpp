@@ -14,7 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 namespace hauberk::command {
@@ -62,6 +64,26 @@ WeaveLookup recording_lookup(WeaveLookup weaves, std::shared_ptr<WeaveTexts> use
     std::optional<std::string> text = weaves(name, error);
     if (text) used->emplace(name, *text);
     return text;
+  };
+}
+
+using Fingerprints = std::map<std::string, std::string>;
+
+/// Length and 64-bit FNV-1a hash of a file: to notice that it was changed, not that someone hid that. Empty
+/// where it cannot be read, which its plugin tells.
+std::string fingerprint(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t hash = 0xcbf29ce484222325U, length = 0;
+  for (char c = 0; file.get(c); ++length) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return file.eof() ? fmt::format("{} bytes, {:016x}", length, hash) : std::string();
+}
+
+/// Takes the fingerprint of every file once.
+FileObserver recording_files(std::shared_ptr<Fingerprints> files)
+{
+  return [files = std::move(files)](const std::string& written, const std::string& located) {
+    if (!files->contains(written)) files->emplace(written, fingerprint(located));
   };
 }
 
@@ -171,8 +193,10 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
   loaded.registry = std::move(registry);
   Diagnostics diagnostics;
   const auto weaves = std::make_shared<WeaveTexts>();
+  const auto files = std::make_shared<Fingerprints>();
   std::optional<Experiment> experiment =
-      read_experiment({source.file, source.text, source.overrides, recording_lookup(source.weaves, weaves)},
+      read_experiment({source.file, source.text, source.overrides, recording_lookup(source.weaves, weaves),
+                       recording_files(files)},
                       recording_lookup(*loaded.registry, loaded.plugins), diagnostics);
   const auto stop_on_problems = [&diagnostics] {
     if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
@@ -199,6 +223,7 @@ Loaded load(std::shared_ptr<const Registry> registry, const ExperimentSource& so
     stop_on_problems();
   }
   if (e.stability || e.sweep || e.chart) loaded.weaves.assign(weaves->begin(), weaves->end());
+  loaded.files.assign(files->begin(), files->end());
   loaded.settings = limit_settings(e.solver, loaded.scene, e.length_unit);
   loaded.settings.start = loaded.start;
   loaded.tasks = profile_tasks(e);

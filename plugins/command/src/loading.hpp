@@ -51,6 +51,8 @@ struct Loaded {
   /// Name and text, by name, of the weaves that rows and members are made of; empty for other tasks, whose
   /// experiment holds what the weave stands for.
   std::vector<std::pair<std::string, std::string>> weaves;
+  /// Path as written and fingerprint of files that plugins have read.
+  std::vector<std::pair<std::string, std::string>> files;
   Experiment experiment;
   SceneSpec scene;             ///< rest as used: relaxed where elements touched
   double moved = 0.0;          ///< farthest that relaxation moved an element, file units

@@ -68,6 +68,7 @@ Provenance provenance(const Loaded& loaded, unsigned threads)
        fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)}};
   p.plugins = loaded.plugins;
   p.weaves = loaded.weaves;
+  p.files = loaded.files;
   p.seed = loaded.experiment.seed;
   p.threads = static_cast<int>(threads);
   if (loaded.chart) p.machine = this_machine();

@@ -187,16 +187,17 @@ void read_transition(const json::value& document, const Loaded& loaded, Resumed&
     out.complete = out.complete && path.at("curves").as_array().size() == spec.contacts.size();
 }
 
-/// Rows and members are made of weaves that the experiment only names.
-bool same_weaves(const json::object& provenance, const Provenance& now)
+using Named = std::vector<std::pair<std::string, std::string>>;
+
+/// Texts by name below a key of the provenance, which is left out where there are none.
+bool same_texts(const json::object& provenance, const char* key, const Named& now)
 {
-  const json::value* then = provenance.if_contains("weaves");
-  if (then == nullptr) return now.weaves.empty();
+  const json::value* then = provenance.if_contains(key);
+  if (then == nullptr) return now.empty();
   const json::object& texts = then->as_object();
-  return texts.size() == now.weaves.size() &&
-         std::all_of(now.weaves.begin(), now.weaves.end(), [&](const auto& weave) {
-           const json::value* text = texts.if_contains(weave.first);
-           return text != nullptr && text->as_string() == std::string_view(weave.second);
+  return texts.size() == now.size() && std::all_of(now.begin(), now.end(), [&](const auto& named) {
+           const json::value* text = texts.if_contains(named.first);
+           return text != nullptr && text->as_string() == std::string_view(named.second);
          });
 }
 
@@ -208,7 +209,13 @@ void check_origin(const json::value& document, const Loaded& loaded)
     throw InputError(
         "it was computed from another experiment; give the same file and --set, or start anew with --force");
   const json::value& then = document.at("provenance");
-  if (!same_weaves(then.as_object(), now))
+  // Rows and members are made of weaves that the experiment only names, elements of files.
+  if (!same_texts(then.as_object(), "files", now.files))
+    throw InputError(
+        "it was computed from another file of the same name, see /provenance/files; bring that back, or "
+        "start anew with "
+        "--force");
+  if (!same_texts(then.as_object(), "weaves", now.weaves))
     throw InputError(
         "it was computed from another weave of this name; bring its file back (the results hold it, below "
         "/provenance/weaves), or start anew with --force");

@@ -91,7 +91,7 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   if (!root) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
   const std::string folder = std::filesystem::path(source.file).parent_path().string();
-  return read_tree(std::move(*root), {lookup, source.weaves, folder}, diagnostics);
+  return read_tree(std::move(*root), {lookup, source.weaves, folder, source.files}, diagnostics);
 }
 
 std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnostics& diagnostics,
@@ -106,7 +106,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
-  PluginResolver plugins(lookups.plugins, lookups.folder);
+  PluginResolver plugins(lookups.plugins, lookups.folder, lookups.files);
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };

@@ -26,28 +26,31 @@ bool is_intact(const Node& section, const PluginTable& table)
   return missing.empty();
 }
 
-/// The section with paths of files, which are relative to `folder`, as they are seen from here.
-Node located(const Node& section, const PluginTable& table, const std::string& folder)
+}  // namespace
+
+Node PluginResolver::located(const Node& section, const PluginTable& table) const
 {
   Node copy = section;
   for (const Field& field : plugin_fields(table)) {
     if (field.kind != Field::Kind::string || field.unit != "file") continue;
     for (auto& [key, value] : copy.members) {
+      if (key != field.name) continue;
+      const std::string written = value.string;
       // An absolute path stays as it is.
-      if (key == field.name) value.string = (std::filesystem::path(folder) / value.string).string();
+      value.string = (std::filesystem::path(folder_) / written).string();
+      if (files_) files_(written, value.string);
     }
   }
   return copy;
 }
 
-/// Calls a factory with the located section; what it throws is reported at the section.
 template <class Factory>
-auto make_guarded(const Node& section, const PluginTable* table, const std::string& folder,
-                  Problems& problems, const Factory& factory) -> decltype(factory(section))
+auto PluginResolver::make_guarded(const Node& section, const PluginTable* table, Problems& problems,
+                                  const Factory& factory) -> decltype(factory(section))
 {
   if (table == nullptr) return nullptr;
   try {
-    if (is_intact(section, *table)) return factory(located(section, *table, folder));
+    if (is_intact(section, *table)) return factory(located(section, *table));
   } catch (const InputError& error) {
     problems.add(section, error.what());
   } catch (const PluginError& error) {
@@ -55,8 +58,6 @@ auto make_guarded(const Node& section, const PluginTable* table, const std::stri
   }
   return nullptr;
 }
-
-}  // namespace
 
 const PluginResolver::Found& PluginResolver::look_up(PluginKind kind, const std::string& id)
 {
@@ -98,7 +99,7 @@ ExtraFields PluginResolver::extra_fields(const Field& field, const Node& object,
 std::shared_ptr<const Shape> PluginResolver::shape(const Node& section, Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::shape, "shape");
-  return make_guarded(section, table, folder_, problems,
+  return make_guarded(section, table, problems,
                       [&](const Node& own) { return make_shape(*table, own, problems); });
 }
 
@@ -106,14 +107,14 @@ std::shared_ptr<const LoadCase> PluginResolver::load_case(const Node& section, d
                                                           Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::load_case, "plugin");
-  return make_guarded(section, table, folder_, problems,
+  return make_guarded(section, table, problems,
                       [&](const Node& own) { return make_load_case(*table, own, length, problems); });
 }
 
 std::shared_ptr<const Optimizer> PluginResolver::optimizer(const Node& section, Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::optimizer, "plugin");
-  return make_guarded(section, table, folder_, problems,
+  return make_guarded(section, table, problems,
                       [&](const Node& own) { return make_optimizer(*table, own, problems); });
 }
 

@@ -13,7 +13,8 @@ namespace hauberk {
 class PluginResolver {
  public:
   /// `folder`: that plugins' files are relative to.
-  PluginResolver(const PluginLookup& lookup, std::string folder) : lookup_(lookup), folder_(std::move(folder))
+  PluginResolver(const PluginLookup& lookup, std::string folder, FileObserver files)
+      : lookup_(lookup), folder_(std::move(folder)), files_(std::move(files))
   {
   }
 
@@ -35,7 +36,15 @@ class PluginResolver {
   const Found& look_up(PluginKind kind, const std::string& id);
 
   const PluginLookup& lookup_;
+  /// Calls a factory with the section, in which paths of files are as seen from here; what it throws is
+  /// reported at the section.
+  template <class Factory>
+  auto make_guarded(const Node& section, const PluginTable* table, Problems& problems, const Factory& factory)
+      -> decltype(factory(section));
+  Node located(const Node& section, const PluginTable& table) const;
+
   std::string folder_;
+  FileObserver files_;
   std::map<std::pair<PluginKind, std::string>, Found> found_;
 };
 

@@ -17,6 +17,7 @@ struct Lookups {
   const PluginLookup& plugins;
   WeaveLookup weaves;
   std::string folder;  ///< that paths of plugins' files are relative to; empty: the working directory
+  FileObserver files;
 };
 
 /// Reports entries of `directions` that repeat an earlier one modulo 180 degrees.

@@ -21,7 +21,7 @@ void set_member(Node& root, const std::string& key, Node value)
 VariantBase variant_base(const Node& file, const Lookups& lookups)
 {
   constexpr std::array dropped{"stability", "transition", "sweep", "chart", "design", "expect"};
-  VariantBase base{file, lookups.weaves, lookups.folder};
+  VariantBase base{file, lookups.weaves, lookups.folder, lookups.files};
   std::erase_if(base.file.members, [&dropped](const auto& member) {
     return std::find(dropped.begin(), dropped.end(), member.first) != dropped.end();
   });
@@ -43,7 +43,8 @@ VariantReading read_variant(const VariantBase& base, const std::vector<Assignmen
   bool well_formed = false;
   VariantReading out;
   if (found.empty())
-    out.experiment = read_tree(std::move(root), {lookup, base.weaves, base.folder}, found, &well_formed);
+    out.experiment =
+        read_tree(std::move(root), {lookup, base.weaves, base.folder, base.files}, found, &well_formed);
   for (const Problem& problem : found.problems.list()) {
     if (!well_formed) {
       diagnostics.problems.add({problem.pointer, problem.line, place + problem.message});

@@ -23,6 +23,10 @@ json::object provenance_json(const Provenance& provenance)
     json::object& weaves = out["weaves"].emplace_object();
     for (const auto& [name, text] : provenance.weaves) weaves[name] = text;
   }
+  if (!provenance.files.empty()) {
+    json::object& files = out["files"].emplace_object();
+    for (const auto& [path, fingerprint] : provenance.files) files[path] = fingerprint;
+  }
   out["seed"] = provenance.seed;
   out["threads"] = provenance.threads;
   out["peak_memory_bytes"] = provenance.peak_memory_bytes;

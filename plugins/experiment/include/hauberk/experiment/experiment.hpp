@@ -84,12 +84,17 @@ struct Assignment {
   Node value;
 };
 
+/// Is told of every file that a plugin is given: its path as written, and as it is seen from the working
+/// directory.
+using FileObserver = std::function<void(const std::string& written, const std::string& located)>;
+
 /// A file as given, without what a variant of it does not have (tasks other than limits, expect): variants
 /// are made from what is written, not from defaults that follow from it.
 struct VariantBase {
   Node file;
   WeaveLookup weaves;
   std::string folder;  ///< of the experiment, that its paths are relative to
+  FileObserver files;
 };
 
 /// A way of solving: what it sets, usually below /solver.
@@ -217,6 +222,7 @@ struct ExperimentSource {
   std::string text;                    ///< JSON with comments and trailing commas
   std::vector<std::string> overrides;  ///< --set assignments, applied in order
   WeaveLookup weaves = {};             ///< for cell.weave
+  FileObserver files = {};             ///< of plugins; may be none
 };
 
 /// Reads, checks and expands an experiment. Every problem is put into `diagnostics`; null when there is any.

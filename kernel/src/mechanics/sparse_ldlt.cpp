@@ -16,7 +16,6 @@ namespace hauberk {
 namespace {
 
 using Eigen::MatrixXd;
-using Block = Eigen::Block<Eigen::Map<MatrixXd>>;
 
 /// Columns that are eliminated one by one, and columns of a product's part: what stays in the nearest caches.
 constexpr int panel = 32, strip = 96;

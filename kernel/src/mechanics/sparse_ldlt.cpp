@@ -230,15 +230,16 @@ Eigen::VectorXd SparseLdlt::solve_permuted(Eigen::VectorXd x) const
     for (Eigen::Index r = 0; r < rest.size(); ++r)
       x[block.rows[static_cast<std::size_t>(block.columns + r)]] -= rest[r];
   }
-  for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) {
-    const auto l = l_of(*block);
-    auto own = x.segment(block->first, block->columns);
+  for (std::size_t k = blocks_.size(); k-- > 0;) {
+    const Block& block = blocks_[k];
+    const auto l = l_of(block);
+    auto own = x.segment(block.first, block.columns);
     own.array() /= l.diagonal().array();
-    rest.resize(l.rows() - block->columns);
+    rest.resize(l.rows() - block.columns);
     for (Eigen::Index r = 0; r < rest.size(); ++r)
-      rest[r] = x[block->rows[static_cast<std::size_t>(block->columns + r)]];
+      rest[r] = x[block.rows[static_cast<std::size_t>(block.columns + r)]];
     own.noalias() -= l.bottomRows(rest.size()).transpose() * rest;
-    l.topRows(block->columns).triangularView<Eigen::UnitLower>().transpose().solveInPlace(own);
+    l.topRows(block.columns).triangularView<Eigen::UnitLower>().transpose().solveInPlace(own);
   }
   return x;
 }

@@ -35,12 +35,12 @@ struct Provenance {
   std::vector<Plugin> plugins;
   /// Name and text of weave files that the experiment refers to without saying what they hold.
   std::vector<std::pair<std::string, std::string>> weaves;
-  /// Path as written in the experiment and fingerprint of files that plugins have read.
-  std::vector<std::pair<std::string, std::string>> files;
   std::uint64_t seed = 0;
   int threads = 1;
   std::int64_t peak_memory_bytes = 0;   ///< largest resident size, of all runs that went on from each other
   std::optional<Machine> machine = {};  ///< where times are the result
+  /// Path as written in the experiment and fingerprint of files that plugins have read.
+  std::vector<std::pair<std::string, std::string>> files = {};
 };
 
 /// Names the document needs beyond what the results carry.

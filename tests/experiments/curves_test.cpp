@@ -7,7 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <boost/json/object.hpp>
+
+#include <array>
+#include <cmath>
 
 namespace hauberk::test {
 namespace {
@@ -73,6 +78,62 @@ TEST(Curves, ResultsWithAnotherCurveFailTheCheck)
   EXPECT_EQ(verdict("/limits/0/poses/1/position/0", 16.5).code, 1);
 }
 
+/// The limit of the meshes nears that of the tubes as the square of their edges; sensitivities are those of
+/// the meshes, and their points are recomputed by other means.
+TEST(Curves, MeshesConverge)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("links.json", links_text());
+  const auto limit = [&](int facets, double half_length) {
+    const std::string out = folder / ("out" + std::to_string(facets));
+    const Outcome o =
+        run_program({"run", file, "-o", out, "--force", "--set", "/solver/contact=mesh", "--set",
+                     "/solver/facets=" + std::to_string(facets), "--set",
+                     fmt::format("/elements/oval/parameters/half_length={:.17g}", half_length)});
+    EXPECT_EQ(o.code, 0) << o.err;
+    return read_results(out);
+  };
+  const auto error = [&](int facets) {
+    return number_at(limit(facets, 10.0), "/limits/0/value") - (period / 32.0 - 1.0);
+  };
+  const std::array<double, 3> errors{error(10), error(20), error(40)};
+  EXPECT_GT(std::abs(errors[0]), 1e-3);
+  EXPECT_NEAR(errors[0] / errors[1], 4.0, 0.8);
+  EXPECT_NEAR(errors[1] / errors[2], 4.0, 0.4);
+  const Outcome check = run_program({"verify", folder / "out20/results.json"});
+  EXPECT_EQ(check.code, 0) << check.out;
+
+  const json::value now = limit(20, 10.0);
+  const double h = 1e-4;
+  const double slope = (number_at(limit(20, 10.0 + h), "/limits/0/value") -
+                        number_at(limit(20, 10.0 - h), "/limits/0/value")) /
+                       (2.0 * h);
+  EXPECT_NEAR(
+      now.at_pointer("/limits/0/sensitivity/parameters").as_object().at("0/half_length").to_number<double>(),
+      slope, 1e-5);
+  EXPECT_GT(slope, 0.05);
+}
+
+/// Of curves out of every plane, so that frames are turned back along them.
+TEST(Curves, MeshesOfWavyRingsAreRecomputed)
+{
+  std::string text = with(links_text(), R"("curve": "oval",)", R"("curve": "knot", "turns": [1, 2],)");
+  text = with(text, R"("half_length": 10, "half_width": 4, "r": 0.75)",
+              R"("R": 9, "a": 0.7, "b": 1.6, "r": 0.75)");
+  const TemporaryFolder folder;
+  const Outcome o = run_program({"run", folder.write("wavy.json", text), "-o", folder / "out", "--set",
+                                 "/solver/contact=mesh", "--set", "/solver/facets=14"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome check = run_program({"verify", folder / "out/results.json"});
+  EXPECT_EQ(check.code, 0) << check.out;
+  json::value tampered = read_results(folder / "out");
+  json::value& v = tampered.at_pointer("/limits/0/contacts/0/points/0/2");
+  v = v.to_number<double>() + 0.05;
+  const Outcome caught = run_program({"verify", folder.write("t.json", write_json(tampered))});
+  EXPECT_EQ(caught.code, 1);
+  EXPECT_NE(caught.out.find("off its mesh"), std::string::npos) << caught.out;
+}
+
 TEST(Curves, ADesignFindsTheLengthsThatGiveALimit)
 {
   std::string text = with(links_text(), R"("name": "links",)", R"("name": "links", "task": "design",)");
@@ -112,8 +173,7 @@ TEST(Curves, WhatKnowsToriOnlySaysSo)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("links.json", links_text());
-  for (const char* setting :
-       {"/solver/contact=published", "/solver/contact=mesh", "/solver/ccd=sampled", "/solver/preset=paper"}) {
+  for (const char* setting : {"/solver/contact=published", "/solver/ccd=sampled", "/solver/preset=paper"}) {
     const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", setting});
     EXPECT_EQ(o.code, 2) << setting;
     EXPECT_NE(o.err.find("know tori only"), std::string::npos) << setting << o.err;

@@ -44,6 +44,20 @@ TEST(Mesh, ExactLimitsOfMeshes)
   }
 }
 
+/// A circle given as a curve has the mesh of the torus, so the same limit.
+TEST(Mesh, CirclesAsCurves)
+{
+  const std::string text = with(
+      with(mesh_text(12), R"("shape": "torus_union", "tori": [ { "name": "ring" } ])",
+           R"("shape": "closed_tube", "curve": "oval")"),
+      R"("ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7)", R"("half_length": 5, "half_width": 5, "r": 0.7)");
+  const TemporaryFolder folder;
+  const Outcome o =
+      run_program({"run", folder.write("m.json", text), "-o", folder / "out", "--set", "/expect=[]"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), exact(12), 1e-8);
+}
+
 TEST(Mesh, VerifyRecomputesMeshes)
 {
   const TemporaryFolder folder;
@@ -79,7 +93,7 @@ TEST(Mesh, Refusals)
           "facets belong to contact 'mesh'; remove this or choose that contact");
   refused(mesh_text(2), "facets");
   refused(mesh_text(4),
-          "is so coarse that the circle at the middle of its tube leaves it; use more than 4 facets");
+          "is so coarse that the curve at the middle of its tube leaves it; use more than 4 facets");
   // Chords cut across holes: surfaces leave room, coarse meshes do not, and relaxation cannot tell on which
   // side they are.
   const std::string mail = with(chainmail_text(), "\"preset\": \"fast\"",

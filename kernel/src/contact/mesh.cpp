@@ -104,11 +104,12 @@ void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1
 {
   out.d_clearance -= w1;
   const auto add = [w1](const Facets& facets, const FacetPoint& point, const Vec3& n,
-                        std::array<double, primitive_dofs>& d) {
+                        std::array<double, primitive_dofs>& d, std::vector<double>& curve) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {
+      const double w = w1 * point.weights[k];
       const Vec3 by = facets.size_derivative(point.points[k]).transpose() * n;
-      for (std::size_t q = 0; q < 3; ++q)
-        d[3 + q] += w1 * point.weights[k] * by[static_cast<Eigen::Index>(q)];
+      for (std::size_t q = 0; q < 3; ++q) d[3 + q] += w * by[static_cast<Eigen::Index>(q)];
+      facets.add_harmonics(point.points[k], w * n, curve);
     }
   };
   for (int k = 0; k < 3; ++k) {
@@ -116,8 +117,8 @@ void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1
     out.dF[static_cast<std::size_t>(k)] -= w1 * at.normal[k];
   }
   const Vec3 own(frame.e1.dot(at.normal), frame.e2.dot(at.normal), frame.e3.dot(at.normal));
-  add(*frame.P->facets, at.p, own, out.dP);
-  add(*frame.F->facets, at.f, -at.normal, out.dF);
+  add(*frame.P->facets, at.p, own, out.dP, out.curve_P);
+  add(*frame.F_facets, at.f, -at.normal, out.dF, out.curve_F);
 }
 
 class MeshTerms {

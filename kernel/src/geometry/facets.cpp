@@ -1,3 +1,5 @@
+#include <hauberk/error.hpp>
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/triangle_surface.hpp>
 
@@ -13,6 +15,84 @@ namespace hauberk {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+
+/// Angles of section i of n, and of point j of n in a section.
+double section_angle(int i, int n) { return 2.0 * pi * (i + 0.5) / n; }
+double corner_angle(int j, int n) { return pi + 2.0 * pi * (j + 0.5) / n; }
+
+/// A vector with its derivatives in the harmonics of a curve, columns.
+struct Varied {
+  Vec3 x;
+  Eigen::Matrix3Xd d;
+};
+
+Varied normalized(const Varied& v)
+{
+  const double length = v.x.norm();
+  const Vec3 n = v.x / length;
+  return {n, (v.d - n * (n.transpose() * v.d)) / length};
+}
+
+Varied cross(const Varied& a, const Varied& b)
+{
+  Varied out{a.x.cross(b.x), Eigen::Matrix3Xd(3, a.d.cols())};
+  for (Eigen::Index k = 0; k < a.d.cols(); ++k)
+    out.d.col(k) = Vec3(a.d.col(k)).cross(b.x) + a.x.cross(Vec3(b.d.col(k)));
+  return out;
+}
+
+/// What of v is across the unit vector t, of length 1.
+Varied across(const Varied& v, const Varied& t)
+{
+  const double along = v.x.dot(t.x);
+  const Eigen::RowVectorXd by = v.x.transpose() * t.d + t.x.transpose() * v.d;
+  return normalized({v.x - along * t.x, v.d - along * t.d - t.x * by});
+}
+
+/// a, which is across s, turned as s turns to t (unit vectors).
+Varied turned(const Varied& a, const Varied& s, const Varied& t)
+{
+  const double both = 1.0 + s.x.dot(t.x), part = t.x.dot(a.x) / both;
+  const Eigen::RowVectorXd by = (a.x.transpose() * t.d + t.x.transpose() * a.d -
+                                 part * (t.x.transpose() * s.d + s.x.transpose() * t.d)) /
+                                both;
+  return {a.x - part * (s.x + t.x), a.d - part * (s.d + t.d) - (s.x + t.x) * by};
+}
+
+/// Core's point and unit tangent in a section.
+struct CoreSection {
+  Varied x, t;
+};
+
+CoreSection core_section(const ClosedCurve& curve, double u)
+{
+  const auto count = static_cast<Eigen::Index>(harmonic_dofs * curve.size());
+  Varied x{Vec3::Zero(), Eigen::Matrix3Xd::Zero(3, count)}, xu = x;
+  for (std::size_t h = 0; h < curve.size(); ++h) {
+    const Harmonic& harmonic = curve.harmonics()[h];
+    const auto k = static_cast<double>(h + 1);
+    const double c = std::cos(k * u), s = std::sin(k * u);
+    const auto at = static_cast<Eigen::Index>(harmonic_dofs * h);
+    x.x += c * harmonic.c + s * harmonic.s;
+    x.d.middleCols<3>(at).diagonal().setConstant(c);
+    x.d.middleCols<3>(at + 3).diagonal().setConstant(s);
+    xu.x += k * (c * harmonic.s - s * harmonic.c);
+    xu.d.middleCols<3>(at).diagonal().setConstant(-k * s);
+    xu.d.middleCols<3>(at + 3).diagonal().setConstant(k * c);
+  }
+  return {x, normalized(xu)};
+}
+
+/// The first section's a: what of x is across t, or of a coordinate axis where x is along t.
+Varied first_across(const CoreSection& section)
+{
+  constexpr double nearly_along = 1e-3;  // sine of an angle
+  if (section.x.x.cross(section.t.x).norm() > nearly_along * section.x.x.norm())
+    return across(section.x, section.t);
+  Eigen::Index axis = 0;
+  section.t.x.cwiseAbs().minCoeff(&axis);
+  return across({Vec3::Unit(axis), Eigen::Matrix3Xd::Zero(3, section.x.d.cols())}, section.t);
+}
 
 /// Gives every point and edge to the first triangle that has it.
 void give_features(std::vector<Facets::Triangle>& triangles, std::vector<std::array<int, 2>>& edges,
@@ -52,16 +132,88 @@ Facets::Facets(double R, double r0, double r1, int n)
   points_.reserve(size * size);
   by_size_.reserve(size * size);
   for (int i = 0; i < n; ++i) {
-    const double u = 2.0 * pi * (i + 0.5) / n, cu = std::cos(u), su = std::sin(u);
+    const double u = section_angle(i, n), cu = std::cos(u), su = std::sin(u);
     for (int j = 0; j < n; ++j) {
-      const double v = pi + 2.0 * pi * (j + 0.5) / n, cv = std::cos(v), sv = std::sin(v);
+      const double v = corner_angle(j, n), cv = std::cos(v), sv = std::sin(v);
       Mat3 by;
       by << cu, cv * cu, 0.0, su, cv * su, 0.0, 0.0, 0.0, sv;
       points_.emplace_back(by * Vec3(R, r0, r1));
       by_size_.push_back(by);
     }
   }
-  triangles_.reserve(2 * size * size);
+  add_quadrilaterals(n);
+  loops_.emplace_back();
+  for (int i = 0; i < n; ++i) {
+    const double u = section_angle(i, n);
+    loops_[0].emplace_back(R * std::cos(u), R * std::sin(u), 0.0);
+  }
+  parts_ = {0};
+  complete();
+}
+
+Facets::Facets(const ClosedCurve& curve, double r, int n)
+{
+  const auto size = static_cast<std::size_t>(n);
+  std::vector<CoreSection> core;
+  std::vector<Varied> a;
+  core.reserve(size);
+  a.reserve(size + 1);
+  for (int i = 0; i < n; ++i) core.push_back(core_section(curve, section_angle(i, n)));
+  a.push_back(first_across(core[0]));
+  for (std::size_t i = 0; i < size; ++i) {
+    const Varied &s = core[i].t, &t = core[(i + 1) % size].t;
+    constexpr double turns_back = 1e-2;
+    if (1.0 + s.x.dot(t.x) < turns_back) {
+      throw InputError("solver.facets " + std::to_string(n) +
+                       " are so few that a tube's curve turns back between two sections; use more");
+    }
+    a.push_back(turned(a[i], s, t));
+  }
+  // a comes back turned by phi in the first section.
+  const Varied b = cross(a[0], core[0].t), &back = a.back();
+  const double along = back.x.dot(a[0].x), beside = back.x.dot(b.x), phi = std::atan2(beside, along);
+  const Eigen::RowVectorXd by_phi = along * (back.x.transpose() * b.d + b.x.transpose() * back.d) -
+                                    beside * (back.x.transpose() * a[0].d + a[0].x.transpose() * back.d);
+
+  points_.reserve(size * size);
+  by_size_.reserve(size * size);
+  sections_.reserve(size);
+  loops_.emplace_back();
+  for (int i = 0; i < n; ++i) {
+    const CoreSection& here = core[static_cast<std::size_t>(i)];
+    const Varied &ai = a[static_cast<std::size_t>(i)], bi = cross(ai, here.t);
+    const double part = -static_cast<double>(i) / n, c = std::cos(part * phi), s = std::sin(part * phi);
+    const Varied e{c * ai.x + s * bi.x, c * ai.d + s * bi.d + (c * bi.x - s * ai.x) * (part * by_phi)};
+    const Varied f = cross(e, here.t);
+    for (int j = 0; j < n; ++j) {
+      const double v = corner_angle(j, n);
+      Mat3 by = Mat3::Zero();
+      by.col(1) = std::cos(v) * e.x + std::sin(v) * f.x;
+      points_.emplace_back(here.x.x + r * by.col(1));
+      by_size_.push_back(by);
+    }
+    loops_[0].push_back(here.x.x);
+    sections_.push_back({here.x.d, r * e.d, r * f.d});
+  }
+  add_quadrilaterals(n);
+  parts_ = {0};
+  complete();
+}
+
+void Facets::add_harmonics(int point, const Vec3& n, std::vector<double>& out) const
+{
+  if (sections_.empty()) return;
+  const auto count = static_cast<int>(sections_.size());
+  const Section& section = sections_[static_cast<std::size_t>(point / count)];
+  const double v = corner_angle(point % count, count), c = std::cos(v), s = std::sin(v);
+  out.resize(static_cast<std::size_t>(section.x.cols()), 0.0);
+  Eigen::Map<Eigen::RowVectorXd>(out.data(), section.x.cols()) +=
+      n.transpose() * section.x + c * n.transpose() * section.a + s * n.transpose() * section.b;
+}
+
+void Facets::add_quadrilaterals(int n)
+{
+  triangles_.reserve(2 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const int i1 = (i + 1) % n, j1 = (j + 1) % n;
@@ -70,13 +222,6 @@ Facets::Facets(double R, double r0, double r1, int n)
       triangles_.push_back({{a, c, d}, {}, {}});
     }
   }
-  loops_.emplace_back();
-  for (int i = 0; i < n; ++i) {
-    const double u = 2.0 * pi * (i + 0.5) / n;
-    loops_[0].emplace_back(R * std::cos(u), R * std::sin(u), 0.0);
-  }
-  parts_ = {0};
-  complete();
 }
 
 Facets::Facets(const TriangleSurface& surface, double R) : parts_(surface.parts())
@@ -140,14 +285,14 @@ Mat3 axes_of(const PairFrame& frame)
 template <class Visit>
 void near_triangles(const PairFrame& frame, double range, const Visit& visit)
 {
-  visit_near(frame.P->facets->tree(), frame.F->facets->tree(), axes_of(frame), frame.a, range, visit);
+  visit_near(frame.P->facets->tree(), frame.F_facets->tree(), axes_of(frame), frame.a, range, visit);
 }
 
 }  // namespace
 
 void near_features(const PairFrame& frame, double range, const FeatureVisitor& visit)
 {
-  const Facets &P = *frame.P->facets, &F = *frame.F->facets;
+  const Facets &P = *frame.P->facets, &F = *frame.F_facets;
   const Mat3 axes = axes_of(frame);
   near_triangles(frame, range, [&](int tp, int tf) {
     const Facets::Triangle& p = P.triangles()[static_cast<std::size_t>(tp)];
@@ -186,7 +331,7 @@ bool segment_meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& tria
 
 bool facets_intersect(const PairFrame& frame)
 {
-  const Facets &P = *frame.P->facets, &F = *frame.F->facets;
+  const Facets &P = *frame.P->facets, &F = *frame.F_facets;
   const Mat3 axes = axes_of(frame);
   bool found = false;
   near_triangles(frame, 0.0, [&](int tp, int tf) {
@@ -222,7 +367,7 @@ bool encloses(const Facets& mesh, const Vec3& x)
 
 bool facets_inside(const PairFrame& frame)
 {
-  const Facets &P = *frame.P->facets, &F = *frame.F->facets;
+  const Facets &P = *frame.P->facets, &F = *frame.F_facets;
   const Mat3 axes = axes_of(frame);
   const auto point_of = [](const Facets& mesh, int k) { return mesh.points()[static_cast<std::size_t>(k)]; };
   return std::any_of(P.parts().begin(), P.parts().end(),

@@ -2,7 +2,8 @@
 
 namespace hauberk {
 
-PairFrame::PairFrame(const Body& p, const Pose& pose_p, const Body& f, const Pose& pose_f) : P(&p), F(&f)
+PairFrame::PairFrame(const Body& p, const Pose& pose_p, const Body& f, const Pose& pose_f)
+    : P(&p), F(&f), F_facets(f.facets.get())
 {
   const Frame wp = world_frame(p, pose_p);
   const Frame wf = world_frame(f, pose_f);

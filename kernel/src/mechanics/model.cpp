@@ -1,4 +1,5 @@
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/facets.hpp>
 #include <hauberk/mechanics/model.hpp>
 
@@ -120,22 +121,33 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 
 namespace {
 
-/// Gives every body its mesh; bodies of one size, and of one surface, share one.
+std::shared_ptr<const Facets> facets_of(const Body& b, int count)
+{
+  if (b.surface) return std::make_shared<const Facets>(*b.surface, b.R);
+  if (b.curve) return std::make_shared<const Facets>(*b.curve, b.r0, count);
+  return std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
+}
+
+/// All that a body's mesh depends on.
+std::vector<double> mesh_key(const Body& b)
+{
+  std::vector<double> key{b.R, b.r0, b.r1};
+  if (!b.curve) return key;
+  for (const Harmonic& h : b.curve->harmonics()) {
+    key.insert(key.end(), h.c.begin(), h.c.end());
+    key.insert(key.end(), h.s.begin(), h.s.end());
+  }
+  return key;
+}
+
+/// Gives every body its mesh; bodies of one size and one curve, and of one surface, share one.
 void set_facets(Model& m, int count)
 {
-  using Key = std::tuple<const TriangleSurface*, double, double, double>;
+  using Key = std::tuple<const TriangleSurface*, std::vector<double>>;
   std::map<Key, std::shared_ptr<const Facets>> made;
   for (Body& b : m.bodies) {
-    if (b.curve) {
-      throw InputError(
-          "contact 'mesh' knows tori and meshes, no tubes around curves; use solver.contact auto, arc or "
-          "nearest");
-    }
-    std::shared_ptr<const Facets>& facets = made[{b.surface.get(), b.R, b.r0, b.r1}];
-    if (!facets) {
-      facets = b.surface ? std::make_shared<const Facets>(*b.surface, b.R)
-                         : std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
-    }
+    std::shared_ptr<const Facets>& facets = made[{b.surface.get(), mesh_key(b)}];
+    if (!facets) facets = facets_of(b, count);
     b.facets = facets;
   }
 }

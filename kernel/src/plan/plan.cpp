@@ -18,7 +18,7 @@ constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 
 std::string reduction(const Body& a, const Body& b)
 {
-  if (a.surface || b.surface)
+  if (a.facets || b.facets)
     return "meshes: points and triangles, edges and edges, nearest points in closed form";
   if (a.curve && b.curve) return "distance of two curves minus radii: both coordinates searched";
   if (a.curve || b.curve)

@@ -1,4 +1,5 @@
 #include <hauberk/error.hpp>
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/mechanics/gaps.hpp>
@@ -55,11 +56,13 @@ std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& sta
 {
   for (const Body& b : m.bodies) {
     if (b.surface) continue;
-    // Links are those of core circles, which must be inside of their meshes.
-    const double cosine = std::cos(std::numbers::pi / spec.facets);
-    if (b.R * (1.0 - cosine) < std::min(b.r0, b.r1) * cosine) continue;
+    // Links are those of cores, which must be inside of their meshes. Between sections a core is at most
+    // R (1 - cos h) from the chord, h half the angle between them; a curve |x_uu| h^2/2.
+    const double half = std::numbers::pi / spec.facets, cosine = std::cos(half);
+    const double sag = b.curve ? 0.5 * b.curve->second() * half * half : b.R * (1.0 - cosine);
+    if (sag < std::min(b.r0, b.r1) * cosine) continue;
     return fmt::format(
-        "the mesh of {} is so coarse that the circle at the middle of its tube leaves it; use more than {} "
+        "the mesh of {} is so coarse that the curve at the middle of its tube leaves it; use more than {} "
         "facets",
         body_name(spec, b), spec.facets);
   }

@@ -154,11 +154,12 @@ std::vector<Problem> solver_problems(const Experiment& e)
   if (constrained && solver.ccd)
     out.push_back({"/solver/ccd", 0, "contact 'constrained' checks no steps for collisions; remove this"});
   const bool published = contact_choice(solver) == ContactChoice::published;
-  const bool tori_only = published || solver.contact == "mesh" || solver.ccd == "sampled";
+  const bool tori_only = published || solver.ccd == "sampled";
   if ((tori_only || e.task == Task::transition) && has_primitive(e.scene, PrimitiveKind::curve_tube)) {
-    out.push_back({tori_only ? "/solver" : "/task", 0,
-                   "this scene has tubes around curves, and contact 'published' or 'mesh', ccd 'sampled', "
-                   "preset 'paper' and task 'transition' know tori only; use contact auto, arc or nearest"});
+    out.push_back(
+        {tori_only ? "/solver" : "/task", 0,
+         "this scene has tubes around curves, and contact 'published', ccd 'sampled', preset 'paper' "
+         "and task 'transition' know tori only; use contact auto, arc, nearest or mesh"});
   }
   add_mesh_problems(e, out);
   if (!published && solver.closest_points == "sampled") {

@@ -26,7 +26,7 @@ Ball ball_of(const std::vector<Vec3>& points)
   return out;
 }
 
-/// Triangles that lie together: of a torus those between two neighbouring sections of its tube.
+/// Triangles that lie together: of a tube those between two neighbouring sections of its tube.
 struct Sector {
   std::vector<Triangle> triangles;
   std::vector<Ball> balls;  ///< of the triangles
@@ -46,12 +46,46 @@ Sector sector_of(std::vector<Triangle> triangles)
   return out;
 }
 
-std::vector<Sector> torus_sectors(const Torus& torus)
+/// Unit vectors across a curve in the middle of each of n parts of it: the first as much along the core's
+/// point as it can, carried on by the smallest rotation of one tangent to the next, which leaves an angle at
+/// the end that all share.
+std::vector<std::array<Vec3, 2>> frames_along(const Torus& tube)
+{
+  const int n = tube.facets;
+  const auto angle = [n](int i) { return 2.0 * std::numbers::pi * (i + 0.5) / n; };
+  const auto tangent = [&](int i) -> Vec3 { return core_tangent(tube, angle(i % n)).normalized(); };
+  const Vec3 first = tangent(0), from_middle = core_point(tube, angle(0)) - tube.place.position;
+  Vec3 start = from_middle - from_middle.dot(first) * first;
+  if (!(start.norm() > 1e-3 * from_middle.norm())) {
+    Eigen::Index axis = 0;
+    (tube.place.rotation.transpose() * first).cwiseAbs().minCoeff(&axis);
+    const Vec3 other = tube.place.rotation.col(axis);
+    start = other - other.dot(first) * first;
+  }
+  std::vector<Vec3> carried{start.normalized()};
+  for (int i = 0; i < n; ++i)
+    carried.emplace_back(Eigen::Quaterniond::FromTwoVectors(tangent(i), tangent(i + 1)) * carried.back());
+  const double missed =
+      std::atan2(carried.back().dot(carried.front().cross(first)), carried.back().dot(carried.front()));
+  std::vector<std::array<Vec3, 2>> out;
+  for (int i = 0; i < n; ++i) {
+    // A positive angle turns the first vector to the second one, against the tangent.
+    const Vec3 a = Eigen::AngleAxisd(missed * i / n, tangent(i)) * carried[static_cast<std::size_t>(i)];
+    out.push_back({a, a.cross(tangent(i))});
+  }
+  return out;
+}
+
+std::vector<Sector> tube_sectors(const Torus& torus)
 {
   const int n = torus.facets;
   const double step = 2.0 * std::numbers::pi / n;
-  const auto corner = [&](int i, int j) {
-    return surface_point(torus, (i + 0.5) * step, std::numbers::pi + (j + 0.5) * step);
+  const auto frames = torus.curve.empty() ? std::vector<std::array<Vec3, 2>>() : frames_along(torus);
+  const auto corner = [&](int i, int j) -> Vec3 {
+    const double u = (i + 0.5) * step, v = std::numbers::pi + (j + 0.5) * step;
+    if (torus.curve.empty()) return surface_point(torus, u, v);
+    const auto& [a, b] = frames[static_cast<std::size_t>(i % n)];
+    return core_point(torus, u) + torus.r0 * (std::cos(v) * a + std::sin(v) * b);
   };
   std::vector<Sector> out;
   for (int i = 0; i < n; ++i) {
@@ -93,7 +127,7 @@ void add_sectors(std::vector<Triangle> triangles, std::vector<Sector>& out)
 
 std::vector<Sector> sectors(const Torus& torus)
 {
-  if (!torus.surface) return torus_sectors(torus);
+  if (!torus.surface) return tube_sectors(torus);
   std::vector<Triangle> triangles;
   for (const auto& t : torus.surface->triangles) {
     Triangle& placed = triangles.emplace_back();

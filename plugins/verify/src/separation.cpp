@@ -164,7 +164,9 @@ double separation(const Torus& a, const Torus& b)
 
 double separation_bound(const Torus& a, const Torus& b)
 {
-  if (a.surface || b.surface) return (a.place.position - b.place.position).norm() - reach(a) - reach(b);
+  const auto mesh_of_curve = [](const Torus& t) { return t.facets > 0 && !t.curve.empty(); };
+  if (a.surface || b.surface || mesh_of_curve(a) || mesh_of_curve(b))
+    return (a.place.position - b.place.position).norm() - reach(a) - reach(b);
   const double excess = a.facets > 0 ? mesh_excess(a) + mesh_excess(b) : 0.0;
   Torus thin_a = a, thin_b = b;
   thin_a.r0 = thin_a.r1 = std::max(a.r0, a.r1);

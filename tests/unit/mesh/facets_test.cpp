@@ -1,6 +1,7 @@
-/// Meshes of tori: closed, every feature owned once, as accurate as they should be, facets where they should
-/// be.
+/// Meshes of tori and of tubes around curves: closed, every feature owned once, as accurate as they should
+/// be, facets where they should be.
 
+#include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/facets.hpp>
 
 #include <gtest/gtest.h>
@@ -12,6 +13,25 @@ namespace hauberk::test {
 namespace {
 
 const Vec3& point(const Facets& f, int k) { return f.points()[static_cast<std::size_t>(k)]; }
+
+double volume(const Facets& f)
+{
+  double sum = 0.0;
+  for (const Facets::Triangle& t : f.triangles())
+    sum += point(f, t.points[0]).dot(point(f, t.points[1]).cross(point(f, t.points[2]))) / 6.0;
+  return sum;
+}
+
+/// Winds twice around one axis and three times around the other, out of every plane.
+std::vector<Harmonic> knotted()
+{
+  std::vector<Harmonic> h(5);
+  h[0] = {Vec3(0.3, 0.0, 0.1), Vec3(0.0, -0.3, 0.0)};
+  h[1] = {Vec3(2.0, 0.0, 0.0), Vec3(0.0, 1.8, 0.0)};
+  h[2].s = Vec3(0.0, 0.1, 0.9);
+  h[4] = {Vec3(0.4, 0.0, 0.0), Vec3(0.0, 0.4, 0.0)};
+  return h;
+}
 
 TEST(Facets, ClosedAndOriented)
 {
@@ -57,10 +77,7 @@ TEST(Facets, VolumeConverges)
   std::array<double, 3> error{};
   for (std::size_t level = 0; level < 3; ++level) {
     const Facets f(R, r0, r1, 20 << level);
-    double volume = 0.0;
-    for (const Facets::Triangle& t : f.triangles())
-      volume += point(f, t.points[0]).dot(point(f, t.points[1]).cross(point(f, t.points[2]))) / 6.0;
-    error[level] = volume / exact - 1.0;
+    error[level] = volume(f) / exact - 1.0;
   }
   EXPECT_GT(std::abs(error[0]), 0.01);
   EXPECT_NEAR(error[0] / error[1], 4.0, 0.1);
@@ -89,6 +106,87 @@ TEST(Facets, SizeDerivatives)
     for (int k = 0; k < static_cast<int>(f.points().size()); ++k) {
       const Vec3 by = (point(moved[static_cast<std::size_t>(q)], k) - point(f, k)) / h;
       EXPECT_LT((by - f.size_derivative(k).col(q)).norm(), 1e-11);
+    }
+  }
+}
+
+TEST(CurveFacets, ACircleHasTheMeshOfTheTorus)
+{
+  const ClosedCurve circle({{Vec3(5.0, 0.0, 0.0), Vec3(0.0, 5.0, 0.0)}}, 1.0);
+  const Facets curve(circle, 0.7, 12), torus(5.0, 0.7, 0.7, 12);
+  ASSERT_EQ(curve.points().size(), torus.points().size());
+  for (int k = 0; k < static_cast<int>(torus.points().size()); ++k)
+    EXPECT_LT((point(curve, k) - point(torus, k)).norm(), 1e-13);
+  ASSERT_EQ(curve.triangles().size(), torus.triangles().size());
+  for (std::size_t k = 0; k < torus.triangles().size(); ++k)
+    EXPECT_EQ(curve.triangles()[k].points, torus.triangles()[k].points);
+}
+
+/// A tube's volume is pi r^2 times the length of its core.
+TEST(CurveFacets, VolumeOfAKnotConverges)
+{
+  const ClosedCurve curve(knotted(), 1.0);
+  double length = 0.0;
+  constexpr int samples = 400;
+  for (int i = 0; i < samples; ++i)
+    length +=
+        curve.at(Angle(2.0 * std::numbers::pi * i / samples)).xu.norm() * 2.0 * std::numbers::pi / samples;
+  const double exact = std::numbers::pi * 0.25 * 0.25 * length;
+  std::array<double, 3> error{};
+  for (std::size_t level = 0; level < 3; ++level)
+    error[level] = volume(Facets(curve, 0.25, 40 << level)) / exact - 1.0;
+  EXPECT_GT(std::abs(error[0]), 0.005);
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.2);
+  EXPECT_NEAR(error[1] / error[2], 4.0, 0.05);
+}
+
+/// Sections are rings of the tube's radius across the core, and neighbours are turned against each other by
+/// no more than what is left over all around.
+TEST(CurveFacets, SectionsOfAKnot)
+{
+  const ClosedCurve curve(knotted(), 1.0);
+  constexpr int n = 30;
+  const Facets f(curve, 0.25, n);
+  const auto offset = [&](int i, int j) -> Vec3 {
+    return point(f, (i % n) * n + j) - curve.at(Angle(2.0 * std::numbers::pi * (i % n + 0.5) / n)).x;
+  };
+  for (int i = 0; i < n; ++i) {
+    const Vec3 t = curve.at(Angle(2.0 * std::numbers::pi * (i + 0.5) / n)).xu.normalized();
+    const Vec3 s = curve.at(Angle(2.0 * std::numbers::pi * (i + 1.5) / n)).xu.normalized();
+    const double bend = std::acos(std::min(1.0, t.dot(s)));
+    for (int j = 0; j < n; ++j) {
+      EXPECT_NEAR(offset(i, j).norm(), 0.25, 1e-14);
+      EXPECT_NEAR(offset(i, j).dot(t), 0.0, 1e-14);
+      EXPECT_LT((offset(i + 1, j) - offset(i, j)).norm(), 0.25 * (bend + std::numbers::pi / n));
+    }
+  }
+}
+
+TEST(CurveFacets, DerivativesInRadiusAndHarmonics)
+{
+  const std::vector<Harmonic> harmonics = knotted();
+  constexpr int n = 9;
+  constexpr double r = 0.25, h = 1e-5;
+  const Facets f(ClosedCurve(harmonics, 1.0), r, n);
+  const Facets thicker(ClosedCurve(harmonics, 1.0), r + h, n);
+  for (int k = 0; k < n * n; ++k)
+    EXPECT_LT(((point(thicker, k) - point(f, k)) / h - f.size_derivative(k).col(1)).norm(), 1e-9);
+  for (std::size_t q = 0; q < harmonic_dofs * harmonics.size(); ++q) {
+    const auto moved = [&](double by) {
+      std::vector<Harmonic> now = harmonics;
+      Harmonic& one = now[q / harmonic_dofs];
+      (q % 6 < 3 ? one.c : one.s)[static_cast<Eigen::Index>(q % 3)] += by;
+      return std::make_unique<const Facets>(ClosedCurve(now, 1.0), r, n);
+    };
+    const auto plus = moved(h), minus = moved(-h);
+    for (int k = 0; k < n * n; ++k) {
+      const Vec3 by = (point(*plus, k) - point(*minus, k)) / (2.0 * h);
+      for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> out;
+        f.add_harmonics(k, Vec3::Unit(axis), out);
+        ASSERT_EQ(out.size(), harmonic_dofs * harmonics.size());
+        EXPECT_NEAR(out[q], by[axis], 1e-8) << q;
+      }
     }
   }
 }

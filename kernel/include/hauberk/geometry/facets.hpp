@@ -8,18 +8,28 @@
 
 namespace hauberk {
 
+class ClosedCurve;
 class TriangleSurface;
 
 /// Closed triangle mesh in the frame of its body, scaled lengths, with a tree of boxes around its triangles:
-/// of a torus' surface, or of a surface of triangles as it is. Immutable: thread safe.
+/// of a torus' surface, of that of a tube around a curve, or of a surface of triangles as it is. Immutable:
+/// thread safe.
 ///
 /// Points of a torus lie on the surface at u = 2 pi (i + 1/2)/n, v = pi + 2 pi (j + 1/2)/n: facets, not
 /// points or edges, lie on the inner equator and where the body's axes cross the tube. With points there two
 /// linked perpendicular rings would nest in each other, and the mesh would be exact by luck.
+///
+/// Points of a tube around a curve are x(u) + r (cos v a + sin v b), u and v as above, in sections across the
+/// tangent t. a is turned from section to section with t and no further (s to t turns a by -(s + t) t.a/(1 +
+/// s.t)); the angle phi by which it misses itself after all n is taken back evenly, i phi/n in section i. It
+/// begins as what of x is across t, b = a x t: a circle has the mesh of the torus that it is.
 class Facets {
  public:
   /// n x n quadrilaterals of the surface of a body of this size, each as two triangles; n >= 3.
   Facets(double R, double r0, double r1, int n);
+  /// The same of a tube of radius r around a curve. Throws InputError where the curve turns back between
+  /// two sections.
+  Facets(const ClosedCurve& curve, double r, int n);
   /// R times a surface.
   Facets(const TriangleSurface& surface, double R);
   ~Facets();
@@ -34,8 +44,12 @@ class Facets {
   const std::vector<Vec3>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
-  /// d point / d (R, r0, r1), columns, at fixed chart coordinates; of a surface (point/R, 0, 0).
+  /// d point / d (R, r0, r1), columns, at fixed chart coordinates; of a surface (point/R, 0, 0), of a tube
+  /// around a curve (0, d point/dr, 0).
   const Mat3& size_derivative(int point) const { return by_size_[static_cast<std::size_t>(point)]; }
+  /// Of a tube around a curve, adds n . d point / d(harmonics) to `out`, which is made long enough; other
+  /// meshes have no harmonics and leave it as it is.
+  void add_harmonics(int point, const Vec3& n, std::vector<double>& out) const;
   double mean_edge() const { return mean_edge_; }
   /// Closed polygons on the mesh or inside of it: what a closed curve outside of the mesh is linked with, it
   /// is linked with one of them. Of a torus one, around its tube's middle.
@@ -47,11 +61,19 @@ class Facets {
   const Tree& tree() const { return *tree_; }
 
  private:
+  /// d (x, a, b) / d(harmonics of the curve), columns, of a section.
+  struct Section {
+    Eigen::Matrix3Xd x, a, b;
+  };
+
+  /// Triangles of n x n quadrilaterals, closed both ways.
+  void add_quadrilaterals(int n);
   /// Edges, and what follows from them, of points and triangles.
   void complete();
 
   std::vector<Vec3> points_;
   std::vector<Mat3> by_size_;
+  std::vector<Section> sections_;  ///< of a tube around a curve; point k belongs to section k / sections
   std::vector<Triangle> triangles_;
   std::vector<std::array<int, 2>> edges_;
   std::vector<std::vector<Vec3>> loops_;

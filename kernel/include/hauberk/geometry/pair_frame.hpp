@@ -25,6 +25,8 @@ struct PairFrame {
   /// Of two curve tubes: F's core; then F is the point that the difference of both cores is probed against,
   /// with the radius of F's tube. Else null.
   const ClosedCurve* difference = nullptr;
+  /// F's mesh, where it has one; also of a curve tube that F is not itself.
+  const Facets* F_facets = nullptr;
 
   PairFrame(const Body& p, const Pose& pose_p, const Body& f, const Pose& pose_f);
 };

@@ -14,6 +14,9 @@ namespace hauberk {
 namespace {
 
 constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advances are not worth their cost
+/// A pair that ends a step does so where its gap has become small, and that place is approached ever more
+/// slowly. An advance by less than this part of what is behind it is the last one.
+constexpr double worth_going_on = 0.125;
 constexpr int most_advances = 4000;
 constexpr double smallest_panel = 1e-9;  ///< radians
 /// Closest points that one pair is worth: conforming surfaces near contact could take any number. What is
@@ -39,7 +42,7 @@ class PairAdvance {
   {
   }
 
-  /// Largest s <= limit such that the gap stays above `target`.
+  /// A part of the step, at most `limit`, over which the gap stays above `target`: nearly as far as it does.
   double run(double limit, double target)
   {
     double s = 0.0, tau = limit;
@@ -48,6 +51,7 @@ class PairAdvance {
       tau = certified(std::min(tau, limit - s), target);
       if (tau <= 0.0) return s;
       s += tau;
+      if (tau < worth_going_on * s) return s;
       tau *= 2.0;
     }
     return s;

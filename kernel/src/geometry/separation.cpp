@@ -170,19 +170,24 @@ int linking_of_meshes(const Body& A, const Pose& pose_a, const Body& B, const Po
 
 }  // namespace
 
+double ball_gap(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance)
+{
+  const Vec3 ca = pose_a.position + pose_a.rotation * A.center;
+  const Vec3 cb = pose_b.position + pose_b.rotation * B.center;
+  // Where they touch at the closest points of the surfaces they leave nothing for rounding.
+  const double size = pose_a.position.norm() + A.center.norm() + A.bound + pose_b.position.norm() +
+                      B.center.norm() + B.bound + clearance;
+  return (ca - cb).norm() - A.bound - B.bound - clearance - rounding * size;
+}
+
 Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance,
                       double enough, double tightness)
 {
   if (A.surface || B.surface)
     throw InputError(
         "distances of surfaces are not known of triangle meshes: set solver.contact to \"mesh\"");
-  // Spheres about the centres first: most pairs end here.
-  const Vec3 ca = pose_a.position + pose_a.rotation * A.center;
-  const Vec3 cb = pose_b.position + pose_b.rotation * B.center;
-  // Where they touch at the closest points of the surfaces they leave nothing for rounding.
-  const double size = pose_a.position.norm() + A.center.norm() + A.bound + pose_b.position.norm() +
-                      B.center.norm() + B.bound + clearance;
-  const double coarse = (ca - cb).norm() - A.bound - B.bound - clearance - rounding * size;
+  // Balls first: most pairs end here.
+  const double coarse = ball_gap(A, pose_a, B, pose_b, clearance);
   if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
 
   if (A.curve || B.curve) {

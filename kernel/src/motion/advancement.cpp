@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace hauberk {
@@ -22,9 +23,8 @@ constexpr double smallest_panel = 1e-9;  ///< radians
 /// Closest points that one pair is worth: conforming surfaces near contact could take any number. What is
 /// certified until then stands.
 constexpr long most_evaluations = 2000000;
-/// Pairs of bodies below which threads cost more than they save; from which on pairs are advanced together,
-/// and how many.
-constexpr std::size_t worth_threads = 128, large_scene = 1024, taken_together = 64;
+/// Pairs of bodies from which on pairs are advanced together, and how many.
+constexpr std::size_t large_scene = 128, taken_together = 16;
 
 /// Certifies one pair of bodies, P probing F, over the remaining step.
 template <int dim>
@@ -42,13 +42,14 @@ class PairAdvance {
   {
   }
 
-  /// A part of the step, at most `limit`, over which the gap stays above `target`: nearly as far as it does.
-  double run(double limit, double target)
+  /// A part of the step, at most `limit`, over which the gap stays above `keep` times the smallest one seen
+  /// at its start, which is not below the gap: nearly as far as it does.
+  double run(double limit, double keep)
   {
     double s = 0.0, tau = limit;
     for (int k = 0; k < most_advances && s < limit; ++k) {
       begin(s);
-      tau = certified(std::min(tau, limit - s), target);
+      tau = certified(std::min(tau, limit - s), k == 0 ? keep : 0.0);
       if (tau <= 0.0) return s;
       s += tau;
       if (tau < worth_going_on * s) return s;
@@ -87,36 +88,54 @@ class PairAdvance {
     acceleration_ = a0 + wp * wp * reach + wf * wf * r + 2.0 * wf * (v + wp * reach);
   }
 
-  /// How long the gap stays above `target` from the time of `begin`, at most `tau`; 0 if that is not worth
+  /// How long the gap stays above the target from the time of `begin`, at most `tau`; 0 if that is not worth
   /// it. A panel that fails because of time alone halves tau. Panels that held for longer hold for shorter
   /// times as well, so that none is looked at again.
-  double certified(double tau, double target)
+  ///
+  /// With keep > 0 the target is that part of the smallest gap seen. It falls while panels are looked at,
+  /// from the nearest one on, and those that held above a higher one hold.
+  double certified(double tau, double keep)
   {
     const Probe<dim> probe(frame_);
     const FirstPanels<dim> first(probe);
+    std::array<PanelField, 4 * FirstPanels<dim>::rows> panels;
     for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
       std::array<PanelField, 4> row = first.row(k);
       fill_fields(*frame_.F, row);
-      for (const PanelField& p : row)
-        if (!holds(probe, p, tau, target)) return 0.0;
+      std::copy(row.begin(), row.end(), panels.begin() + 4 * k);
     }
+    if (keep > 0.0) target_ = std::numeric_limits<double>::infinity();
+    std::iter_swap(panels.begin(), std::min_element(panels.begin(), panels.end(),
+                                                    [](const PanelField& a, const PanelField& b) {
+                                                      return a.f.m.phi < b.f.m.phi;
+                                                    }));
+    for (const PanelField& p : panels)
+      if (!holds(probe, p, tau, keep)) return 0.0;
     return tau;
   }
 
+  double gap_at(const Probe<dim>& probe, const PanelField& p) const
+  {
+    return p.f.m.phi - probe.offset - clearance_;
+  }
+
   /// True where a panel holds for the time tau, which it may halve.
-  bool holds(const Probe<dim>& probe, const PanelField& p, double& tau, double target)
+  bool holds(const Probe<dim>& probe, const PanelField& p, double& tau, double keep)
   {
     ++count_.evaluations;
-    if (p.f.m.phi - probe.offset - clearance_ < target) return false;
-    Verdict verdict = look(probe, p.s, p.q, p.f, tau, target);
+    const double gap = gap_at(probe, p);
+    if (keep > 0.0) target_ = std::min(target_, keep * gap);
+    if (gap <= target_) return false;
+    Verdict verdict = look(probe, p.s, p.q, p.f, tau, target_);
     while (verdict == Verdict::too_long) {
       tau *= 0.5;
       if (tau < smallest_advance || count_.evaluations >= last_) return false;
-      verdict = look(probe, p.s, p.q, p.f, tau, target);
+      verdict = look(probe, p.s, p.q, p.f, tau, target_);
     }
     if (verdict == Verdict::holds) return true;
     const std::array<PanelField, 2> half = split(probe, p);
-    return holds(probe, half[0], tau, target) && holds(probe, half[1], tau, target);
+    const bool swapped = half[1].f.m.phi < half[0].f.m.phi;  // nearer first
+    return holds(probe, half[swapped ? 1 : 0], tau, keep) && holds(probe, half[swapped ? 0 : 1], tau, keep);
   }
 
   enum class Verdict { holds, too_wide, too_long };
@@ -222,6 +241,7 @@ class PairAdvance {
   double clearance_;
   SafeStep& count_;
   long last_;  ///< evaluation after which to give up
+  double target_ = 0.0;
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;
@@ -239,7 +259,7 @@ struct BodyPair {
 /// One that the first look does not free, and what the second one finds.
 struct Tight {
   const BodyPair* bodies;
-  double gap, alpha;
+  double alpha;
   SafeStep count;
 };
 
@@ -259,18 +279,28 @@ std::vector<BodyPair> body_pairs(const Model& m, const std::vector<CandidatePair
   return out;
 }
 
-/// Part of [0, alpha] over which the gap of a pair stays above `target`.
-double advance(const BodyPair& bodies, double clearance, double alpha, double target, SafeStep& count)
+/// True if a surface that probes is inside of the body that it probes. A core that is probed knows the inside
+/// of its own tube. Where all of a surface is inside of another, so is any point of it.
+bool inside(const PairFrame& frame)
+{
+  return probe_dimension(frame) == 2 && frame.difference == nullptr &&
+         field_at(*frame.F, Probe<2>(frame).at(0.0, 0.0).p).m.phi < 0.0;
+}
+
+/// Part of [0, alpha] over which a pair keeps that part of its gap.
+double advance(const BodyPair& bodies, double clearance, double alpha, double keep, SafeStep& count)
 {
   const CandidatePair& pair = *bodies.pair;
   const Body &A = bodies.A, &B = bodies.B;
   // Of equal kinds the smaller ring probes, see separation().
   const bool swap = probe_rank(B) < probe_rank(A) || (probe_rank(B) == probe_rank(A) && B.R < A.R);
   const Body &P = swap ? B : A, &F = swap ? A : B;
+  const Pose &pp = swap ? pair.pj : pair.pi, &pf = swap ? pair.pi : pair.pj;
   const Track &tp = swap ? pair.tj : pair.ti, &tf = swap ? pair.ti : pair.tj;
-  return probe_dimension(PairFrame(P, pair.pi, F, pair.pj)) == 1
-             ? PairAdvance<1>(P, tp, F, tf, clearance, count).run(alpha, target)
-             : PairAdvance<2>(P, tp, F, tf, clearance, count).run(alpha, target);
+  if (inside(PairFrame(P, pp, F, pf)) || inside(PairFrame(F, pf, P, pp))) return 0.0;
+  return probe_dimension(PairFrame(P, pp, F, pf)) == 1
+             ? PairAdvance<1>(P, tp, F, tf, clearance, count).run(alpha, keep)
+             : PairAdvance<2>(P, tp, F, tf, clearance, count).run(alpha, keep);
 }
 
 }  // namespace
@@ -281,24 +311,13 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
   out.alpha = wall_step(m, from, dy, keep);
   const std::vector<CandidatePair> candidates = candidate_pairs(m, from, dy);
   const std::vector<BodyPair> all = body_pairs(m, candidates);
-  const auto gap_of = [&](const BodyPair& bodies) {
-    return separation(bodies.A, bodies.pair->pi, bodies.B, bodies.pair->pj, m.clearance, 2.0 * bodies.motion);
-  };
-  // The gaps at the beginning do not depend on how far other pairs let the step go.
-  std::vector<Separation> gaps;
-  if (threads > 1 && all.size() >= worth_threads) {
-    gaps.resize(all.size());
-    parallel_for(all.size(), threads, [&](std::size_t k) {
-      if (!all[k].A.facets) gaps[k] = gap_of(all[k]);
-    });
-  }
   // What is found so far shortens the rest. In a large scene pairs are taken together, from the same alpha,
   // also by one thread, as the number of threads may not change what is found.
   const std::size_t most = all.size() >= large_scene ? taken_together : 1;
   std::vector<Tight> tight;
   const auto advance_all = [&] {
     parallel_for(tight.size(), threads, [&](std::size_t i) {
-      tight[i].alpha = advance(*tight[i].bodies, m.clearance, out.alpha, keep * tight[i].gap, tight[i].count);
+      tight[i].alpha = advance(*tight[i].bodies, m.clearance, out.alpha, keep, tight[i].count);
     });
     for (const Tight& t : tight) {
       out.alpha = std::min(out.alpha, t.alpha);
@@ -313,16 +332,10 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
                                  keep, out);
       continue;
     }
-    const Separation now = gaps.empty() ? gap_of(bodies) : gaps[k];
-    out.evaluations += now.evaluations;
-    const double gap = now.lower;
-    if (gap <= 0.0) {
-      out.alpha = 0.0;
-      return out;
-    }
-    if (gap - out.alpha * bodies.motion >= keep * gap) continue;
+    const double apart = ball_gap(bodies.A, bodies.pair->pi, bodies.B, bodies.pair->pj, m.clearance);
+    if (apart > 0.0 && (1.0 - keep) * apart >= out.alpha * bodies.motion) continue;
     ++out.tight_pairs;
-    tight.push_back({&bodies, gap, 0.0, {}});
+    tight.push_back({&bodies, 0.0, {}});
     if (tight.size() == most) advance_all();
   }
   if (out.alpha > 0.0) advance_all();

@@ -12,6 +12,9 @@ struct Separation {
   int evaluations = 0;  ///< closest-point evaluations spent
 };
 
+/// Lower bound of the gap of a pair from the balls that hold its surfaces; nothing is evaluated. Thread safe.
+double ball_gap(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance);
+
 /// Branch and bound over panels of the probing body with `panel_bound`: a panel is split until its bound is
 /// at least `tightness` times the smallest gap seen, or at least `enough`. Gaps are surface distances minus
 /// `clearance`, here and in the result. So lower >= min(enough, tightness * upper) whenever the gap is

@@ -15,7 +15,7 @@ struct SafeStep {
   int tight_pairs = 0;  ///< pairs that needed more than the first look
 };
 
-/// Largest certified alpha: for every pair of bodies the gap stays above `keep` times its certified gap at
+/// A certified alpha, nearly the largest: for every pair of bodies the gap stays above `keep` times the one at
 /// the start. Gaps are surface distances minus clearance.
 ///
 /// Over s in [s0, s0 + tau] the field at a probe point is bounded below by its value and first derivatives

@@ -15,8 +15,8 @@ struct SafeStep {
   int tight_pairs = 0;  ///< pairs that needed more than the first look
 };
 
-/// A certified alpha, nearly the largest: for every pair of bodies the gap stays above `keep` times the one at
-/// the start. Gaps are surface distances minus clearance.
+/// A certified alpha, nearly the largest: for every pair of bodies the gap stays above `keep` times the one
+/// at the start. Gaps are surface distances minus clearance.
 ///
 /// Over s in [s0, s0 + tau] the field at a probe point is bounded below by its value and first derivatives
 /// at (u_mid, s0), and by second derivatives of known size:

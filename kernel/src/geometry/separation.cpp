@@ -29,7 +29,7 @@ class PanelSearch {
   PanelSearch(const PairFrame& frame, double clearance, double enough, double tightness)
       : probe_(frame),
         shift_(probe_.offset + clearance),
-        touching_(rounding * (frame.a.norm() + frame.P->bound + frame.F->bound)),
+        touching_(gap_rounding(frame)),
         enough_(enough),
         tightness_(tightness)
   {
@@ -169,6 +169,11 @@ int linking_of_meshes(const Body& A, const Pose& pose_a, const Body& B, const Po
 }
 
 }  // namespace
+
+double gap_rounding(const PairFrame& frame)
+{
+  return rounding * (frame.a.norm() + frame.P->bound + frame.F->bound);
+}
 
 double ball_gap(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance)
 {

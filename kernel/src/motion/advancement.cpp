@@ -66,6 +66,7 @@ class PairAdvance {
     tp_.at(s, pp, vp);
     tf_.at(s, pf, vf);
     frame_ = PairFrame(P_, pp, F_, pf);
+    touching_ = gap_rounding(frame_);
     const Mat3 Mt = frame_.M.transpose();
     const Vec3 xf = Mt * (pf.position - (pf.position + pf.rotation * F_.center));  // F's element origin
     wp_ = Mt * tp_.w;
@@ -125,7 +126,7 @@ class PairAdvance {
     ++count_.evaluations;
     const double gap = gap_at(probe, p);
     if (keep > 0.0) target_ = std::min(target_, keep * gap);
-    if (gap <= target_) return false;
+    if (gap <= std::max(target_, touching_)) return false;
     Verdict verdict = look(probe, p.s, p.q, p.f, tau, target_);
     while (verdict == Verdict::too_long) {
       tau *= 0.5;
@@ -240,8 +241,9 @@ class PairAdvance {
   const Track& tf_;
   double clearance_;
   SafeStep& count_;
-  long last_;  ///< evaluation after which to give up
-  double target_ = 0.0;
+  long last_;              ///< evaluation after which to give up
+  double target_ = 0.0;    ///< what the gap has to stay above
+  double touching_ = 0.0;  ///< what of a gap is rounding
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;

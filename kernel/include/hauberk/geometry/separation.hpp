@@ -15,6 +15,9 @@ struct Separation {
 /// Lower bound of the gap of a pair from the balls that hold its surfaces; nothing is evaluated. Thread safe.
 double ball_gap(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b, double clearance);
 
+/// Gaps of two placed bodies at or below this are none: rounding decides their sign.
+double gap_rounding(const PairFrame& frame);
+
 /// Branch and bound over panels of the probing body with `panel_bound`: a panel is split until its bound is
 /// at least `tightness` times the smallest gap seen, or at least `enough`. Gaps are surface distances minus
 /// `clearance`, here and in the result. So lower >= min(enough, tightness * upper) whenever the gap is

@@ -141,6 +141,21 @@ TEST_F(MeshFiles, LimitOfFramesIsExact)
   }
 }
 
+/// A frame of the file hangs in one that contact makes of a tube around a circle: eight facets are the same.
+TEST_F(MeshFiles, HangInMeshesOfCurves)
+{
+  std::string text = with(text_, R"("parameters": { "scale": 1 } })", R"("parameters": { "scale": 1 } },
+    "ring": { "shape": "closed_tube", "curve": "oval",
+              "parameters": { "half_length": 5, "half_width": 5, "r": 0.7 } })");
+  text = with(text, R"({ "element": "link", "position": [6)", R"({ "element": "ring", "position": [6)");
+  text = with(text, R"("contact": "mesh" })", R"("contact": "mesh", "facets": 8 })");
+  const Outcome o = run_program({"run", folder_.write("m.json", text), "-o", folder_ / "out"});
+  ASSERT_EQ(o.code, 0) << o.err << o.out;
+  EXPECT_NEAR(number_at(read_results(folder_ / "out"), "/limits/0/value"), exact(8), 1e-8);
+  const Outcome verified = run_program({"verify", folder_ / "out/results.json"});
+  EXPECT_EQ(verified.code, 0) << verified.out;
+}
+
 TEST_F(MeshFiles, VerifyRecomputesThem)
 {
   ASSERT_EQ(run_program({"run", folder_.write("m.json", text_), "-o", folder_ / "out"}).code, 0);

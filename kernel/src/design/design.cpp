@@ -56,22 +56,12 @@ class Recorder final : public OptimizerObserver {
     }
     history.push_back(d);
     if (!observer_({start_, design_.starts, &history.back()})) interrupted = true;
-    targets_met = it.constraint_violation <= negligible_violation && all_met(p.values);
+    targets_met = it.constraint_violation <= negligible_violation && meets_targets(design_, p.values);
     return !interrupted && !targets_met;
   }
 
   std::vector<DesignIterate> history;
   bool interrupted = false, targets_met = false;
-
-  bool all_met(const std::vector<double>& values) const
-  {
-    if (!design_.tolerance || values.size() != design_.targets.size()) return false;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const double target = design_.targets[k].value;
-      if (!(std::abs(values[k] - target) <= *design_.tolerance * std::abs(target))) return false;
-    }
-    return true;
-  }
 
  private:
   DesignProblem& problem_;
@@ -130,6 +120,16 @@ std::vector<LimitTask> target_tasks(const DesignSpec& design)
   return tasks;
 }
 
+bool meets_targets(const DesignSpec& design, const std::vector<double>& values)
+{
+  if (!design.tolerance || values.size() != design.targets.size()) return false;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double target = design.targets[k].value;
+    if (!(std::abs(values[k] - target) <= *design.tolerance * std::abs(target))) return false;
+  }
+  return true;
+}
+
 std::vector<std::optional<double>> target_values(const DesignSpec& design,
                                                  const std::vector<LimitResult>& limits)
 {
@@ -169,10 +169,16 @@ Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer&
   s.interrupted = recorder.interrupted;
   // The best point may not be the last accepted one.
   if (!s.history.empty() && problem.evaluate(s.found.x, false).ok) problem.accept(s.found.x);
-  if (recorder.targets_met && !s.interrupted && recorder.all_met(problem.current().values)) {
+  if (s.interrupted || s.history.empty()) return s;
+  if (recorder.targets_met && meets_targets(design, problem.current().values)) {
     s.found.status = "targets_met";
     s.found.message = "every target is met to within design.tolerance";
+  } else if (problem.settle()) {
+    s.found.message +=
+        "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
   }
+  s.found.x = problem.current().x;
+  s.found.value = problem.current().objective;
   return s;
 }
 

@@ -22,8 +22,6 @@ constexpr double most_of_safe = 0.9;
 /// Gaps beyond the required ones (L) that the states between keep if they can: the next part is then longer.
 constexpr double rest_room = 0.01;
 constexpr int rest_iterations = 12;
-/// Accepted designs in a row whose states were only followed: then they are looked for from rest.
-constexpr int most_unchecked = 4;
 /// Starting designs: moves towards the random goal, each on newly linearised constraints.
 constexpr int most_start_moves = 8;
 constexpr int projection_sweeps = 200;
@@ -330,24 +328,7 @@ void DesignProblem::set_schedule(const Schedule& schedule)
   current_->states_missing = current_->states_kept = false;
   tried_.clear();  // their values are of the other stages
   accepted_.clear();
-}
-
-void DesignProblem::accept(std::span<const double> x)
-{
-  const std::shared_ptr<DesignPoint> p = make_point(x);
-  if (!p->evaluated)
-    throw PluginError("the optimizer accepted a design that it " + (p->why.empty()
-                                                                        ? "did not evaluate from its iterate"
-                                                                        : "could not evaluate: " + p->why));
-  if (p->unchecked >= most_unchecked) check(*p);
-  const bool recalled = p->states_missing && memory_->recall_states(*p);
-  if (p->states_missing && !recalled) find_states(*p);
-  if (memory_ != nullptr && !p->states_kept && !recalled) memory_->record_states(*p);
-  p->states_missing = false;
-  p->states_kept = memory_ != nullptr;
-  tried_.clear();  // from the former iterate; from this one they may come out otherwise
-  current_ = last_ = p;
-  accepted_.push_back(p);
+  confirmed_.reset();
 }
 
 std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)

@@ -166,56 +166,6 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
   }
 }
 
-void DesignProblem::find_targets(const std::shared_ptr<DesignPoint>& p)
-{
-  tried_.push_back(p);
-  p->unchecked = p->x == current_->x ? 0 : current_->unchecked + 1;
-  long cost = 0;
-  if (memory_ != nullptr && memory_->recall(*p, cost)) {
-    evaluations_ += cost;
-    p->states_missing = p->evaluated;
-    return;
-  }
-  // A start is the iterate before it is accepted.
-  if (current_->states_missing) find_states(*current_);
-  const long before = evaluations_;
-  solve_targets(*p, *current_);
-  if (memory_ == nullptr) return;
-  memory_->record(*p, evaluations_ - before);
-}
-
-void DesignProblem::find_states(DesignPoint& p)
-{
-  const long before = evaluations_;
-  solve_targets(p, *current_);
-  if (p.checked) search_again(p);
-  evaluations_ = before;
-  p.states_missing = false;
-}
-
-void DesignProblem::check(DesignPoint& p)
-{
-  long cost = 0;
-  if (memory_ != nullptr && memory_->recall(p, cost)) {
-    evaluations_ += cost;
-    p.states_missing = true;
-  } else {
-    if (p.states_missing) find_states(p);
-    const long before = evaluations_;
-    search_again(p);
-    if (memory_ != nullptr) memory_->record(p, evaluations_ - before);
-  }
-  p.checked = true;
-  p.unchecked = 0;
-}
-
-void DesignProblem::search_again(DesignPoint& p)
-{
-  DesignPoint again = p;
-  solve_targets(again, p);
-  if (again.evaluated) p = std::move(again);
-}
-
 void DesignProblem::solve_targets(DesignPoint& p, const DesignPoint& from)
 {
   p.evaluated = false;
@@ -238,6 +188,8 @@ void DesignProblem::solve_targets(DesignPoint& p, const DesignPoint& from)
   };
   const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
   each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k]); });
+  p.continued = p.x != from.x && std::any_of(targets.begin(), targets.end(),
+                                             [](const LockedTarget& t) { return t.followed && !t.changed; });
   if (std::none_of(targets.begin(), targets.end(), has_problem)) learn(p, loads, targets);
   each([&](std::size_t k) {
     const Locked& l = targets[k].locked;

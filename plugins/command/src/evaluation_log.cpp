@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view format_name = "hauberk-evaluations/2 ";
+constexpr std::string_view format_name = "hauberk-evaluations/3 ";
 constexpr std::string_view end_of_line = " .";  ///< of a whole one
 constexpr char evaluation_mark = 'E';
 constexpr char states_mark = 'S';
@@ -200,6 +200,7 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
   found.x = in.numbers();
   evaluations = in.number<long>();
   found.evaluated = in.number<int>() != 0;
+  found.continued = in.number<int>() != 0;
   found.why = in.words();
   for (const double k : in.numbers()) found.changed.push_back(static_cast<int>(k));
   found.values = in.numbers();
@@ -211,6 +212,7 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
     return false;
   }
   p.evaluated = found.evaluated;
+  p.continued = found.continued;
   p.why = std::move(found.why);
   p.changed = std::move(found.changed);
   p.values = std::move(found.values);
@@ -230,6 +232,7 @@ void EvaluationLog::record(const DesignPoint& p, long evaluations)
   out.numbers(p.x);
   out.number(evaluations);
   out.number(p.evaluated ? 1 : 0);
+  out.number(p.continued ? 1 : 0);
   out.words(p.why);
   out.numbers(std::vector<double>(p.changed.begin(), p.changed.end()));
   out.numbers(p.values);

@@ -90,5 +90,63 @@ TEST(DesignProblem, FollowedStatesAreCheckedEveryFewSteps)
   EXPECT_EQ(checks, 2);
 }
 
+TEST(DesignProblem, WhatMeetsTheTargetsIsCheckedAtOnce)
+{
+  DesignSpec values = spec();
+  values.quantity = DesignQuantity::positive;
+  const std::vector<double> goal = [&values] {
+    AtStart start(values);
+    std::vector<double> x = start.x;
+    x[0] += 0.02;
+    EXPECT_TRUE(start.problem.evaluate(x, false).ok);
+    start.problem.accept(x);
+    EXPECT_EQ(start.problem.current().unchecked, 1);
+    return start.problem.current().values;
+  }();
+  for (std::size_t i = 0; i < goal.size(); ++i) values.targets[i].value = goal[i];
+  values.tolerance = 1e-3;
+  AtStart start(values);
+  ASSERT_FALSE(meets_targets(values, start.problem.current().values));
+  std::vector<double> x = start.x;
+  x[0] += 0.02;
+  ASSERT_TRUE(start.problem.evaluate(x, false).ok);
+  const long before = start.problem.evaluations();
+  start.problem.accept(x);
+  EXPECT_EQ(start.problem.current().unchecked, 0);
+  EXPECT_GT(start.problem.evaluations(), before);
+  EXPECT_TRUE(meets_targets(values, start.problem.current().values));
+}
+
+TEST(DesignProblem, ASearchEndsWithWhatRestLeadsTo)
+{
+  DesignSpec values = spec();
+  values.quantity = DesignQuantity::positive;
+  values.rest_clearance = 1e-3;  // that the start satisfies the constraints
+  const auto moved = [](DesignProblem& problem, std::vector<double> x, double h) {
+    x[0] += h;
+    EXPECT_TRUE(problem.evaluate(x, false).ok);
+    problem.accept(x);
+    EXPECT_EQ(problem.current().unchecked, 1);
+    return problem.current().objective;
+  };
+  for (const double h : {0.02, -0.02}) {
+    AtStart start(values);
+    const double first = start.problem.current().objective;
+    const bool worse = moved(start.problem, start.x, h) > first;
+    const long before = start.problem.evaluations();
+    EXPECT_EQ(start.problem.settle(), worse) << h;
+    EXPECT_GT(start.problem.evaluations(), before);  // it was checked
+    EXPECT_EQ(start.problem.current().unchecked, 0);
+    EXPECT_EQ(start.problem.current().x == start.x, worse);
+    if (worse) {
+      EXPECT_EQ(start.problem.current().objective, first);
+    }
+    // From there it goes on, and what is known to be led to by rest is not looked for again.
+    const long settled = start.problem.evaluations();
+    EXPECT_FALSE(start.problem.settle());
+    EXPECT_EQ(start.problem.evaluations(), settled);
+  }
+}
+
 }  // namespace
 }  // namespace hauberk::test

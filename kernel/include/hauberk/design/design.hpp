@@ -77,6 +77,9 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);
 
+/// Whether every value is within `tolerance` of its target, which ends a search; false without a tolerance.
+bool meets_targets(const DesignSpec& design, const std::vector<double>& values);
+
 /// Values of the designed quantity from limits in the order of `target_tasks`; null where not locked.
 std::vector<std::optional<double>> target_values(const DesignSpec& design,
                                                  const std::vector<LimitResult>& limits);

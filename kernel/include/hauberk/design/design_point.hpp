@@ -29,7 +29,8 @@ struct DesignPoint {
   bool evaluated = false;
   bool states_missing = false;  ///< values are recalled from a former run, `warm` is not
   bool states_kept = false;     ///< the memory has `warm`
-  int unchecked = 0;            ///< steps since states were looked for from rest
+  bool continued = false;       ///< some state of it continues one of the iterate before
+  int unchecked = 0;            ///< steps since all states were looked for from rest
   bool checked = false;         ///< they were, after this one was accepted
   std::string why;              ///< why it could not be evaluated
 };

@@ -33,6 +33,10 @@ class DesignProblem final : public OptimizationProblem {
   /// Changes the stages; the current design keeps its rest state and warm starts and is evaluated anew.
   void set_schedule(const Schedule& schedule);
 
+  /// Looks for the states of the current design from rest. If it comes out worse than an accepted one whose
+  /// states had been looked for so, and which satisfies the constraints, goes back to the best of these; true
+  /// then. To be called where a search ends.
+  bool settle();
   /// The last accepted design.
   const DesignPoint& current() const { return *current_; }
   /// Variables of the scene as given.
@@ -75,6 +79,8 @@ class DesignProblem final : public OptimizationProblem {
   /// Replaces states that were followed by those that rest leads to, and their values: recalls or solves, and
   /// records.
   void check(DesignPoint& p);
+  /// Makes p the iterate; on request after a check.
+  void take(const std::shared_ptr<DesignPoint>& p, bool look_from_rest);
   void search_again(DesignPoint& p);
   /// Warm starts of a design that was evaluated from the iterate in a run that ended before it kept them:
   /// they are found again as they were found first, at no cost that was not counted then.
@@ -123,6 +129,8 @@ class DesignProblem final : public OptimizationProblem {
   std::vector<std::shared_ptr<DesignPoint>> tried_;
   /// Iterates: an optimizer may go back to its best one, which is not always on the way from the last.
   std::vector<std::shared_ptr<DesignPoint>> accepted_;
+  /// The best iterate within the constraints whose states are what rest leads to; null before there is one.
+  std::shared_ptr<DesignPoint> confirmed_;
   long evaluations_ = 0;
 };
 

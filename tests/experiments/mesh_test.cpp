@@ -250,5 +250,19 @@ TEST_F(MeshFiles, RoomIsFound)
   EXPECT_NE(o.out.find("largest rest clearance"), std::string::npos) << o.out;
 }
 
+/// What is written elsewhere refers to the same file.
+TEST_F(MeshFiles, ExperimentsWrittenElsewhereFindTheFile)
+{
+  std::filesystem::create_directories(folder_ / "deep/er");
+  const std::string file = folder_.write("m.json", text_), moved = folder_ / "deep/er/room.json";
+  const Outcome o = run_program({"room", file, "--starts", "1", "--fixed-cell", "-o", moved});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome found = run_program({"check", moved});
+  EXPECT_EQ(found.code, 0) << found.err;
+  std::ifstream in(moved);
+  const std::string written{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(written.find("\"../../frame.obj\""), std::string::npos) << written;
+}
+
 }  // namespace
 }  // namespace hauberk::test

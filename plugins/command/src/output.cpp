@@ -81,6 +81,8 @@ Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned t
       progress_(progress),
       own_(resuming),
       experiment_json_(write_json(loaded.experiment.resolved)),
+      experiment_here_(
+          write_json(in_folder(loaded.experiment.resolved, loaded.experiment, directory_.string()))),
       provenance_(provenance(loaded, threads))
 {
   const Experiment& e = loaded.experiment;
@@ -121,7 +123,7 @@ Output::Files Output::content(const RunResult& run)
     // A limit that was there may have learnt from one that was not: then it is a new one.
     if (run.limits[k].resumed) limits[k] = kept_[k];
   }
-  return results_content(document_, run, experiment_json_, names_, labels_);
+  return results_content(document_, run, experiment_here_, names_, labels_);
 }
 
 Output::Files Output::content(const RunResult& run, const StabilityMap& map)

@@ -84,6 +84,7 @@ class Output {
   bool own_;  ///< the folder's results are this run's
   std::string warned_;
   std::string experiment_json_;
+  std::string experiment_here_;  ///< with paths as they are from the folder of the results
   Provenance provenance_;
   ResultNames names_;
   PlotLabels labels_;

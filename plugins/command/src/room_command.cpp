@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <set>
 
@@ -108,7 +109,8 @@ int room_command(const std::vector<std::string>& words)
     const auto& file = options.get<std::string>("output");
     const Node experiment = scene_experiment(loaded.experiment, scene_in(loaded, m, room.best.state),
                                              loaded.experiment.name + "_room");
-    write_new_file_atomically(file, write_json(experiment) + "\n");
+    const std::string folder = std::filesystem::path(file).parent_path().string();
+    write_new_file_atomically(file, write_json(in_folder(experiment, loaded.experiment, folder)) + "\n");
     fmt::print("written to {}\n", file);
   }
   return interrupted() ? exit_interrupted : exit_done;

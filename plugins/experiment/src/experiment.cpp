@@ -17,6 +17,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 namespace hauberk {
@@ -106,7 +107,12 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
-  PluginResolver plugins(lookups.plugins, lookups.folder, lookups.files);
+  std::set<std::string> plugin_files;
+  PluginResolver plugins(lookups.plugins, lookups.folder,
+                         [&](const std::string& written, const std::string& located) {
+                           plugin_files.insert(written);
+                           if (lookups.files) lookups.files(written, located);
+                         });
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };
@@ -153,6 +159,8 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   // Variants are made from the weave again when this is read again.
   if (has_variants) keep_weave(*root, base.file);
   experiment.resolved = std::move(*root);
+  experiment.folder = lookups.folder;
+  experiment.plugin_files.assign(plugin_files.begin(), plugin_files.end());
   return experiment;
 }
 

@@ -5,11 +5,28 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace hauberk {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+/// Every string of a tree that is one of `paths`, relative to `from`, made relative to `to`.
+void rebase(Node& node, const std::vector<std::string>& paths, const fs::path& from, const fs::path& to)
+{
+  if (node.type == Node::Type::string && std::find(paths.begin(), paths.end(), node.string) != paths.end() &&
+      fs::path(node.string).is_relative()) {
+    const fs::path file = fs::absolute(from / node.string).lexically_normal();
+    const fs::path seen = file.lexically_relative(fs::absolute(to).lexically_normal());
+    node.string = (seen.empty() ? file : seen).generic_string();
+  }
+  for (Node& item : node.items) rebase(item, paths, from, to);
+  for (auto& [key, value] : node.members) rebase(value, paths, from, to);
+}
 
 Node array_node(std::vector<Node> items)
 {
@@ -78,6 +95,15 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
   for (const char* key : {"load_case", "solver"}) set_default(root, key, experiment.resolved.at(key));
   relocate(root, "", 0);
   return root;
+}
+
+Node in_folder(Node written, const Experiment& experiment, const std::string& to)
+{
+  for (auto& [key, value] : written.members) {
+    if (key == "elements" || key == "load_case")
+      rebase(value, experiment.plugin_files, experiment.folder, to);
+  }
+  return written;
 }
 
 }  // namespace hauberk

@@ -214,6 +214,8 @@ struct Experiment {
   std::optional<ExperimentChart> chart;            ///< likewise
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
+  std::string folder;                     ///< of the file; empty: the working directory
+  std::vector<std::string> plugin_files;  ///< paths of files that plugins were given, as written
 };
 
 /// What to read.
@@ -272,5 +274,9 @@ Experiment load_experiment(const std::string& path, const std::vector<std::strin
 /// result) with the same load case and solver: every element placed by itself, without design and expect.
 /// Write it with write_json.
 Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, const std::string& name);
+
+/// `written`, made of `experiment`, as it has to be in a file of the folder `to`: paths of plugins' files
+/// that are relative lead to the same files from there.
+Node in_folder(Node written, const Experiment& experiment, const std::string& to);
 
 }  // namespace hauberk

@@ -13,7 +13,7 @@ namespace {
 constexpr double response_weight = 1e-3;  ///< weight of staying against keeping gaps, at rest
 constexpr double follow_weight = 1e-6;    ///< the same for locked states, whose contacts fix them
 constexpr double least_gap = 0.05;        ///< of the smallest gap at the start: the advance stops there
-constexpr double shortest_advance = 1e-6;
+constexpr double shortest_advance = 1e-6, most_of_gap = 0.95;
 constexpr double contact_range = 3.0;  ///< activation distances: gaps that a warm start keeps
 constexpr double open_enough = 0.01;   ///< activation distances: gaps of a warm start are at least that
 /// Parts of the way to a changed design: the longest motion (of what farthest_relative_motion allows), and
@@ -46,25 +46,20 @@ double farthest_apart(const ClosedCurve& a, const ClosedCurve& b)
   return sum;
 }
 
-/// Model between a and b: bodies interpolated linearly. Kinds follow `b` unless both are tubes.
-Model between(const Model& a, const Model& b, double t)
+/// Body between a and b, interpolated linearly. Its kind is that of `b` unless both are tubes.
+Body between(const Body& a, const Body& b, double t)
 {
-  Model m = a;
-  for (std::size_t k = 0; k < m.bodies.size(); ++k) {
-    Body& q = m.bodies[k];
-    const Body& o = b.bodies[k];
-    const auto mix = [t](double x, double y) { return (1.0 - t) * x + t * y; };
-    q.R = mix(q.R, o.R);
-    q.r0 = mix(q.r0, o.r0);
-    q.r1 = mix(q.r1, o.r1);
-    q.center = (1.0 - t) * q.center + t * o.center;
-    q.bound = std::max(q.bound, o.bound);
-    q.reach = std::max(q.reach, o.reach);
-    if (!o.is_tube()) q.kind = o.kind;
-    if (q.curve && o.curve) set_core(q, mixed(*q.curve, *o.curve, t), q.r0);
-  }
-  for (std::size_t i = 0; i < m.reach.size(); ++i) m.reach[i] = std::max(m.reach[i], b.reach[i]);
-  return m;
+  Body q = a;
+  const auto mix = [t](double x, double y) { return (1.0 - t) * x + t * y; };
+  q.R = mix(a.R, b.R);
+  q.r0 = mix(a.r0, b.r0);
+  q.r1 = mix(a.r1, b.r1);
+  q.center = (1.0 - t) * a.center + t * b.center;
+  q.bound = std::max(a.bound, b.bound);
+  q.reach = std::max(a.reach, b.reach);
+  if (!b.is_tube()) q.kind = b.kind;
+  if (a.curve && b.curve) set_core(q, mixed(*a.curve, *b.curve, t), q.r0);
+  return q;
 }
 
 double shape_speed(const Body& a, const Body& b)
@@ -75,6 +70,63 @@ double shape_speed(const Body& a, const Body& b)
                                            : std::abs(a.R - b.R);
   return core + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
 }
+
+/// Two bodies on a straight way on which their shapes change, too.
+struct ChangingPair {
+  const Model *a, *b;
+  const State* from;
+  const Vector* dy;
+  ElementPair pair;
+  std::size_t p, q;   ///< bodies
+  double rate = 0.0;  ///< bound of the speed of their surfaces towards each other, per unit of t
+  double gap = 0.0;   ///< lower bound at the beginning; or at least twice the rate
+
+  ChangingPair(const Model& first, const Model& last, const State& state, const Vector& way,
+               const ElementPair& elements, std::size_t body_p, std::size_t body_q)
+      : a(&first), b(&last), from(&state), dy(&way), pair(elements), p(body_p), q(body_q)
+  {
+    const int oi = a->offset(pair.i), oj = a->offset(pair.j), nc = a->coordinate_count;
+    const auto turn = [&](int offset, std::size_t body) {
+      return dy->segment<3>(offset + nc).norm() * std::max(a->bodies[body].reach, b->bodies[body].reach);
+    };
+    rate = (dy->segment(oi, nc) - dy->segment(oj, nc)).norm() + turn(oi, p) + turn(oj, q) +
+           shape_speed(a->bodies[p], b->bodies[p]) + shape_speed(a->bodies[q], b->bodies[q]);
+    gap = gap_at(0.0);
+  }
+
+  Pose pose_at(int element, const Image& image, double t) const
+  {
+    const auto k = static_cast<std::size_t>(element);
+    const int nc = a->coordinate_count, o = a->offset(element);
+    const Vector macro = from->macro + t * dy->head(a->macro_count);
+    const Vector e = from->e.segment(element * nc, nc) + t * dy->segment(o, nc);
+    PositionMap map;
+    a->load->position({macro.data(), static_cast<std::size_t>(macro.size())},
+                      {e.data(), static_cast<std::size_t>(nc)}, a->rest[k].position, a->translation(image),
+                      map);
+    return {map.x, rotation_exp(t * dy->segment<3>(o + nc)) * from->rotation[k]};
+  }
+
+  double gap_at(double t) const
+  {
+    return separation(between(a->bodies[p], b->bodies[p], t), pose_at(pair.i, {0, 0}, t),
+                      between(a->bodies[q], b->bodies[q], t), pose_at(pair.j, pair.image, t), a->clearance,
+                      2.0 * rate, 0.9)
+        .lower;
+  }
+
+  /// How far of the way up to `end` the gap stays above `least`.
+  double advance(double end, double least) const
+  {
+    double t = 0.0, now = gap;
+    while (rate > 0.0 && t + now / rate < end) {
+      if (now <= least || now / rate < shortest_advance) return t;
+      t += most_of_gap * now / rate;
+      now = gap_at(t);
+    }
+    return end;
+  }
+};
 
 /// Largest relative motion, strain and change of shape included, of two elements that could meet, over the
 /// distance that their cores keep at least: the thickness of the thinnest tube twice.
@@ -235,43 +287,34 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
 
 double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy)
 {
-  const double motion = largest_motion(a, dy);
   double shape = 0.0;
   for (std::size_t k = 0; k < a.bodies.size(); ++k)
     shape = std::max(shape, shape_speed(a.bodies[k], b.bodies[k]));
-  const double most = 2.0 * (motion + shape);
+  const double most = 2.0 * (largest_motion(a, dy) + shape);
   if (most == 0.0) return 1.0;
-  double t = 0.0, first = -1.0;
-  while (t < 1.0) {
-    const Model m = between(a, b, t);
-    const State s = advanced(a, from, dy, t);
-    // Largest further advance for which every pair keeps a positive gap.
-    double advance = 1.0 - t, smallest = std::numeric_limits<double>::infinity();
-    for (const ElementPair& pair : near_pairs(m, s, m.clearance + most)) {
-      const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-      const Pose pi = image_pose(m, s, pair.i, {0, 0}), pj = image_pose(m, s, pair.j, pair.image);
-      const auto speed = [&](int element) {
-        const int o = m.offset(element), nc = m.coordinate_count;
-        return std::pair{dy.segment(o, nc).norm(), dy.segment<3>(o + nc).norm()};
-      };
-      const auto [vi, wi] = speed(pair.i);
-      const auto [vj, wj] = speed(pair.j);
-      for (int p = m.first_body[i]; p < m.first_body[i + 1]; ++p) {
-        for (int q = m.first_body[j]; q < m.first_body[j + 1]; ++q) {
-          const auto P = static_cast<std::size_t>(p), Q = static_cast<std::size_t>(q);
-          const double rate = vi + vj + wi * m.bodies[P].reach + wj * m.bodies[Q].reach +
-                              shape_speed(a.bodies[P], b.bodies[P]) + shape_speed(a.bodies[Q], b.bodies[Q]);
-          const double gap = separation(m.bodies[P], pi, m.bodies[Q], pj, m.clearance, 2.0 * rate, 0.9).lower;
-          smallest = std::min(smallest, gap);
-          if (rate > 0.0) advance = std::min(advance, std::max(0.0, gap) / rate);
-        }
+  Model reaching = a;
+  for (std::size_t i = 0; i < reaching.reach.size(); ++i)
+    reaching.reach[i] = std::max(a.reach[i], b.reach[i]);
+  std::vector<ChangingPair> pairs;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ElementPair& pair : near_pairs(reaching, from, a.clearance + most)) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    for (int p = a.first_body[i]; p < a.first_body[i + 1]; ++p) {
+      for (int q = a.first_body[j]; q < a.first_body[j + 1]; ++q) {
+        ChangingPair c(a, b, from, dy, pair, static_cast<std::size_t>(p), static_cast<std::size_t>(q));
+        smallest = std::min(smallest, c.gap);
+        if (c.gap < c.rate) pairs.push_back(std::move(c));
       }
     }
-    if (first < 0.0) first = smallest;
-    if (smallest <= least_gap * first || advance < shortest_advance) return t;
-    t += t + advance >= 1.0 ? 1.0 - t : 0.95 * advance;
   }
-  return 1.0;
+  if (smallest <= 0.0) return 0.0;
+  const double least = least_gap * smallest;
+  // Those that could meet first are followed first: the others need not go further.
+  std::sort(pairs.begin(), pairs.end(),
+            [](const ChangingPair& x, const ChangingPair& y) { return x.gap * y.rate < y.gap * x.rate; });
+  double safe = 1.0;
+  for (const ChangingPair& pair : pairs) safe = pair.advance(safe, least);
+  return safe;
 }
 
 }  // namespace hauberk

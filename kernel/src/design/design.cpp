@@ -19,9 +19,6 @@ double seconds_since(std::chrono::steady_clock::time_point t0)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
 }
 
-/// Violation of a constraint (L) that counts as none.
-constexpr double negligible_violation = 1e-6;
-
 /// Records every iterate and passes it on.
 class Recorder final : public OptimizerObserver {
  public:

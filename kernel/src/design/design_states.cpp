@@ -12,8 +12,6 @@ namespace {
 
 /// Accepted designs in a row with states that were only continued: then they are looked for from rest.
 constexpr int most_unchecked = 4;
-/// Violation of a constraint (L) that counts as none.
-constexpr double negligible_violation = 1e-6;
 
 }  // namespace
 
@@ -58,7 +56,7 @@ void DesignProblem::check(DesignPoint& p)
   }
   p.states_kept = false;
   p.checked = true;
-  p.unchecked = 0;
+  if (!p.continued) p.unchecked = 0;  // else rest leads to no state that could be computed
 }
 
 void DesignProblem::search_again(DesignPoint& p)

@@ -9,6 +9,9 @@
 
 namespace hauberk {
 
+/// Violation of a constraint of a design (L) that counts as none.
+constexpr double negligible_violation = 1e-6;
+
 /// min_x sum_i w_i/2 (value_i(x) - target_i)^2 under hole and rest clearances. Evaluations run directions in
 /// parallel; results do not depend on the number of threads. Not thread safe itself.
 class DesignProblem final : public OptimizationProblem {

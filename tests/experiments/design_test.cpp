@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 namespace hauberk::test {
@@ -48,6 +49,26 @@ TEST(Design, MovesTheLimitToItsTarget)
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NEAR(number_at(read_results(folder / "again"), "/limits/0/value"), number_at(r, "/limits/0/value"),
               1e-3);
+}
+
+TEST(Design, OfAWeaveThatIsAlsoSweptRunsByItself)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("w.json", R"({ "name": "w", "task": "design",
+  "cell": { "weave": { "name": "chain", "parameters": { "inner_diameter": 8 } } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "solver": { "preset": "fast" },
+  "design": { "quantity": "stretch", "optimizer": { "plugin": "sqp", "max_iterations": 1 },
+    "variables": [{ "parameters": "ring.R", "lower": 4, "upper": 5 }],
+    "targets": [{ "direction_deg": 0, "value": 0.4 }] },
+  "sweep": { "vary": [{ "name": "inner diameter", "pointers": ["/cell/weave/parameters/inner_diameter"],
+                        "values": [7, 8] }] } })");
+  const Outcome o = run_program({"run", file, "-o", folder / "out"});
+  ASSERT_EQ(o.code, 0) << o.out << o.err;
+  const Outcome again = run_program({"run", folder / "out/designed.json", "-o", folder / "again"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NEAR(number_at(read_results(folder / "again"), "/limits/0/value"),
+              number_at(read_results(folder / "out"), "/limits/0/value"), 1e-6);
 }
 
 TEST(Design, PlainValuesMoveTheLimitToItsTarget)
@@ -121,6 +142,20 @@ TEST(Design, AnInterruptLeavesTheBestSoFar)
   EXPECT_NE(number_at(r, "/design/variables/0/final"), 4.9);
   EXPECT_EQ(number_at(r, "/scene/elements/0/parameters/ring.R"), number_at(r, "/design/variables/0/final"));
   EXPECT_TRUE(fs::exists(folder.path() / "out" / "designed.json"));
+  // What the search cost is what its log says: lines of "E", the number of variables, the variables, the
+  // cost.
+  std::ifstream log(folder.path() / "out" / ".hauberk-evaluations");
+  double cost = 0.0;
+  for (std::string line; std::getline(log, line);) {
+    std::istringstream words(line);
+    std::string mark, word;
+    std::size_t variables = 0;
+    if (!(words >> mark >> variables) || mark != "E") continue;
+    for (std::size_t k = 0; k <= variables; ++k) words >> word;
+    cost += std::stod(word);
+  }
+  EXPECT_GT(cost, 0.0);
+  EXPECT_EQ(number_at(r, "/design/evaluations"), cost);
 }
 
 }  // namespace

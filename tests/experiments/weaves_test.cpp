@@ -189,6 +189,21 @@ TEST(RoomFiles, PatchesCanBeLoaded)
   EXPECT_GT(first_line(o.out), 0.5);
 }
 
+TEST(RoomFiles, AWeaveThatIsSweptCanBeLoaded)
+{
+  const TemporaryFolder folder;
+  const std::string found = folder / "found.json";
+  const Outcome o = run_program({"room", folder.write("s.json", R"({ "name": "s", "task": "sweep",
+  "cell": { "weave": { "name": "chain", "parameters": { "inner_diameter": 8 } } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "sweep": { "vary": [{ "name": "inner diameter", "pointers": ["/cell/weave/parameters/inner_diameter"],
+                        "values": [7, 8] }] } })"),
+                                 "-o", found, "--starts", "1"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome checked = run_program({"check", found});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+}
+
 TEST(RoomFiles, AreNotReplacedAndNothingElseIs)
 {
   const TemporaryFolder folder;

@@ -156,9 +156,15 @@ class DesignRun {
     try {
       designed = run_design(
           loaded_.scene, *experiment_.load_case, experiment_.solver.clearance, loaded_.settings, spec_,
-          optimizer, threads_, [this](const DesignProgress& p) { return observe(p); }, &log);
+          optimizer, threads_,
+          [&](const DesignProgress& p) {
+            run_.design->evaluations = log.closest_points();
+            return observe(p);
+          },
+          &log);
     } catch (const SearchInterrupted&) {
       progress_.clear();
+      run_.design->evaluations = log.closest_points();
       return;  // the best so far is in `run_`
     }
     progress_.clear();

@@ -222,12 +222,14 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
                                                static_cast<Eigen::Index>(p.x.size()));
   lines_[next_].text.assign(1, evaluation_mark);
   ++next_;
+  closest_points_ += evaluations;
   return true;
 }
 
 void EvaluationLog::record(const DesignPoint& p, long evaluations)
 {
   forget();
+  closest_points_ += evaluations;
   Writer out(evaluation_mark);
   out.numbers(p.x);
   out.number(evaluations);

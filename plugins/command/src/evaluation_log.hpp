@@ -30,6 +30,9 @@ class EvaluationLog final : public EvaluationMemory {
   /// Evaluations that the file held.
   std::size_t known() const { return known_; }
 
+  /// Closest points evaluated by all that was recalled or recorded.
+  long closest_points() const { return closest_points_; }
+
   bool recall(DesignPoint& p, long& evaluations) override;
   void record(const DesignPoint& p, long evaluations) override;
   bool recall_states(DesignPoint& p) override;
@@ -51,6 +54,7 @@ class EvaluationLog final : public EvaluationMemory {
   std::vector<Line> lines_;
   std::size_t next_ = 0;
   std::size_t known_ = 0;
+  long closest_points_ = 0;
   std::ofstream out_;
 };
 

@@ -82,7 +82,7 @@ Output::Output(std::filesystem::path directory, const Loaded& loaded, unsigned t
       own_(resuming),
       experiment_json_(write_json(loaded.experiment.resolved)),
       experiment_here_(
-          write_json(in_folder(loaded.experiment.resolved, loaded.experiment, directory_.string()))),
+          write_json(in_folder(loaded.experiment.expanded, loaded.experiment, directory_.string()))),
       provenance_(provenance(loaded, threads))
 {
   const Experiment& e = loaded.experiment;

@@ -156,6 +156,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   if (!problems.empty()) return std::nullopt;
   if (experiment.sweep) check_sweep_pointers(root->at("sweep"), *experiment.sweep, *root, problems);
   if (!problems.empty()) return std::nullopt;
+  experiment.expanded = *root;
   // Variants are made from the weave again when this is read again.
   if (has_variants) keep_weave(*root, base.file);
   experiment.resolved = std::move(*root);

@@ -73,7 +73,7 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
     Node outline = object_node();
     set_default(outline, "rectangle", numbers_node(std::array{1.0, 1.0}));
     Node patch = object_node();
-    set_default(patch, "vectors", experiment.resolved.at("cell").at("patch").at("vectors"));
+    set_default(patch, "vectors", experiment.expanded.at("cell").at("patch").at("vectors"));
     set_default(patch, "outline", std::move(outline));
     set_default(patch, "tile", numbers_node(std::array{1.0, 1.0}));
     set_default(cell, "patch", std::move(patch));
@@ -90,9 +90,9 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
   set_default(root, "name", string_node(name));
   set_default(root, "task", string_node("limits"));
   for (const char* key : {"length_unit", "seed", "elements"})
-    set_default(root, key, experiment.resolved.at(key));
+    set_default(root, key, experiment.expanded.at(key));
   set_default(root, "cell", std::move(cell));
-  for (const char* key : {"load_case", "solver"}) set_default(root, key, experiment.resolved.at(key));
+  for (const char* key : {"load_case", "solver"}) set_default(root, key, experiment.expanded.at(key));
   relocate(root, "", 0);
   return root;
 }

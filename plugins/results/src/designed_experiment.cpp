@@ -80,8 +80,8 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
   out["name"] =
       (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
   out["task"] = "limits";
-  out.erase("design");
-  out.erase("expect");
+  for (const char* section : {"design", "sweep", "chart", "stability", "transition", "expect"})
+    out.erase(section);
   return out;
 }
 

@@ -214,6 +214,7 @@ struct Experiment {
   std::optional<ExperimentChart> chart;            ///< likewise
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
+  Node expanded;  ///< the same, but with what a weave brings also where `resolved` keeps it for its variants
   std::string folder;                     ///< of the file; empty: the working directory
   std::vector<std::string> plugin_files;  ///< paths of files that plugins were given, as written
 };

@@ -11,11 +11,11 @@ namespace hauberk {
 
 /// Rewrites the resolved experiment (strict JSON text) so that it describes `scene`, the final design at its
 /// relaxed rest state: every placed element k gets its own entry `<type>_<k>` in `elements` with all its
-/// parameters; `cell` becomes the supercell with `repeat` [1, 1] and one entry of `place` for each element;
-/// task is `limits`, the name ends in "_designed", and `design` and `expect`, which belong to the design run,
-/// are left out. Everything else stays. Running it gives the limits reported for the design.
-/// Throws ComputationError for scenes without a periodic cell (a patch cannot be rewritten this way),
-/// InputError when the text is malformed. Thread safe.
+/// parameters; `cell` becomes the supercell with `repeat` [1, 1], or a patch of one cell, and one entry of
+/// `place` for each element; task is `limits`, the name ends in "_designed", and `design`, `expect` and the
+/// sections of other tasks, which belong to the file as it was, are left out. Everything else stays. Running
+/// it gives the limits reported for the design. A weave must have been expanded (Experiment::expanded).
+/// Throws InputError when the text is malformed. Thread safe.
 boost::json::object designed_experiment(const std::string& experiment_json, const SceneSpec& scene);
 
 }  // namespace hauberk

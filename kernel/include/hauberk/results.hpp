@@ -87,7 +87,7 @@ struct DesignTargetResult {
   double target = 0.0, weight = 1.0;
   std::optional<double> initial, provisional, recomputed;
   bool better_state = false;
-  bool met = false;  ///< |recomputed - target| <= 5 % of the target, and no better state is known
+  bool met = false;  ///< |recomputed - target| <= 5 % of |target|
 };
 
 struct DesignIterate {

@@ -169,7 +169,7 @@ Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer&
   if (s.interrupted || s.history.empty()) return s;
   if (recorder.targets_met && meets_targets(design, problem.current().values)) {
     s.found.status = "targets_met";
-    s.found.message = "every target is met to within design.tolerance";
+    s.found.message = "every target is met to within design.tolerance, limits not yet recomputed";
   } else if (problem.settle()) {
     s.found.message +=
         "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
@@ -270,6 +270,28 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   return out;
 }
 
+namespace {
+
+/// What recomputing says of targets that a search met to within `tolerance`.
+std::string recomputed_message(const std::vector<DesignTargetResult>& targets, double tolerance)
+{
+  double worst = 0.0;
+  std::size_t off = 0;
+  for (const DesignTargetResult& t : targets) {
+    const double miss = t.recomputed ? std::abs(*t.recomputed - t.target) / std::abs(t.target)
+                                     : std::numeric_limits<double>::infinity();
+    worst = std::max(worst, miss);
+    off += miss > tolerance ? 1 : 0;
+  }
+  if (off == 0) return "every target is met to within design.tolerance";
+  return fmt::format(
+      "the search met every target to within design.tolerance; recomputed, {} of {} {} off by more, up to {}",
+      off, targets.size(), off == 1 ? "is" : "are",
+      std::isfinite(worst) ? fmt::format("{:.1f} %", 100.0 * worst) : "no limit at all");
+}
+
+}  // namespace
+
 void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,
                    const std::vector<LimitResult>& final)
 {
@@ -292,6 +314,7 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
     for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
     t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target);
   }
+  if (result.status == "targets_met") result.message = recomputed_message(result.targets, *design.tolerance);
   result.objective_initial = objective(before);
   result.objective = objective(after);
   if (result.objective > result.objective_initial) {

@@ -200,8 +200,12 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
 
 double smallest_gap(const Model& m, const State& s, double range)
 {
+  // Mostly something is far nearer than the range, and a narrow search is a cheap one.
   double g = std::numeric_limits<double>::infinity();
-  for (const Gap& x : find_gaps(m, s, range, false)) g = std::min(g, x.gap);
+  for (const double narrow : {1e-3 * range, range}) {
+    for (const Gap& x : find_gaps(m, s, narrow, false)) g = std::min(g, x.gap);
+    if (g < narrow) break;
+  }
   return g;
 }
 

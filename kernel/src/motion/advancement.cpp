@@ -158,20 +158,21 @@ class PairAdvance {
     const double second = size.second + (d + travel) * (d + travel) / rho;
     if (rho > 0.0 && g - slope - time - angular_ * d * tau - 0.5 * second >= target) return Verdict::holds;
     const PanelSize path = path_size(size, tau);
+    const auto stays = [&](const FieldValue& of, const FieldCurvature& field) {
+      const double left = g - lost(motion, of, field, path, tau);
+      return left >= target && left + expanded(probe, s, q, of, motion, tau) >= target;
+    };
     if (!frame_.F->is_tube()) {
       const RolledField rolled(*frame_.F, f);
-      const FieldCurvature field = rolled.curvature(path.first);
-      if (g + expanded(probe, s, q, rolled.f, motion_of(q, rolled.f), field, path, tau) >= target)
-        return Verdict::holds;
+      if (stays(rolled.f, rolled.curvature(path.first))) return Verdict::holds;
     }
-    if (g + expanded(probe, s, q, f, motion, field_curvature(*frame_.F, f, path.first), path, tau) >= target)
-      return Verdict::holds;
+    if (stays(f, field_curvature(*frame_.F, f, path.first))) return Verdict::holds;
 
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
     const PanelSize moved = path_size({}, tau);
     if (g - std::min(alone, travel) < target &&
-        g - lost(motion, field_curvature(*frame_.F, f, moved.first), moved, tau) < target)
+        g - lost(motion, f, field_curvature(*frame_.F, f, moved.first), moved, tau) < target)
       return Verdict::too_long;
     return s.hu < smallest_panel || count_.evaluations >= last_ ? Verdict::too_long : Verdict::too_wide;
   }
@@ -179,8 +180,9 @@ class PairAdvance {
   /// How a material point of P moves in F's frame, and what that does to the field.
   struct Motion {
     Vec3 velocity;
-    double rate;    ///< n . velocity
-    double second;  ///< second derivative of the field in time, without the origins' acceleration
+    double rate;     ///< n . velocity
+    double turning;  ///< n . acceleration, without the origins' own: with D^2 phi[velocity, velocity] the
+                     ///< second derivative of the field in time
   };
 
   Motion motion_of(const ProbePoint& q, const FieldValue& f) const
@@ -193,7 +195,7 @@ class PairAdvance {
     out.velocity = own - wf_.cross(y);
     out.rate = f.n.dot(out.velocity);
     const Vec3 turning = wp_.cross(wp_.cross(arm)) + wf_.cross(wf_.cross(y)) - 2.0 * wf_.cross(own);
-    out.second = field_hessian(f, out.velocity, out.velocity) + f.n.dot(turning);
+    out.turning = f.n.dot(turning);
     return out;
   }
 
@@ -213,25 +215,25 @@ class PairAdvance {
                 3.0 * angular_ * angular_ * size.first * tau * tau + jerk_ * tau * tau * tau};
   }
 
-  /// Least change of the field over a panel and a time tau, by its expansion in (u, v, t) to second order,
-  /// less what the third may take off.
+  /// Least change of the field over a panel and a time tau, by its expansion in (u, v, t) to second order
+  /// without the terms in t alone, which `lost` has. Never positive.
   double expanded(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
-                  const Motion& motion, const FieldCurvature& field, const PanelSize& path, double tau) const
+                  const Motion& motion, double tau) const
   {
-    if (!(field.third < std::numeric_limits<double>::infinity()))
-      return -std::numeric_limits<double>::infinity();
     double cross = std::abs(mixed_derivative(f, q.pu, motion, true)) * s.hu * tau;
     if constexpr (dim == 2)
       cross += std::abs(mixed_derivative(f, q.pv, motion, frame_.difference == nullptr)) * s.hv * tau;
-    return least_to_second_order(probe, s, q, f) - cross - lost(motion, field, path, tau);
+    return least_to_second_order(probe, s, q, f) - cross;
   }
 
   /// What time and the third order may take off the field: the expansion without its terms in u and v alone
   /// and without d^2 phi/(du dt). Origins accelerate in unknown directions.
-  double lost(const Motion& motion, const FieldCurvature& field, const PanelSize& path, double tau) const
+  double lost(const Motion& motion, const FieldValue& f, const FieldCurvature& field, const PanelSize& path,
+              double tau) const
   {
     if (!(field.third < std::numeric_limits<double>::infinity())) return field.third;
-    return std::max(0.0, -motion.rate) * tau + 0.5 * (std::max(0.0, -motion.second) + origins_) * tau * tau +
+    const double second = field_hessian(f, motion.velocity, motion.velocity) + motion.turning;
+    return std::max(0.0, -motion.rate) * tau + 0.5 * (std::max(0.0, -second) + origins_) * tau * tau +
            third_order(field, path);
   }
 

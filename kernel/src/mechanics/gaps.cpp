@@ -200,11 +200,12 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
 
 double smallest_gap(const Model& m, const State& s, double range)
 {
-  // Mostly something is far nearer than the range, and a narrow search is a cheap one.
+  // Where something is nearly touching, a narrow search finds it, and is a cheap one.
+  constexpr double nearly_touching = 1e-4;
   double g = std::numeric_limits<double>::infinity();
-  for (const double narrow : {1e-3 * range, range}) {
-    for (const Gap& x : find_gaps(m, s, narrow, false)) g = std::min(g, x.gap);
-    if (g < narrow) break;
+  for (const double within : {std::min(range, nearly_touching), range}) {
+    for (const Gap& x : find_gaps(m, s, within, false)) g = std::min(g, x.gap);
+    if (g < within || within == range) break;
   }
   return g;
 }

@@ -17,7 +17,7 @@ namespace hauberk {
 
 namespace {
 
-constexpr double largest_scene = 100000;  ///< placed elements; more is a slip of the keyboard
+constexpr double largest_scene = 300000;  ///< placed elements; more fill 16 GiB and are a slip of the keyboard
 
 class SceneReader {
  public:

@@ -81,7 +81,7 @@ TEST(Meaning, Cell)
   EXPECT_EQ(after("\"vectors\": [[12, 0], [0, 100]],", ""),
             "t.json:7: /cell: missing key 'vectors': expected an array of 2 arrays of 2 numbers");
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [1000, 1000], \"place\": ["),
-            "t.json:9: /cell/repeat: expected at most 100000 placed elements, found 2000000");
+            "t.json:9: /cell/repeat: expected at most 300000 placed elements, found 2000000");
 }
 
 TEST(Meaning, Patch)

@@ -29,11 +29,13 @@ struct PairWork {
 
 class Assembler {
  public:
-  Assembler(const Model& model, const State& state, const ContactSettings& settings, const Request& request)
+  Assembler(const Model& model, const State& state, const ContactSettings& settings, const Request& request,
+            const GapBounds* bounds)
       : m_(model),
         s_(state),
         settings_(settings),
         request_(request),
+        bounds_(bounds),
         maps_(model.rest.size()),
         sparse_(model.sparse())
   {
@@ -65,6 +67,7 @@ class Assembler {
         const Body& B = m_.bodies[static_cast<std::size_t>(b)];
         const Vec3 cb = pj.position + pj.rotation * B.center;
         if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
+        if (bounds_ != nullptr && bounds_->at_least(m_, a, pi, b, pair.image, pj) > settings_.g_hat) continue;
         for (const PairSide& side : pair_sides(A, B, settings_))
           side.swapped ? evaluate_side(b, a, pj, pi, side, work) : evaluate_side(a, b, pi, pj, side, work);
       }
@@ -273,6 +276,7 @@ class Assembler {
   const State& s_;
   const ContactSettings& settings_;
   const Request& request_;
+  const GapBounds* bounds_;
   std::vector<PositionMap> maps_;
   bool sparse_;
   ContactEnergy out_;
@@ -282,9 +286,12 @@ class Assembler {
 }  // namespace
 
 ContactEnergy contact_energy(const Model& model, const State& state, const std::vector<ElementPair>& pairs,
-                             const ContactSettings& settings, const Request& request)
+                             const ContactSettings& settings, const Request& request, const GapBounds* bounds)
 {
-  Assembler a(model, state, settings, request);
+  // The published energy and that of meshes are not those of the surfaces' gaps.
+  const bool surfaces =
+      settings.formulation == Formulation::nearest || settings.formulation == Formulation::arc;
+  Assembler a(model, state, settings, request, surfaces ? bounds : nullptr);
   // Threads evaluate, one adds, in the order of the pairs: the result is the same to the last bit.
   const bool together = settings.threads > 1 && pairs.size() >= worth_threads;
   std::vector<PairWork> work(together ? std::min(pairs.size(), most_at_once) : 1);

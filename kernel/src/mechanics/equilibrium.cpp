@@ -54,8 +54,9 @@ struct Step {
 
 class Newton {
  public:
-  Newton(const Model& m, State& state, const Vector& load, const Stage& stage, const KeepGoing& keep_going)
-      : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going)
+  Newton(const Model& m, State& state, const Vector& load, const Stage& stage, const KeepGoing& keep_going,
+         GapBounds& bounds)
+      : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going), bounds_(bounds)
   {
     most_radius_ = largest_radius * std::sqrt(std::max(1.0, m.element_count() / few_elements));
     load_norm_ = std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
@@ -64,7 +65,7 @@ class Newton {
   StageResult run()
   {
     pairs_ = stage_pairs(m_, state_, stage_);
-    TotalEnergy now = total_energy(m_, state_, load_, stage_, pairs_, 2);
+    TotalEnergy now = total_energy(m_, state_, load_, stage_, pairs_, 2, &bounds_);
     result_.evaluations += now.contact.evaluations;
     if (!now.admissible)
       return finish(now, StageStatus::stalled, "the stage starts with a gap that is not positive");
@@ -270,7 +271,7 @@ class Newton {
       alpha *= 0.5;
       trial = advanced(m_, state_, dy, alpha);
     }
-    const SafeStep safe = checked_step(m_, state_, alpha * dy, keep_gap, stage_);
+    const SafeStep safe = checked_step(m_, state_, alpha * dy, keep_gap, stage_, &bounds_);
     result_.evaluations += safe.evaluations;
     if (safe.alpha <= 0.0) return 0.0;
     if (safe.alpha < 1.0) {
@@ -278,7 +279,7 @@ class Newton {
       trial = advanced(m_, state_, dy, alpha);
     }
     pairs_ = stage_pairs(m_, trial, stage_);
-    next = total_energy(m_, trial, load_, stage_, pairs_, 2);
+    next = total_energy(m_, trial, load_, stage_, pairs_, 2, &bounds_);
     result_.evaluations += next.contact.evaluations;
     return alpha;
   }
@@ -295,6 +296,7 @@ class Newton {
   const Vector& load_;
   const Stage& stage_;
   const KeepGoing& keep_going_;
+  GapBounds& bounds_;
   double load_norm_ = 1.0, most_radius_ = largest_radius;
   std::vector<ElementPair> pairs_;
   EliminationOrder order_;
@@ -305,10 +307,11 @@ class Newton {
 
 }  // namespace
 
-SafeStep checked_step(const Model& m, const State& from, const Vector& dy, double keep, const Stage& stage)
+SafeStep checked_step(const Model& m, const State& from, const Vector& dy, double keep, const Stage& stage,
+                      GapBounds* bounds)
 {
   if (stage.ccd == CollisionCheck::certified || stage.contact.formulation == Formulation::mesh)
-    return largest_safe_step(m, from, dy, keep, stage.contact.threads);
+    return largest_safe_step(m, from, dy, keep, stage.contact.threads, bounds);
   return sampled_safe_step(m, from, dy, std::sqrt(published::d_th) * stage.contact.g_hat);
 }
 
@@ -323,12 +326,12 @@ Vector driving_load(const State& s, const Vector& load, const Stage& stage)
 }
 
 TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, const Stage& stage,
-                         const std::vector<ElementPair>& pairs, int order)
+                         const std::vector<ElementPair>& pairs, int order, const GapBounds* bounds)
 {
   TotalEnergy t;
   Request request;
   request.order = order;
-  t.contact = contact_energy(m, s, pairs, stage.contact, request);
+  t.contact = contact_energy(m, s, pairs, stage.contact, request, bounds);
   t.admissible = t.contact.min_gap > 0.0;
   t.energy = stage.mu * t.contact.energy - load.dot(s.macro);
   if (order >= 1) {
@@ -352,9 +355,10 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
 }
 
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
-                        const KeepGoing& keep_going)
+                        const KeepGoing& keep_going, GapBounds* bounds)
 {
-  return Newton(model, state, load, stage, keep_going).run();
+  GapBounds own;
+  return Newton(model, state, load, stage, keep_going, bounds != nullptr ? *bounds : own).run();
 }
 
 }  // namespace hauberk

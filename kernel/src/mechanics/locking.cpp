@@ -181,7 +181,7 @@ class Path {
   {
     State s = before;
     extrapolate(s, g_hat, f);
-    StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_);
+    StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_, &bounds_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
     out_.state = std::move(s);
@@ -196,7 +196,7 @@ class Path {
       return;
     const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
     const Vector dy = ((g_hat - b) / (b - a)) * difference(m_, *previous_, s);
-    const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(g_hat, false, f));
+    const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(g_hat, false, f), &bounds_);
     out_.evaluations += safe.evaluations;
     const State next = advanced(m_, s, dy, safe.alpha);
     if (m_.load->admissible({next.macro.data(), static_cast<std::size_t>(m_.macro_count)})) s = next;
@@ -208,6 +208,7 @@ class Path {
   const Schedule& schedule_;
   const KeepGoing& keep_going_;
   double size_;
+  GapBounds bounds_;
   bool arc_to_the_end_ = false;
   bool before_valid_ = false;
   std::optional<State> previous_;  ///< end of the stage before the last finished one

@@ -18,6 +18,8 @@ constexpr double smallest_advance = 1e-7;  ///< of the whole step; smaller advan
 /// A pair that ends a step does so where its gap has become small, and that place is approached ever more
 /// slowly. An advance by less than this part of what is behind it is the last one.
 constexpr double worth_going_on = 0.125;
+/// What is certified of gaps to be remembered, where the whole motion is below that part of them.
+constexpr double remembered = 0.5, spare = 0.25;
 constexpr int most_advances = 4000;
 constexpr double smallest_panel = 1e-9;  ///< radians
 /// Closest points that one pair is worth: conforming surfaces near contact could take any number. What is
@@ -44,12 +46,20 @@ class PairAdvance {
 
   /// A part of the step, at most `limit`, over which the gap stays above `keep` times the smallest one seen
   /// at its start, which is not below the gap: nearly as far as it does.
-  double run(double limit, double keep)
+  ///
+  /// `remember`: where there is room to spare, more of the gap is certified than that, for `bound`.
+  double run(double limit, double keep, bool remember)
   {
     double s = 0.0, tau = limit;
+    begin(s);
+    if (remember && limit > 0.0 && certified(limit, remembered, spare) == limit) {
+      bound_ = target_;
+      return limit;
+    }
     for (int k = 0; k < most_advances && s < limit; ++k) {
-      begin(s);
+      if (k > 0) begin(s);
       tau = certified(std::min(tau, limit - s), k == 0 ? keep : 0.0);
+      if (k == 0 && tau > 0.0) bound_ = target_;
       if (tau <= 0.0) return s;
       s += tau;
       if (tau < worth_going_on * s) return s;
@@ -57,6 +67,9 @@ class PairAdvance {
     }
     return s;
   }
+
+  /// What the gap at the beginning is not below; 0 where that was not certified.
+  double bound() const { return bound_; }
 
  private:
   void begin(double s)
@@ -95,7 +108,9 @@ class PairAdvance {
   ///
   /// With keep > 0 the target is that part of the smallest gap seen. It falls while panels are looked at,
   /// from the nearest one on, and those that held above a higher one hold.
-  double certified(double tau, double keep)
+  ///
+  /// 0 as well where all that moves is more than `room` of the gap of the nearest first panel.
+  double certified(double tau, double keep, double room = std::numeric_limits<double>::infinity())
   {
     const Probe<dim> probe(frame_);
     const FirstPanels<dim> first(probe);
@@ -110,6 +125,7 @@ class PairAdvance {
                                                     [](const PanelField& a, const PanelField& b) {
                                                       return a.f.m.phi < b.f.m.phi;
                                                     }));
+    if (speed_ * tau > room * gap_at(probe, panels.front())) return 0.0;
     for (const PanelField& p : panels)
       if (!holds(probe, p, tau, keep)) return 0.0;
     return tau;
@@ -245,6 +261,7 @@ class PairAdvance {
   SafeStep& count_;
   long last_;              ///< evaluation after which to give up
   double target_ = 0.0;    ///< what the gap has to stay above
+  double bound_ = 0.0;     ///< see bound()
   double touching_ = 0.0;  ///< what of a gap is rounding
   PairFrame frame_{P_, Pose{}, F_, Pose{}};
   Vec3 v_, wp_, wf_, of_;
@@ -256,6 +273,7 @@ class PairAdvance {
 /// Two bodies that the step can bring together.
 struct BodyPair {
   const CandidatePair* pair;
+  int a, b;
   const Body &A, &B;
   double motion;  ///< bound of how far their points come together over the whole step
 };
@@ -265,6 +283,7 @@ struct Tight {
   const BodyPair* bodies;
   double alpha;
   SafeStep count;
+  double bound = 0.0;  ///< of the gap at the beginning
 };
 
 std::vector<BodyPair> body_pairs(const Model& m, const std::vector<CandidatePair>& candidates)
@@ -276,7 +295,8 @@ std::vector<BodyPair> body_pairs(const Model& m, const std::vector<CandidatePair
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
-        out.push_back({&pair, A, B, pair.approach + pair.ti.w.norm() * A.reach + pair.tj.w.norm() * B.reach});
+        out.push_back(
+            {&pair, a, b, A, B, pair.approach + pair.ti.w.norm() * A.reach + pair.tj.w.norm() * B.reach});
       }
     }
   }
@@ -291,9 +311,10 @@ bool inside(const PairFrame& frame)
          field_at(*frame.F, Probe<2>(frame).at(0.0, 0.0).p).m.phi < 0.0;
 }
 
-/// Part of [0, alpha] over which a pair keeps that part of its gap.
-double advance(const BodyPair& bodies, double clearance, double alpha, double keep, SafeStep& count)
+/// Looks for the part of [0, alpha] over which a pair keeps that part of its gap.
+void advance(Tight& tight, double clearance, double alpha, double keep, bool remember)
 {
+  const BodyPair& bodies = *tight.bodies;
   const CandidatePair& pair = *bodies.pair;
   const Body &A = bodies.A, &B = bodies.B;
   // Of equal kinds the smaller ring probes, see separation().
@@ -301,15 +322,22 @@ double advance(const BodyPair& bodies, double clearance, double alpha, double ke
   const Body &P = swap ? B : A, &F = swap ? A : B;
   const Pose &pp = swap ? pair.pj : pair.pi, &pf = swap ? pair.pi : pair.pj;
   const Track &tp = swap ? pair.tj : pair.ti, &tf = swap ? pair.ti : pair.tj;
-  if (inside(PairFrame(P, pp, F, pf)) || inside(PairFrame(F, pf, P, pp))) return 0.0;
-  return probe_dimension(PairFrame(P, pp, F, pf)) == 1
-             ? PairAdvance<1>(P, tp, F, tf, clearance, count).run(alpha, keep)
-             : PairAdvance<2>(P, tp, F, tf, clearance, count).run(alpha, keep);
+  if (inside(PairFrame(P, pp, F, pf)) || inside(PairFrame(F, pf, P, pp))) return;
+  const auto run = [&](auto&& pair_advance) {
+    tight.alpha = pair_advance.run(alpha, keep, remember);
+    tight.bound = pair_advance.bound();
+  };
+  if (probe_dimension(PairFrame(P, pp, F, pf)) == 1) {
+    run(PairAdvance<1>(P, tp, F, tf, clearance, tight.count));
+  } else {
+    run(PairAdvance<2>(P, tp, F, tf, clearance, tight.count));
+  }
 }
 
 }  // namespace
 
-SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep, unsigned threads)
+SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep, unsigned threads,
+                           GapBounds* bounds)
 {
   SafeStep out;
   out.alpha = wall_step(m, from, dy, keep);
@@ -320,10 +348,12 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
   const std::size_t most = all.size() >= large_scene ? taken_together : 1;
   std::vector<Tight> tight;
   const auto advance_all = [&] {
-    parallel_for(tight.size(), threads, [&](std::size_t i) {
-      tight[i].alpha = advance(*tight[i].bodies, m.clearance, out.alpha, keep, tight[i].count);
-    });
+    parallel_for(tight.size(), threads,
+                 [&](std::size_t i) { advance(tight[i], m.clearance, out.alpha, keep, bounds != nullptr); });
     for (const Tight& t : tight) {
+      const CandidatePair& pair = *t.bodies->pair;
+      if (bounds != nullptr && t.bound > 0.0)
+        bounds->remember(m, t.bodies->a, pair.pi, t.bodies->b, pair.tj.image, pair.pj, t.bound);
       out.alpha = std::min(out.alpha, t.alpha);
       out.evaluations += t.count.evaluations;
     }
@@ -331,13 +361,17 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
   };
   for (std::size_t k = 0; k < all.size() && out.alpha > 0.0; ++k) {
     const BodyPair& bodies = all[k];
+    const CandidatePair& pair = *bodies.pair;
     if (bodies.A.facets) {
-      out.alpha = advance_facets(bodies.A, bodies.pair->ti, bodies.B, bodies.pair->tj, m.clearance, out.alpha,
-                                 keep, out);
+      out.alpha = advance_facets(bodies.A, pair.ti, bodies.B, pair.tj, m.clearance, out.alpha, keep, out);
       continue;
     }
-    const double apart = ball_gap(bodies.A, bodies.pair->pi, bodies.B, bodies.pair->pj, m.clearance);
-    if (apart > 0.0 && (1.0 - keep) * apart >= out.alpha * bodies.motion) continue;
+    const auto far = [&](double apart) {
+      return apart > 0.0 && (1.0 - keep) * apart >= out.alpha * bodies.motion;
+    };
+    if (far(ball_gap(bodies.A, pair.pi, bodies.B, pair.pj, m.clearance))) continue;
+    if (bounds != nullptr && far(bounds->at_least(m, bodies.a, pair.pi, bodies.b, pair.tj.image, pair.pj)))
+      continue;
     ++out.tight_pairs;
     tight.push_back({&bodies, 0.0, {}});
     if (tight.size() == most) advance_all();

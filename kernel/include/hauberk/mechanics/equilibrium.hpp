@@ -50,9 +50,9 @@ using KeepGoing = std::function<bool()>;
 /// positive definite. The quadratic model is shifted by lambda * metric until it is positive definite and its
 /// step stays within the trust radius. A stationary point with negative curvature is left along it. Null
 /// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. Thread safe;
-/// deterministic.
+/// deterministic. `bounds`: what is known of gaps from stages before; otherwise nothing is at the beginning.
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
-                        const KeepGoing& keep_going);
+                        const KeepGoing& keep_going, GapBounds* bounds = nullptr);
 
 /// What drives the macroscopic unknowns in a state: the load, less macro/T where the target is finite. At an
 /// equilibrium the contact forces balance it.
@@ -69,12 +69,12 @@ struct TotalEnergy {
   bool admissible = false;  ///< all gaps positive
 };
 TotalEnergy total_energy(const Model& model, const State& state, const Vector& load, const Stage& stage,
-                         const std::vector<ElementPair>& pairs, int order);
+                         const std::vector<ElementPair>& pairs, int order, const GapBounds* bounds = nullptr);
 
 /// How far the step is free of collisions by the stage's check; `keep`: the part of any gap that the
 /// certified one leaves.
 SafeStep checked_step(const Model& model, const State& from, const Vector& dy, double keep,
-                      const Stage& stage);
+                      const Stage& stage, GapBounds* bounds = nullptr);
 
 /// Element pairs that can matter within this stage's range, in this state.
 std::vector<ElementPair> stage_pairs(const Model& model, const State& state, const Stage& stage);

@@ -1,7 +1,7 @@
 #pragma once
 /// How far along a step nothing collides: certified by conservative advancement, or sampled as published.
 
-#include <hauberk/mechanics/model.hpp>
+#include <hauberk/motion/gap_bounds.hpp>
 
 namespace hauberk {
 
@@ -30,8 +30,11 @@ struct SafeStep {
 /// Bodies with facets are checked as meshes, by additive advancement of every pair of features (Li, Kaufman,
 /// Jiang 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic; `threads` share
 /// the pairs of a large scene and never change a result.
+///
+/// `bounds`, if given, says which pairs are too far apart to be looked at, and learns the gaps of others: of
+/// pairs with room to spare half of the gap is certified instead of `keep` of it.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep,
-                           unsigned threads = 1);
+                           unsigned threads = 1, GapBounds* bounds = nullptr);
 
 /// The published check (paper equations (6) to (8)), without guarantee. For every pair of bodies the smallest
 /// distance over s in [0, alpha] is sought by minimisation in s from sampled closest points; where it is not

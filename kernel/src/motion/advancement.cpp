@@ -52,7 +52,8 @@ class PairAdvance {
   {
     double s = 0.0, tau = limit;
     begin(s);
-    if (remember && limit > 0.0 && certified(limit, remembered, spare) == limit) {
+    if (remember && limit > 0.0 && speed_ * limit <= spare * gap_at(Probe<dim>(frame_), panels_.front()) &&
+        certified(limit, remembered) == limit) {
       bound_ = target_;
       return limit;
     }
@@ -100,6 +101,18 @@ class PairAdvance {
     jerk_ = wp * wp * wp * reach + 3.0 * wf * wp * wp * reach + 3.0 * wf * wf * (v + wp * reach) +
             wf * wf * wf * r;
     acceleration_ = a0 + wp * wp * reach + wf * wf * r + 2.0 * wf * (v + wp * reach);
+
+    const Probe<dim> probe(frame_);
+    const FirstPanels<dim> first(probe);
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+      std::array<PanelField, 4> row = first.row(k);
+      fill_fields(*frame_.F, row);
+      std::copy(row.begin(), row.end(), panels_.begin() + 4 * k);
+    }
+    std::iter_swap(panels_.begin(), std::min_element(panels_.begin(), panels_.end(),
+                                                     [](const PanelField& a, const PanelField& b) {
+                                                       return a.f.m.phi < b.f.m.phi;
+                                                     }));
   }
 
   /// How long the gap stays above the target from the time of `begin`, at most `tau`; 0 if that is not worth
@@ -108,25 +121,11 @@ class PairAdvance {
   ///
   /// With keep > 0 the target is that part of the smallest gap seen. It falls while panels are looked at,
   /// from the nearest one on, and those that held above a higher one hold.
-  ///
-  /// 0 as well where all that moves is more than `room` of the gap of the nearest first panel.
-  double certified(double tau, double keep, double room = std::numeric_limits<double>::infinity())
+  double certified(double tau, double keep)
   {
     const Probe<dim> probe(frame_);
-    const FirstPanels<dim> first(probe);
-    std::array<PanelField, 4 * FirstPanels<dim>::rows> panels;
-    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
-      std::array<PanelField, 4> row = first.row(k);
-      fill_fields(*frame_.F, row);
-      std::copy(row.begin(), row.end(), panels.begin() + 4 * k);
-    }
     if (keep > 0.0) target_ = std::numeric_limits<double>::infinity();
-    std::iter_swap(panels.begin(), std::min_element(panels.begin(), panels.end(),
-                                                    [](const PanelField& a, const PanelField& b) {
-                                                      return a.f.m.phi < b.f.m.phi;
-                                                    }));
-    if (speed_ * tau > room * gap_at(probe, panels.front())) return 0.0;
-    for (const PanelField& p : panels)
+    for (const PanelField& p : panels_)
       if (!holds(probe, p, tau, keep)) return 0.0;
     return tau;
   }
@@ -268,6 +267,7 @@ class PairAdvance {
   double speed_ = 0.0, angular_ = 0.0, acceleration_ = 0.0;
   double origins_ = 0.0;  ///< the part of the acceleration that the elements' origins have
   double jerk_ = 0.0;     ///< bound of the third derivative, origins moving evenly
+  std::array<PanelField, 4 * FirstPanels<dim>::rows> panels_;  ///< the first ones, the nearest before others
 };
 
 /// Two bodies that the step can bring together.

@@ -188,12 +188,12 @@ class Path {
     return r;
   }
 
-  /// y(g_hat) is asymptotically linear: continue the line through the last two stages' ends.
+  /// y(g_hat) is asymptotically linear: continue the line through the last two stages' ends. Barriers push
+  /// alike (barrier.hpp), so it goes on where the formulation changes.
   void extrapolate(State& s, double g_hat, Formulation f)
   {
     const std::size_t n = out_.stages.size();
-    if (n < 2 || !previous_ || out_.stages[n - 1].formulation != f || out_.stages[n - 2].formulation != f)
-      return;
+    if (n < 2 || !previous_) return;
     const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
     const Vector dy = ((g_hat - b) / (b - a)) * difference(m_, *previous_, s);
     const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(g_hat, false, f), &bounds_);

@@ -67,7 +67,8 @@ class Assembler {
         const Body& B = m_.bodies[static_cast<std::size_t>(b)];
         const Vec3 cb = pj.position + pj.rotation * B.center;
         if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
-        if (bounds_ != nullptr && bounds_->at_least(m_, a, pi, b, pair.image, pj) > settings_.g_hat) continue;
+        if (bounds_ != nullptr && bounds_->at_least(m_, a, pi, b, pair.image, pj) + m_.clearance > range)
+          continue;
         for (const PairSide& side : pair_sides(A, B, settings_))
           side.swapped ? evaluate_side(b, a, pj, pi, side, work) : evaluate_side(a, b, pi, pj, side, work);
       }
@@ -208,8 +209,9 @@ class Assembler {
   {
     const int nm = m_.macro_count, nc = m_.coordinate_count;
     const int n = nm + 2 * nc + 6;
-    Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_local> C(9, n);
-    C.setZero();
+    // x_A - x_B depends on the unknowns before the rotations, which are themselves.
+    const int places = nm + 2 * nc;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, most_local> C(3, places);
     std::array<int, most_local> index{};
     const auto at = [&index](int k) -> int& { return index[static_cast<std::size_t>(k)]; };
     for (int k = 0; k < nm; ++k) at(k) = k;
@@ -221,16 +223,20 @@ class Assembler {
       at(nm + 2 * nc + k) = m_.offset(pair.i) + nc + k;
       at(nm + 2 * nc + 3 + k) = m_.offset(pair.j) + nc + k;
     }
-    C.topLeftCorner(3, nm) = A.J.leftCols(nm) - B.J.leftCols(nm);
-    C.block(0, nm, 3, nc) = A.J.middleCols(nm, nc);
-    C.block(0, nm + nc, 3, nc) = -B.J.middleCols(nm, nc);
-    C.bottomRightCorner<6, 6>().setIdentity();
+    C.leftCols(nm) = A.J.leftCols(nm) - B.J.leftCols(nm);
+    C.middleCols(nm, nc) = A.J.middleCols(nm, nc);
+    C.middleCols(nm + nc, nc) = -B.J.middleCols(nm, nc);
 
-    const auto g = (C.transpose() * t.gradient).eval();
-    for (int k = 0; k < n; ++k) out_.gradient[at(k)] += g[k];
+    for (int k = 0; k < places; ++k) out_.gradient[at(k)] += C.col(k).dot(t.gradient.head<3>());
+    for (int k = 0; k < 6; ++k) out_.gradient[at(places + k)] += t.gradient[3 + k];
     if (request_.order < 2) return;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_local, most_local> H(n, n);
-    H.noalias() = C.transpose() * (t.hessian * C).eval();
+    // Coefficient by coefficient: of so small products blocks and their packing cost more.
+    const auto TC = t.hessian.leftCols<3>().lazyProduct(C).eval();
+    H.topLeftCorner(places, places) = C.transpose().lazyProduct(TC.topRows<3>());
+    H.bottomLeftCorner(6, places) = TC.bottomRows<6>();
+    H.topRightCorner(places, 6) = C.transpose().lazyProduct(t.hessian.topRightCorner<3, 6>());
+    H.bottomRightCorner<6, 6>() = t.hessian.bottomRightCorner<6, 6>();
     if (A.curved || B.curved) add_curvature(A, B, t.gradient.head<3>(), H);
     for (int c = 0; c < n; ++c) {
       for (int r = 0; r < n; ++r) add_second(at(r), at(c), H(r, c));

@@ -53,7 +53,7 @@ class PairAdvance {
     double s = 0.0, tau = limit;
     begin(s);
     if (remember && limit > 0.0 && speed_ * limit <= spare * gap_at(Probe<dim>(frame_), panels_.front()) &&
-        certified(limit, remembered) == limit) {
+        certified(limit, std::max(keep, remembered)) == limit) {
       bound_ = target_;
       return limit;
     }

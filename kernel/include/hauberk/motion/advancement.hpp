@@ -32,7 +32,7 @@ struct SafeStep {
 /// the pairs of a large scene and never change a result.
 ///
 /// `bounds`, if given, says which pairs are too far apart to be looked at, and learns the gaps of others: of
-/// pairs with room to spare half of the gap is certified instead of `keep` of it.
+/// pairs with room to spare at least half of the gap is certified.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep,
                            unsigned threads = 1, GapBounds* bounds = nullptr);
 

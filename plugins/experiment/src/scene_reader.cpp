@@ -17,7 +17,8 @@ namespace hauberk {
 
 namespace {
 
-constexpr double largest_scene = 300000;  ///< placed elements; more fill 16 GiB and are a slip of the keyboard
+/// Placed elements. More do not fit into 16 GiB, and are a slip of the keyboard.
+constexpr double largest_scene = 300000;
 
 class SceneReader {
  public:

@@ -86,7 +86,7 @@ TEST(ChartInput, RefusedPointsAndFailedReferencesSaySo)
   const TemporaryFolder folder;
   // The reference stalls; a method whose clearance leaves no room at rest is refused.
   const std::string file = folder.write(
-      "c.json", with(with(chart_text(), R"("reference": { "set": { "/solver/tolerance": 2e-10 })",
+      "c.json", with(with(chart_text(), R"("reference": { "set": { "/solver/tolerance": 2e-9 })",
                           R"("reference": { "set": { "/solver/max_iterations": 1 })"),
                      R"("set": { "/solver/contact": "arc" })", R"("set": { "/solver/clearance": 4.5 })"));
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/expect=[]"});

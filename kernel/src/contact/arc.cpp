@@ -192,11 +192,12 @@ template <int dim, int n>
 class ArcIntegral {
  public:
   ArcIntegral(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
-              SideTerms& out)
+              const NearPanels& near, SideTerms& out)
       : frame_(frame),
         probe_(frame),
         settings_(settings),
         request_(request),
+        near_(near),
         out_(out),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
                                   : (frame.difference != nullptr ? product_element : surface_element) /
@@ -207,12 +208,14 @@ class ArcIntegral {
   void run()
   {
     const FirstPanels<dim> first(probe_);
-    for (int k = 0; k < FirstPanels<dim>::rows; ++k) visit_all(first.row(k));
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k)
+      if (first.meets(k, near_)) visit_all(first.row(k));
     if (request_.points) cluster();
   }
 
  private:
-  /// Visits those of the panels, of which places are known and fields are not, that are not too far away.
+  /// Visits those of the panels, of which places are known and fields are not, that are not known or seen to
+  /// be too far away.
   template <std::size_t count>
   void visit_all(std::array<PanelField, count> panels)
   {
@@ -220,7 +223,7 @@ class ArcIntegral {
     std::array<PointField, count> points;
     std::size_t found = 0;
     for (PanelField& p : panels) {
-      if (beyond_core_tube(p.q.p, probe_.Lu * p.s.hu + probe_.Lv * p.s.hv)) continue;
+      if (!near_.meet(p.s) || beyond_core_tube(p.q.p, probe_.Lu * p.s.hu + probe_.Lv * p.s.hv)) continue;
       near[found] = &p;
       points[found++] = {&p.q.p, &p.f};
     }
@@ -427,6 +430,7 @@ class ArcIntegral {
   Probe<dim> probe_;
   const ContactSettings& settings_;
   const Request& request_;
+  const NearPanels& near_;
   SideTerms& out_;
   double weight_;
   std::vector<ContactPoint> nodes_;
@@ -436,15 +440,17 @@ class ArcIntegral {
 
 template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
-             SideTerms& out)
+             const NearPanels& near, SideTerms& out)
 {
-  if (dim == 2 && settings.quadrature == Quadrature::rough)
-    ArcIntegral<dim, 4>(frame, settings, request, share, out).run();
+  if (settings.quadrature == Quadrature::rough)
+    ArcIntegral<dim, dim == 1 ? 6 : 4>(frame, settings, request, share, near, out).run();
   else
-    ArcIntegral<dim, dim == 1 ? 9 : 7>(frame, settings, request, share, out).run();
+    ArcIntegral<dim, dim == 1 ? 9 : 7>(frame, settings, request, share, near, out).run();
 }
 
-template void add_arc<1>(const PairFrame&, const ContactSettings&, const Request&, double, SideTerms&);
-template void add_arc<2>(const PairFrame&, const ContactSettings&, const Request&, double, SideTerms&);
+template void add_arc<1>(const PairFrame&, const ContactSettings&, const Request&, double, const NearPanels&,
+                         SideTerms&);
+template void add_arc<2>(const PairFrame&, const ContactSettings&, const Request&, double, const NearPanels&,
+                         SideTerms&);
 
 }  // namespace hauberk

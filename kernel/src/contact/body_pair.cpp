@@ -24,16 +24,16 @@ void refuse_surfaces(const PairFrame& frame)
 
 template <int dim>
 void add_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
-               SideTerms& out)
+               const NearPanels& near, SideTerms& out)
 {
   switch (settings.formulation) {
     case Formulation::arc:
-      return add_arc<dim>(frame, settings, request, share, out);
+      return add_arc<dim>(frame, settings, request, share, near, out);
     case Formulation::published:
       if (frame.P->curve) refuse_curve("contact 'published'");
       return add_published<dim>(frame, settings, request, out);
     case Formulation::nearest:
-      return add_nearest<dim>(frame, settings, request, out);
+      return add_nearest<dim>(frame, settings, request, near, out);
     case Formulation::mesh:
       return add_mesh(frame, settings, request, out);
   }
@@ -85,22 +85,21 @@ std::span<const PairSide> pair_sides(const Body& A, const Body& B, const Contact
   static constexpr std::array one{PairSide{false, 1.0}}, other{PairSide{true, 1.0}};
   static constexpr std::array both{PairSide{false, 0.5}, PairSide{true, 0.5}};
   const int a = probe_rank(A), b = probe_rank(B);
-  if (settings.formulation == Formulation::arc && a == b && !A.curve) {
-    if (settings.sides == Sides::both) return both;
-    return A.R <= B.R ? one : other;
-  }
+  const bool integrated = settings.formulation == Formulation::arc;
+  if (integrated && a == b && !A.curve && settings.sides == Sides::both) return both;
+  if (integrated || settings.formulation == Formulation::nearest) return second_probes(A, B) ? other : one;
   return a <= b ? one : other;
 }
 
 SideTerms side_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request,
-                     double share)
+                     double share, const NearPanels& near)
 {
   SideTerms out;
   if (settings.formulation != Formulation::mesh) refuse_surfaces(frame);
   if (probe_dimension(frame) == 1)
-    add_terms<1>(frame, settings, request, share, out);
+    add_terms<1>(frame, settings, request, share, near, out);
   else
-    add_terms<2>(frame, settings, request, share, out);
+    add_terms<2>(frame, settings, request, share, near, out);
   return out;
 }
 

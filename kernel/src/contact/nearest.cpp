@@ -85,8 +85,10 @@ void insert(std::vector<Minimum>& minima, const Minimum& m)
 template <int dim>
 class Search {
  public:
-  Search(const PairFrame& frame, double threshold, std::vector<Minimum>& out, int& evaluations)
+  Search(const PairFrame& frame, double threshold, const NearPanels& near, std::vector<Minimum>& out,
+         int& evaluations)
       : probe_(frame),
+        near_(with_basins(near)),
         threshold_(threshold + probe_.offset),
         out_(out),
         evaluations_(evaluations),
@@ -102,6 +104,7 @@ class Search {
     constexpr double turn = 0.1234;
     const FirstPanels<dim> first(probe_, turn);
     for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+      if (!first.meets(k, near_)) continue;
       std::array<PanelField, 4> row = first.row(k);
       fill_fields(*probe_.f.F, row);
       for (const PanelField& p : row) visit(p);
@@ -109,9 +112,17 @@ class Search {
   }
 
  private:
+  /// Where minima in range are sought from: a descent may find one that lies beside its own panel.
+  NearPanels with_basins(const NearPanels& near) const
+  {
+    if constexpr (dim == 1) return near;
+    return near.widened(seed_width / probe_.Lu, seed_width / probe_.Lv);
+  }
+
   void visit(const PanelField& p)
   {
     const Panel& s = p.s;
+    if (!near_.meet(s)) return;
     if (++evaluations_ > last_) give_up();
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
     if (panel_bound(probe_, s, p.q, p.f, threshold_).bound > threshold_) return;
@@ -255,6 +266,7 @@ class Search {
   }
 
   Probe<dim> probe_;
+  NearPanels near_;
   double threshold_;
   std::vector<Minimum>& out_;
   int& evaluations_;
@@ -265,10 +277,11 @@ class Search {
 }  // namespace
 
 template <int dim>
-std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations)
+std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations,
+                                  const NearPanels& near)
 {
   std::vector<Minimum> minima;
-  Search<dim>(frame, threshold, minima, evaluations).run();
+  Search<dim>(frame, threshold, near, minima, evaluations).run();
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
   return minima;
@@ -276,10 +289,11 @@ std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int&
 
 template <int dim>
 void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request,
-                 SideTerms& out)
+                 const NearPanels& near, SideTerms& out)
 {
   const Probe<dim> probe(frame);
-  for (const Minimum& m : local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
+  for (const Minimum& m :
+       local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations, near)) {
     const double g = m.distance - settings.clearance;
     out.min_gap = std::min(out.min_gap, g);
     if (g <= 0.0) continue;
@@ -331,9 +345,11 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
   }
 }
 
-template std::vector<Minimum> local_minima<1>(const PairFrame&, double, int&);
-template std::vector<Minimum> local_minima<2>(const PairFrame&, double, int&);
-template void add_nearest<1>(const PairFrame&, const ContactSettings&, const Request&, SideTerms&);
-template void add_nearest<2>(const PairFrame&, const ContactSettings&, const Request&, SideTerms&);
+template std::vector<Minimum> local_minima<1>(const PairFrame&, double, int&, const NearPanels&);
+template std::vector<Minimum> local_minima<2>(const PairFrame&, double, int&, const NearPanels&);
+template void add_nearest<1>(const PairFrame&, const ContactSettings&, const Request&, const NearPanels&,
+                             SideTerms&);
+template void add_nearest<2>(const PairFrame&, const ContactSettings&, const Request&, const NearPanels&,
+                             SideTerms&);
 
 }  // namespace hauberk

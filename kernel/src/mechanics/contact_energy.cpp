@@ -10,6 +10,8 @@ namespace {
 constexpr int most_local = max_macro + 2 * (max_coordinates + 3);
 /// Pairs below which threads cost more than they save, and those that are kept before they are added.
 constexpr std::size_t worth_threads = 128, most_at_once = 4096;
+/// Of known panels so many are of use: every panel that an energy looks at is compared with all of them.
+constexpr std::size_t most_near = 128;
 
 /// A body that probes another one, and what that gave.
 struct EvaluatedSide {
@@ -67,10 +69,14 @@ class Assembler {
         const Body& B = m_.bodies[static_cast<std::size_t>(b)];
         const Vec3 cb = pj.position + pj.rotation * B.center;
         if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
-        if (bounds_ != nullptr && bounds_->at_least(m_, a, pi, b, pair.image, pj) + m_.clearance > range)
-          continue;
-        for (const PairSide& side : pair_sides(A, B, settings_))
-          side.swapped ? evaluate_side(b, a, pj, pi, side, work) : evaluate_side(a, b, pi, pj, side, work);
+        const KnownGap* known = bounds_ != nullptr ? bounds_->known(a, b, pair.image) : nullptr;
+        NearPanels near;
+        if (known != nullptr && known_to_be_far(*known, known->lost(A, pi, B, pj), near)) continue;
+        for (const PairSide& side : pair_sides(A, B, settings_)) {
+          const NearPanels& of_side = side.swapped == second_probes(A, B) ? near : everywhere_;
+          side.swapped ? evaluate_side(b, a, pj, pi, side, of_side, work)
+                       : evaluate_side(a, b, pi, pj, side, of_side, work);
+        }
       }
     }
   }
@@ -157,11 +163,30 @@ class Assembler {
     return work.shifted ? work.image : maps_[static_cast<std::size_t>(pair.j)];
   }
 
-  void evaluate_side(int p, int f, const Pose& pp, const Pose& pf, const PairSide& side, PairWork& work) const
+  /// True where two bodies are known to be out of range. Else `near` says where they may be in it.
+  bool known_to_be_far(const KnownGap& known, double lost, NearPanels& near) const
+  {
+    std::vector<Panel> panels;
+    for (const KnownPanel& p : known.panels) {
+      // Gaps are beyond the model's clearance, the barrier's range is that of the settings.
+      if (p.gap - lost + m_.clearance >= settings_.g_hat + settings_.clearance) {
+        if (panels.empty()) return true;
+        break;
+      }
+      if (panels.size() == most_near) return false;
+      panels.push_back(p.s);
+    }
+    near = NearPanels(std::move(panels));
+    return false;
+  }
+
+  void evaluate_side(int p, int f, const Pose& pp, const Pose& pf, const PairSide& side,
+                     const NearPanels& near, PairWork& work) const
   {
     const PairFrame frame(m_.bodies[static_cast<std::size_t>(p)], pp, m_.bodies[static_cast<std::size_t>(f)],
                           pf);
-    work.sides.push_back({p, f, side.swapped, frame.M, side_terms(frame, settings_, request_, side.share)});
+    work.sides.push_back(
+        {p, f, side.swapped, frame.M, side_terms(frame, settings_, request_, side.share, near)});
     const SideTerms& t = work.sides.back().terms;
     if (t.energy == 0.0 || request_.order < 1) return;
     hauberk::add_side(to_world(t, frame.M, pp.position - pf.position, request_.order), side.swapped,
@@ -283,6 +308,7 @@ class Assembler {
   const ContactSettings& settings_;
   const Request& request_;
   const GapBounds* bounds_;
+  NearPanels everywhere_;
   std::vector<PositionMap> maps_;
   bool sparse_;
   ContactEnergy out_;

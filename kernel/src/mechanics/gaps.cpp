@@ -108,7 +108,7 @@ void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose
 {
   const Body& A = m.bodies[static_cast<std::size_t>(a)];
   const Body& B = m.bodies[static_cast<std::size_t>(b)];
-  const bool swapped = !A.facets && probe_rank(B) < probe_rank(A);
+  const bool swapped = !A.facets && second_probes(A, B);
   const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
                   mi, mj,   evaluations};
   const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,

@@ -1,7 +1,7 @@
 #include <hauberk/motion/gap_bounds.hpp>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -9,6 +9,25 @@ namespace {
 constexpr double rounding = 1e-12;  ///< L, of places and of what is made of them
 
 }  // namespace
+
+RelativePlace::RelativePlace(const Body& P, const Pose& pp, const Body& F, const Pose& pf)
+{
+  const Mat3 to_f = pf.rotation.transpose();
+  centre = to_f * (pp.position + pp.rotation * P.center - pf.position) - F.center;
+  rotation = to_f * pp.rotation;
+}
+
+double RelativePlace::farthest(const RelativePlace& other, double radius) const
+{
+  return (other.centre - centre).norm() + (other.rotation - rotation).norm() * std::sqrt(0.5) * radius +
+         rounding;
+}
+
+double KnownGap::lost(const Body& A, const Pose& pa, const Body& B, const Pose& pb) const
+{
+  return second_probes(A, B) ? place.farthest({B, pb, A, pa}, B.bound)
+                             : place.farthest({A, pa, B, pb}, A.bound);
+}
 
 std::size_t GapBounds::Hash::operator()(const Key& k) const
 {
@@ -18,38 +37,24 @@ std::size_t GapBounds::Hash::operator()(const Key& k) const
   return h ^ (h >> 29U);
 }
 
-double GapBounds::Entry::left(const Entry& now, double radius) const
+const KnownGap* GapBounds::known(int a, int b, const Image& image) const
 {
-  const double moved = (now.centre - centre).norm();
-  return gap - moved - (now.rotation - rotation).norm() * std::sqrt(0.5) * radius - rounding;
-}
-
-GapBounds::Entry GapBounds::placed(const Model& model, int a, const Pose& pa, int b, const Pose& pb)
-{
-  const Body &A = model.bodies[static_cast<std::size_t>(a)], &B = model.bodies[static_cast<std::size_t>(b)];
-  const Mat3 to_b = pb.rotation.transpose();
-  Entry e;
-  e.centre = to_b * (pa.position + pa.rotation * A.center - pb.position) - B.center;
-  e.rotation = to_b * pa.rotation;
-  return e;
+  const auto found = entries_.find({a, b, image});
+  return found == entries_.end() ? nullptr : &found->second;
 }
 
 double GapBounds::at_least(const Model& model, int a, const Pose& pa, int b, const Image& image,
                            const Pose& pb) const
 {
-  const auto known = entries_.find({a, b, image});
-  if (known == entries_.end()) return 0.0;
-  return known->second.left(placed(model, a, pa, b, pb), model.bodies[static_cast<std::size_t>(a)].bound);
+  const KnownGap* of = known(a, b, image);
+  if (of == nullptr) return 0.0;
+  const Body &A = model.bodies[static_cast<std::size_t>(a)], &B = model.bodies[static_cast<std::size_t>(b)];
+  return of->panels.front().gap - of->lost(A, pa, B, pb);
 }
 
-void GapBounds::remember(const Model& model, int a, const Pose& pa, int b, const Image& image, const Pose& pb,
-                         double gap)
+void GapBounds::remember(int a, int b, const Image& image, KnownGap known)
 {
-  Entry now = placed(model, a, pa, b, pb);
-  now.gap = gap;
-  const auto [known, added] = entries_.try_emplace({a, b, image}, now);
-  if (!added && known->second.left(now, model.bodies[static_cast<std::size_t>(a)].bound) < gap)
-    known->second = now;
+  entries_.insert_or_assign({a, b, image}, std::move(known));
 }
 
 }  // namespace hauberk

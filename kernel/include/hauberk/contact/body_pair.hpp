@@ -17,13 +17,14 @@ struct PairSide {
   double share = 1.0;
 };
 
-/// The sides that make up the energy of a pair: the cheaper probe set; for an arc between equals as
-/// `settings.sides` says. The difference of two curves is one side, which knows no order.
+/// The sides that make up the energy of a pair: the one that second_probes() says; for an arc between equals
+/// as `settings.sides` says. The difference of two curves is one side, which knows no order.
 std::span<const PairSide> pair_sides(const Body& A, const Body& B, const ContactSettings& settings);
 
-/// Terms of one side by the formulation of `settings`, weight `share`.
+/// Terms of one side by the formulation of `settings`, weight `share`. `arc` and `nearest` look at `near`
+/// only, which holds all gaps below g_hat.
 SideTerms side_terms(const PairFrame& frame, const ContactSettings& settings, const Request& request,
-                     double share);
+                     double share, const NearPanels& near = {});
 
 /// Adds terms of a side, in (x_P - x_F, w_P, w_F), to terms in (x_A - x_B, w_A, w_B).
 void add_side(const PairTerms& side, bool swapped, int order, PairTerms& sum);

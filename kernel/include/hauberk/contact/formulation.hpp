@@ -2,6 +2,7 @@
 /// The contact formulations: barrier energy of one pair of bodies.
 
 #include <hauberk/contact/side_terms.hpp>
+#include <hauberk/geometry/panel_field.hpp>
 
 namespace hauberk {
 
@@ -26,8 +27,8 @@ inline const char* name_of(Formulation f)
 /// How local minima of the distance are found: none missed, or from samples as published (`published` only).
 enum class MinimaSearch { certified, sampled };
 
-/// How accurately `arc` integrates over surfaces: `fine` to 1e-8 and better of the energy, `rough` to about
-/// 3e-5, at half the cost, for stages that only lead on to others. Lines cost little and are always fine.
+/// How accurately `arc` integrates: `fine` to 1e-8 and better of the energy, `rough` to about 3e-5 over
+/// surfaces and 1e-7 along lines, at half and two thirds of the cost, for stages that only lead on to others.
 enum class Quadrature { fine, rough };
 
 /// Which of two equals an `arc` is integrated over: `both`, half each, so that labels do not matter; or
@@ -42,7 +43,7 @@ struct ContactSettings {
   MinimaSearch search = MinimaSearch::certified;
   /// Of `arc`: half-width of a panel over the distance to the integrand's nearest complex singularity. With
   /// y = 1/ratio the error of n-point Gauss falls like (y + sqrt(y^2 - 1))^(-2n): 5e-11 for n = 9 on lines,
-  /// 1e-8 for n = 7 on surfaces (rough: 3e-5 for n = 4) at the default, as far as the gap is
+  /// 1e-8 for n = 7 on surfaces (rough: 1e-7 for n = 6, 3e-5 for n = 4) at the default, as far as the gap is
   /// quadratic over a panel; smaller ratios serve to measure it.
   double panel_ratio = 0.5;
   Quadrature quadrature = Quadrature::fine;
@@ -53,17 +54,19 @@ struct ContactSettings {
 /// Sum of the clamped log barrier over every local minimum of the distance with gap < g_hat (paper eq. (4),
 /// in the gap instead of its square), derivatives by the implicit-function theorem:
 ///   D_q = d_q,   D_qq = d_qq - d_qc H^-1 d_cq,   H = d_cc at the minimum.
-/// F's coordinates are eliminated in closed form by its field; c is what remains of P.
+/// F's coordinates are eliminated in closed form by its field; c is what remains of P. Gaps below g_hat are
+/// in `near`.
 template <int dim>
 void add_nearest(const PairFrame& frame, const ContactSettings& settings, const Request& request,
-                 SideTerms& out);
+                 const NearPanels& near, SideTerms& out);
 
 /// Integral of the barrier over P (its core circle when P is a tube, else its surface), weight `share`.
 /// Panels are halved until their half-widths are at most about half of sqrt(2 g/g''), the distance to the
 /// nearest complex singularity of the integrand, with the gap g and its second derivative along u and v.
+/// Gaps below g_hat are in `near`.
 template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
-             SideTerms& out);
+             const NearPanels& near, SideTerms& out);
 
 /// The published contact: the barrier of the squared gap of every local minimum, faded where the minimum is
 /// about to merge with another or to vanish (paper equations (4) and (9) to (11)); see published.hpp. In
@@ -78,13 +81,14 @@ struct Minimum {
   double distance = 0.0;  ///< surface distance, no clearance
 };
 
-/// All local minima with surface distance below `threshold`.
+/// All local minima with surface distance below `threshold`, which are in `near`.
 ///
 /// A panel is dropped when its bound exceeds the threshold, or when the gradient at its centre exceeds what
 /// the bound of the second derivatives lets it change: then it holds no stationary point. What remains is
 /// split until the sign of the second derivative is certain (dimension 1), or until a Newton iteration from
 /// the centre decides (dimension 2). Throws ComputationError where that takes more than 2e7 evaluations.
 template <int dim>
-std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations);
+std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations,
+                                  const NearPanels& near = {});
 
 }  // namespace hauberk

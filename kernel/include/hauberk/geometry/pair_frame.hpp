@@ -182,6 +182,15 @@ inline std::array<Panel, 2> halves(const Panel& s, bool along_u)
 /// closed form; a surface does only where both are.
 inline int probe_rank(const Body& b) { return b.curve ? 0 : b.is_tube() ? 1 : 2; }
 
+/// True where of two bodies the second one probes the first: of equal kinds the smaller ring, as the field of
+/// the larger one is smooth around it, while a ring that is threaded through a small one runs along its axis,
+/// where the field is not. The difference of two curves knows no order.
+inline bool second_probes(const Body& a, const Body& b)
+{
+  const int of_a = probe_rank(a), of_b = probe_rank(b);
+  return of_b < of_a || (of_b == of_a && !a.curve && b.R < a.R);
+}
+
 /// Dimension of the probe set of a frame.
 inline int probe_dimension(const PairFrame& frame)
 {

@@ -7,9 +7,13 @@
 
 #include <hauberk/geometry/panel_bound.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace hauberk {
 
@@ -21,19 +25,55 @@ struct PanelField {
   FieldValue f;
 };
 
-/// The field of a body for all of these panels, whose places `q` are known.
-template <typename Panels>
-void fill_fields(const Body& F, Panels& panels)
+constexpr std::size_t most_together = 4;  ///< fields that are looked at in one go
+
+/// The field of a body for these panels, at most `most_together`, whose places `q` are known.
+inline void fill_fields(const Body& F, std::span<PanelField> panels)
 {
   if (F.is_point() || F.is_tube()) {
     for (PanelField& p : panels) p.f = field_at(F, p.q.p);
     return;
   }
-  std::array<PointField, 4> points;
-  static_assert(std::tuple_size_v<Panels> <= points.size());
+  std::array<PointField, most_together> points;
   for (std::size_t k = 0; k < panels.size(); ++k) points[k] = {&panels[k].q.p, &panels[k].f};
   fields_at(F, std::span(points).first(panels.size()));
 }
+
+/// The part of a probe set that may be in range; without panels nothing is known, and all of it may. Angles
+/// of both are in [0, 3 pi].
+class NearPanels {
+ public:
+  NearPanels() = default;
+  explicit NearPanels(std::vector<Panel> panels) : panels_(std::move(panels)) {}
+
+  /// True where some of panel s may be in range.
+  bool meet(const Panel& s) const
+  {
+    // Widened by rounding, so that what only touches counts as well.
+    constexpr double rounding = 1e-12;
+    const auto apart = [](double x, double y) {
+      const double d = std::abs(x - y);
+      return d > std::numbers::pi ? std::abs(2.0 * std::numbers::pi - d) : d;
+    };
+    return panels_.empty() || std::any_of(panels_.begin(), panels_.end(), [&](const Panel& p) {
+             return apart(p.u, s.u) <= p.hu + s.hu + rounding && apart(p.v, s.v) <= p.hv + s.hv + rounding;
+           });
+  }
+
+  /// With all that is within these half-widths of it.
+  NearPanels widened(double by_u, double by_v) const
+  {
+    NearPanels out = *this;
+    for (Panel& p : out.panels_) {
+      p.hu += by_u;
+      p.hv += by_v;
+    }
+    return out;
+  }
+
+ private:
+  std::vector<Panel> panels_;
+};
 
 /// The first panels of a search, four at a time; from `turn` on, radians.
 template <int dim>
@@ -46,26 +86,34 @@ class FirstPanels {
     for (int j = 0; dim == 2 && j < across; ++j) v_[static_cast<std::size_t>(j)] = Angle(center(j, across));
   }
 
+  /// True where some of row k may be in range.
+  bool meets(int k, const NearPanels& near) const
+  {
+    for (int j = 0; j < 4; ++j)
+      if (near.meet(panel(k, j))) return true;
+    return false;
+  }
+
   /// Row k, with places and without fields.
   std::array<PanelField, 4> row(int k) const
   {
     std::array<PanelField, 4> out;
     for (int j = 0; j < 4; ++j) {
       PanelField& p = out[static_cast<std::size_t>(j)];
-      const int i = dim == 2 ? k : 4 * k + j;
-      p.s = {center(i, along), 0.0, std::numbers::pi / along, 0.0};
+      p.s = panel(k, j);
       p.u = j > 0 && dim == 2 ? out[0].u : Angle(p.s.u);
-      if constexpr (dim == 2) {
-        p.s.v = center(j, across);
-        p.s.hv = std::numbers::pi / across;
-        p.v = v_[static_cast<std::size_t>(j)];
-      }
+      if constexpr (dim == 2) p.v = v_[static_cast<std::size_t>(j)];
       p.q = probe_.at(p.u, p.v);
     }
     return out;
   }
 
  private:
+  Panel panel(int k, int j) const
+  {
+    if constexpr (dim == 1) return {center(4 * k + j, along), 0.0, std::numbers::pi / along, 0.0};
+    return {center(k, along), center(j, across), std::numbers::pi / along, std::numbers::pi / across};
+  }
   double center(int i, int count) const { return turn_ + (2 * i + 1) * std::numbers::pi / count; }
 
   const Probe<dim>& probe_;

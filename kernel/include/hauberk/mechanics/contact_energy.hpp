@@ -32,7 +32,7 @@ struct ContactEnergy {
 
 /// Evaluates the contact energy over the given element pairs. `parameters` (d energy/d element parameter) is
 /// in 1/(file unit of length): scaled derivatives times 1/L. Deterministic: pairs are summed in their order.
-/// Thread safe. Pairs that `bounds`, if given, certifies to be out of range are not looked at.
+/// Thread safe. Pairs and panels that `bounds`, if given, certifies to be out of range are not looked at.
 ContactEnergy contact_energy(const Model& model, const State& state, const std::vector<ElementPair>& pairs,
                              const ContactSettings& settings, const Request& request,
                              const GapBounds* bounds = nullptr);

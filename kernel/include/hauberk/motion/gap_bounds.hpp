@@ -1,32 +1,61 @@
 #pragma once
 /// Lower bounds of gaps that were certified once and hold, less what has moved, until bodies come near.
 
-#include <hauberk/geometry/body.hpp>
+#include <hauberk/geometry/pair_frame.hpp>
 #include <hauberk/mechanics/model.hpp>
 
 #include <unordered_map>
+#include <vector>
 
 namespace hauberk {
 
-/// What is known of the gaps of a model's bodies, from one step to the next.
-///
-/// A gap (surface distance minus clearance) that is at least g where body A is at (c, R) in the frame of body
-/// B is, where it is at (c', R'), at least
-///
-///     g - |c' - c| - |R' - R| r,
-///
-/// as no point of A, within r of its centre, has moved farther; of the two norms of matrices the spectral one
-/// is meant, which of a difference of rotations is the Frobenius norm over sqrt(2). So an entry is good for
-/// any states of the same model, in any order. Reading is thread safe, `remember` is not.
+/// Where a probing body P is in the frame of the element that the probed body F belongs to.
+struct RelativePlace {
+  Vec3 centre = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();
+
+  RelativePlace() = default;
+  RelativePlace(const Body& P, const Pose& pp, const Body& F, const Pose& pf);
+
+  /// No point within `radius` of P's centre is farther than this from where it is in the other place:
+  ///
+  ///     |c' - c| + |R' - R| radius,
+  ///
+  /// of the norm of a difference of rotations the spectral one, the Frobenius norm over sqrt(2); and
+  /// rounding.
+  double farthest(const RelativePlace& other, double radius) const;
+};
+
+/// A panel of P's probe set and a lower bound of the gap over it.
+struct KnownPanel {
+  Panel s;
+  double gap = 0.0;
+};
+
+/// What is known of the gap (surface distance minus clearance) of two bodies at one relative placement.
+struct KnownGap {
+  RelativePlace place;             ///< of the body that probes, see second_probes()
+  std::vector<KnownPanel> panels;  ///< all of the probe set, by rising bound; never empty
+  long from_scratch = 0;           ///< closest points that it took to begin with nothing known
+
+  /// How much smaller a gap may be at these poses of the elements of A and B.
+  double lost(const Body& A, const Pose& pa, const Body& B, const Pose& pb) const;
+};
+
+/// What is known of the gaps of a model's bodies, from one step to the next. It belongs to placements, not to
+/// steps: an entry is good for any states of the same model, in any order, less what lies between. Reading is
+/// thread safe, `remember` is not.
 class GapBounds {
  public:
-  /// Certified: no more than the gap of bodies a and b, b in this image, at these poses of their elements.
-  /// Zero, or less, where nothing is known.
+  /// Of bodies a and b, b in this image; null where nothing is known. Until the next `remember`.
+  const KnownGap* known(int a, int b, const Image& image) const;
+
+  /// Certified: no more than the gap of a and b at these poses of their elements. Zero, or less, where
+  /// nothing is known.
   double at_least(const Model& model, int a, const Pose& pa, int b, const Image& image, const Pose& pb) const;
 
-  /// Keeps a lower bound of the gap at these poses, if it is better than what is there.
-  void remember(const Model& model, int a, const Pose& pa, int b, const Image& image, const Pose& pb,
-                double gap);
+  /// Puts this in the place of what was known of a and b.
+  void remember(int a, int b, const Image& image, KnownGap known);
 
  private:
   struct Key {
@@ -37,15 +66,8 @@ class GapBounds {
   struct Hash {
     std::size_t operator()(const Key& k) const;
   };
-  struct Entry {
-    double gap = 0.0;
-    Vec3 centre;    ///< of A in B's frame, as is
-    Mat3 rotation;  ///< this one
-    double left(const Entry& now, double radius) const;
-  };
-  static Entry placed(const Model& model, int a, const Pose& pa, int b, const Pose& pb);
 
-  std::unordered_map<Key, Entry, Hash> entries_;
+  std::unordered_map<Key, KnownGap, Hash> entries_;
 };
 
 }  // namespace hauberk

@@ -68,13 +68,13 @@ TEST(ChartInput, MistakesOfTheFileAreBadInput)
   EXPECT_TRUE(holds(errors("\"exact\": 0.43333333333333335", "\"exact\": [0.4, 0.4]"),
                     "c.json:16: /chart/scenes/0/exact: expected 1 exact values, one per limit, found 2\n"));
   EXPECT_TRUE(
-      holds(errors(R"("/solver/contact": "arc")", R"("/load_case/directions_deg": [30])"),
+      holds(errors(R"({ "/solver/contact": "arc" })", R"({ "/load_case/directions_deg": [30] })"),
             "c.json:22: /chart/methods/1: method 'arc' has other limits than scene 'chain': it may set how "
             "they are found, not which they are\n"));
   EXPECT_TRUE(
       holds(errors("\"/elements/link/parameters/ring.r0\": 0.6", "\"/elements/link/parameters/ring.r0\": 6"),
             "c.json:17: /chart/scenes/1: scene 'thin, both ways': /elements/link/parameters"));
-  const std::string wrong = errors(R"("/solver/contact": "arc")", R"("/solver/contact": "ark")");
+  const std::string wrong = errors(R"({ "/solver/contact": "arc" })", R"({ "/solver/contact": "ark" })");
   EXPECT_TRUE(
       holds(wrong, "scene 'chain', method 'arc', setting 'coarse': expected one of auto, nearest, arc"));
   EXPECT_EQ(std::count(wrong.begin(), wrong.end(), '\n'), 1) << "once, not for every setting:\n" << wrong;
@@ -88,7 +88,7 @@ TEST(ChartInput, RefusedPointsAndFailedReferencesSaySo)
   // The reference stalls; a method whose clearance leaves no room at rest is refused.
   const std::string file = folder.write(
       "c.json", with(with(chart_text(),
-                          R"("reference": { "set": { "/solver/contact": "arc", "/solver/tolerance": 3e-8 })",
+                          R"("reference": { "set": { "/solver/contact": "arc", "/solver/tolerance": 1e-8 })",
                           R"("reference": { "set": { "/solver/max_iterations": 1 })"),
                      R"("set": { "/solver/contact": "arc" })", R"("set": { "/solver/clearance": 4.5 })"));
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/expect=[]"});

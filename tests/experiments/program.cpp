@@ -225,7 +225,7 @@ std::string chart_text()
     "scenes": [
       { "name": "chain", "set": {}, "exact": 0.43333333333333335 },
       { "name": "thin, both ways", "set": { "/elements/link/parameters/ring.r0": 0.6, "/elements/link/parameters/ring.r1": 0.6, "/load_case/directions_deg": [0, 90] },
-        "reference": { "set": { "/solver/contact": "arc", "/solver/tolerance": 3e-8 } } } ],
+        "reference": { "set": { "/solver/contact": "arc", "/solver/tolerance": 1e-8 } } } ],
     "methods": [
       { "name": "nearest", "set": { "/solver/contact": "nearest" },
         "vary": [ { "pointer": "/solver/tolerance", "values": [1e-2, 1e-6] } ] },

@@ -187,9 +187,11 @@ void inside_pieces(At&& at, double from, double to, Piece&& piece)
   monotone(a, b);
 }
 
-/// `n`: points of the rule along a line of a panel.
+/// `n`: points of the rule along a line of a panel; fewer where the integral is rough.
 template <int dim, int n>
 class ArcIntegral {
+  static constexpr bool rough = n < 7;
+
  public:
   ArcIntegral(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
               const NearPanels& near, SideTerms& out)
@@ -250,8 +252,10 @@ class ArcIntegral {
       visit_all(located_halves(probe_, p, along_u));
       return;
     }
-    // A gap changes by no more than the distance moved.
-    if (g + probe_.Lu * s.hu + probe_.Lv * s.hv < settings_.g_hat)
+    // A gap changes by no more than the distance moved. Where an integral over a surface is rough, so it may
+    // be across the onset: looking for it on every line would take as long as the integral itself.
+    const bool whole = g + probe_.Lu * s.hu + probe_.Lv * s.hv < settings_.g_hat;
+    if (whole || (rough && dim == 2))
       integrate(s);
     else
       integrate_inside(s);
@@ -275,7 +279,7 @@ class ArcIntegral {
   std::array<double, 2> sizes(const Panel& s, const ProbePoint& q, const FieldValue& f, double g) const
   {
     const SecondDerivatives h = surface_hessian(probe_, q, f);
-    const double level = level_length(*frame_.F, f);
+    const double level = (rough ? 2.0 : 1.0) * level_length(*frame_.F, f);
     const double narrowest = probe_.frequency / widest_panel;
     const auto size = [&](double half, const Vec3& along, double second) {
       return half * std::max({std::sqrt(std::max(second, 0.0) / (2.0 * g)) / settings_.panel_ratio,
@@ -443,7 +447,7 @@ void add_arc(const PairFrame& frame, const ContactSettings& settings, const Requ
              const NearPanels& near, SideTerms& out)
 {
   if (settings.quadrature == Quadrature::rough)
-    ArcIntegral<dim, dim == 1 ? 6 : 4>(frame, settings, request, share, near, out).run();
+    ArcIntegral<dim, dim == 1 ? 6 : 3>(frame, settings, request, share, near, out).run();
   else
     ArcIntegral<dim, dim == 1 ? 9 : 7>(frame, settings, request, share, near, out).run();
 }

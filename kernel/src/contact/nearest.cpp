@@ -103,26 +103,34 @@ class Search {
     // Turned by an arbitrary angle so that symmetric scenes have no minimum on a panel's end.
     constexpr double turn = 0.1234;
     const FirstPanels<dim> first(probe_, turn);
-    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
-      if (!first.meets(k, near_)) continue;
-      std::array<PanelField, 4> row = first.row(k);
-      fill_fields(*probe_.f.F, row);
-      for (const PanelField& p : row) visit(p);
-    }
+    for (int k = 0; k < FirstPanels<dim>::rows; ++k)
+      if (first.meets(k, near_)) visit_all(first.row(k));
   }
 
  private:
-  /// Where minima in range are sought from: a descent may find one that lies beside its own panel.
+  /// Where minima in range are sought from: a descent may find one that lies in a neighbour of its own panel,
+  /// which is at most as wide as this.
   NearPanels with_basins(const NearPanels& near) const
   {
     if constexpr (dim == 1) return near;
-    return near.widened(seed_width / probe_.Lu, seed_width / probe_.Lv);
+    return near.widened(2.0 * seed_width / probe_.Lu, 2.0 * seed_width / probe_.Lv);
+  }
+
+  /// Visits those of the panels, of which places are known and fields are not, that may be in range.
+  template <std::size_t count>
+  void visit_all(std::array<PanelField, count> panels)
+  {
+    std::size_t found = 0;
+    for (const PanelField& p : panels)
+      if (near_.meet(p.s)) panels[found++] = p;
+    const std::span<PanelField> near = std::span(panels).first(found);
+    fill_fields(*probe_.f.F, near);
+    for (const PanelField& p : near) visit(p);
   }
 
   void visit(const PanelField& p)
   {
     const Panel& s = p.s;
-    if (!near_.meet(s)) return;
     if (++evaluations_ > last_) give_up();
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
     if (panel_bound(probe_, s, p.q, p.f, threshold_).bound > threshold_) return;
@@ -156,7 +164,7 @@ class Search {
       descend(s, l);
       return;
     }
-    for (const PanelField& half : split(probe_, p)) visit(half);
+    visit_all(located_halves(probe_, p, longer_along_u(probe_, s)));
   }
 
   [[noreturn]] void give_up() const

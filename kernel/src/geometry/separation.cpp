@@ -40,7 +40,7 @@ class PanelSearch {
   {
     const FirstPanels<dim> first(probe_);
     for (int k = FirstPanels<dim>::rows; k-- > 0;) {
-      std::array<PanelField, 4> row = first.row(k);
+      std::array<PanelField, most_together> row = first.row(k);
       fill_fields(*probe_.f.F, row);
       for (std::size_t j = row.size(); j-- > 0;)
         if (!visit(row[j])) return found_;
@@ -195,23 +195,18 @@ Separation separation(const Body& A, const Pose& pose_a, const Body& B, const Po
   const double coarse = ball_gap(A, pose_a, B, pose_b, clearance);
   if (coarse >= enough) return {coarse, std::numeric_limits<double>::infinity(), 0};
 
-  if (A.curve || B.curve) {
-    const bool swapped = !A.curve;
-    const PairFrame frame = swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
-    return frame.difference != nullptr ? bound_over_panels<2>(frame, clearance, enough, tightness)
-                                       : bound_over_panels<1>(frame, clearance, enough, tightness);
+  const bool swapped = second_probes(A, B);
+  const Body &P = swapped ? B : A, &F = swapped ? A : B;
+  const Pose &pose_p = swapped ? pose_b : pose_a, &pose_f = swapped ? pose_a : pose_b;
+  const PairFrame frame(P, pose_p, F, pose_f);
+  if (probe_dimension(frame) == 1) return bound_over_panels<1>(frame, clearance, enough, tightness);
+  if (frame.difference == nullptr) {
+    // A core that is probed knows the inside of its own tube; a surface does not. Where all of F is inside of
+    // P, so is any point of it.
+    const double inside = field_at(P, Probe<2>(PairFrame(F, pose_f, P, pose_p)).at(0.0, 0.0).p).m.phi;
+    if (inside < 0.0) return {inside - clearance, inside - clearance, 1};
   }
-  // Of two tubes the smaller ring probes: the field of the larger one is smooth around it, while the core of
-  // a ring that is threaded through a small one runs along its axis, where the field is not.
-  if (A.is_tube() && !(B.is_tube() && B.R < A.R))
-    return bound_over_panels<1>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
-  if (B.is_tube()) return bound_over_panels<1>(PairFrame(B, pose_b, A, pose_a), clearance, enough, tightness);
-  // A core that is probed knows the inside of its own tube; a surface does not. Where all of B is inside of
-  // A, so is any point of it.
-  const PairFrame back(B, pose_b, A, pose_a);
-  const double inside = field_at(A, Probe<2>(back).at(0.0, 0.0).p).m.phi;
-  if (inside < 0.0) return {inside - clearance, inside - clearance, 1};
-  return bound_over_panels<2>(PairFrame(A, pose_a, B, pose_b), clearance, enough, tightness);
+  return bound_over_panels<2>(frame, clearance, enough, tightness);
 }
 
 int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)

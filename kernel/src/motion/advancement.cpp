@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace hauberk {
@@ -49,10 +50,11 @@ std::vector<BodyPair> body_pairs(const Model& m, const std::vector<CandidatePair
 }
 
 /// True if a surface that probes is inside of the body that it probes. A core that is probed knows the inside
-/// of its own tube. Where all of a surface is inside of another, so is any point of it.
+/// of its own tube, and of a tube around a curve no field is known. Where all of a surface is inside of
+/// another, so is any point of it.
 bool inside(const PairFrame& frame)
 {
-  return probe_dimension(frame) == 2 && frame.difference == nullptr &&
+  return probe_dimension(frame) == 2 && frame.difference == nullptr && !frame.F->curve &&
          field_at(*frame.F, Probe<2>(frame).at(0.0, 0.0).p).m.phi < 0.0;
 }
 
@@ -114,9 +116,7 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
     };
     if (far(ball_gap(bodies.A, pair.pi, bodies.B, pair.pj, m.clearance))) continue;
     const KnownGap* known = bounds != nullptr ? bounds->known(bodies.a, bodies.b, pair.tj.image) : nullptr;
-    if (known != nullptr &&
-        far(known->panels.front().gap - known->lost(bodies.A, pair.pi, bodies.B, pair.pj)))
-      continue;
+    if (known != nullptr && far(known->at_least(bodies.A, pair.pi, bodies.B, pair.pj))) continue;
     ++out.tight_pairs;
     tight.push_back({&bodies, known});
     if (tight.size() == most) advance_all();

@@ -1,12 +1,17 @@
 #include <hauberk/motion/gap_bounds.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hauberk {
 namespace {
 
-constexpr double rounding = 1e-12;  ///< L, of places and of what is made of them
+/// Of rotations and of what is made of places of order 1, L.
+constexpr double rounding_at_origin = 1e-12;
+/// Panels of a pair that are worth their memory: ten times those of surfaces that are about to touch.
+constexpr std::size_t most_panels = 100000;
 
 }  // namespace
 
@@ -15,12 +20,14 @@ RelativePlace::RelativePlace(const Body& P, const Pose& pp, const Body& F, const
   const Mat3 to_f = pf.rotation.transpose();
   centre = to_f * (pp.position + pp.rotation * P.center - pf.position) - F.center;
   rotation = to_f * pp.rotation;
+  rounding = rounding_at_origin +
+             4.0 * std::numeric_limits<double>::epsilon() * (pp.position.norm() + pf.position.norm());
 }
 
 double RelativePlace::farthest(const RelativePlace& other, double radius) const
 {
   return (other.centre - centre).norm() + (other.rotation - rotation).norm() * std::sqrt(0.5) * radius +
-         rounding;
+         std::max(rounding, other.rounding);
 }
 
 double KnownGap::lost(const Body& A, const Pose& pa, const Body& B, const Pose& pb) const
@@ -43,18 +50,13 @@ const KnownGap* GapBounds::known(int a, int b, const Image& image) const
   return found == entries_.end() ? nullptr : &found->second;
 }
 
-double GapBounds::at_least(const Model& model, int a, const Pose& pa, int b, const Image& image,
-                           const Pose& pb) const
-{
-  const KnownGap* of = known(a, b, image);
-  if (of == nullptr) return 0.0;
-  const Body &A = model.bodies[static_cast<std::size_t>(a)], &B = model.bodies[static_cast<std::size_t>(b)];
-  return of->panels.front().gap - of->lost(A, pa, B, pb);
-}
-
 void GapBounds::remember(int a, int b, const Image& image, KnownGap known)
 {
-  entries_.insert_or_assign({a, b, image}, std::move(known));
+  if (known.panels.size() > most_panels) {
+    entries_.erase({a, b, image});
+  } else {
+    entries_.insert_or_assign({a, b, image}, std::move(known));
+  }
 }
 
 }  // namespace hauberk

@@ -8,7 +8,10 @@
 #include <hauberk/motion/gap_bounds.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -40,7 +43,7 @@ class PairAdvance {
   {
     double s = 0.0, tau = limit;
     begin(s, limit);
-    if (remember && limit > 0.0 && speed_ * limit <= spare * least_seen_ &&
+    if (remember && speed_ * limit <= spare * least_seen_ &&
         certified(limit, std::max(keep, remembered)) == limit)
       return limit;
     for (int k = 0; k < most_advances && s < limit; ++k) {
@@ -257,10 +260,10 @@ class PairAdvance {
     const Motion motion = motion_of(q, f);
     const double time = std::max(0.0, -motion.rate) * tau + 0.5 * acceleration_ * tau * tau;
     const double rho = f.rho - d - travel;  // the field's Hessian is nowhere below -1/rho
-    double slope = std::abs(f.n.dot(q.pu)) * s.hu;
-    if constexpr (dim == 2) slope += std::abs(f.n.dot(q.pv)) * s.hv;
-    const double second = size.second + (d + travel) * (d + travel) / rho;
     if (rho > 0.0) {
+      double slope = std::abs(f.n.dot(q.pu)) * s.hu;
+      if constexpr (dim == 2) slope += std::abs(f.n.dot(q.pv)) * s.hv;
+      const double second = size.second + (d + travel) * (d + travel) / rho;
       bound = std::max(bound, g - slope - 0.5 * (size.second + d * d / rho));
       if (g - slope - time - angular_ * d * tau - 0.5 * second >= target_) return Verdict::holds;
     }

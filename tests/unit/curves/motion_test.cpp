@@ -5,6 +5,7 @@
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/motion/advancement.hpp>
 
+#include <known_gaps.hpp>
 #include <scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -50,18 +51,16 @@ double smallest(const Model& m, const State& s)
   return out;
 }
 
-class CurveMotion : public ::testing::TestWithParam<int> {};
-
-TEST_P(CurveMotion, NothingIsMissedAndLittleGivenAway)
+/// Two linked oval curves, or such a curve and a ring, round or oval: 0, 1, 2.
+SceneSpec linked_with_curve(int other)
 {
-  const Sheet load(3);
   std::mt19937_64 rng(2);
   SceneSpec spec = chain({1, 0.12, 0.12}, {1, 0.12, 0.12}, 3.0);
   spec.types[0].shape = std::make_shared<Fixed>(wavy(0.1, 0.12, rng));
   spec.elements[0].parameters.clear();
-  if (GetParam() != 1) {
+  if (other != 1) {
     spec.types.push_back(
-        {"other", std::make_shared<Fixed>(GetParam() == 0 ? wavy(0.1, 0.12, rng) : ellipse(1.0, 0.1, 0.15))});
+        {"other", std::make_shared<Fixed>(other == 0 ? wavy(0.1, 0.12, rng) : ellipse(1.0, 0.1, 0.15))});
     spec.elements[1].type = 1;
     spec.elements[1].parameters.clear();
   } else {
@@ -69,7 +68,16 @@ TEST_P(CurveMotion, NothingIsMissedAndLittleGivenAway)
     spec.elements[1].type = static_cast<int>(spec.types.size()) - 1;
   }
   spec.length = 1.0;
-  const Model m = make_model(spec, load, 0.0);
+  return spec;
+}
+
+class CurveMotion : public ::testing::TestWithParam<int> {};
+
+TEST_P(CurveMotion, NothingIsMissedAndLittleGivenAway)
+{
+  const Sheet load(3);
+  std::mt19937_64 rng(3);
+  const Model m = make_model(linked_with_curve(GetParam()), load, 0.0);
   const State rest = rest_state(m);
   const double at_rest = smallest(m, rest);
   ASSERT_GT(at_rest, 0.05);
@@ -105,6 +113,55 @@ TEST_P(CurveMotion, NothingIsMissedAndLittleGivenAway)
   std::sort(tightness.begin(), tightness.end());
   ASSERT_GT(tightness.size(), 4U);
   EXPECT_GT(tightness[tightness.size() / 2], 0.5);
+}
+
+/// What checks have found of every panel is true wherever the bodies are moved, and spares the next checks
+/// work.
+TEST_P(CurveMotion, PanelsHoldInOtherPlaces)
+{
+  const Sheet load(3);
+  const Model m = make_model(linked_with_curve(GetParam()), load, 0.0);
+  std::mt19937_64 rng(4);
+  std::normal_distribution<double> normal;
+  GapBounds bounds;
+  State state = rest_state(m);
+  long with = 0, without = 0, panels = 0;
+  for (int k = 0; k < 10; ++k) {
+    Vector dy(m.dofs());
+    for (int i = 0; i < m.dofs(); ++i) dy[i] = (i < 3 ? 0.2 : 1.0) * 0.02 * normal(rng);
+    const SafeStep safe = largest_safe_step(m, state, dy, keep, 1, &bounds);
+    ASSERT_GT(safe.alpha, 0.0);
+    with += safe.evaluations;
+    without += largest_safe_step(m, state, dy, keep).evaluations;
+    for (const double along : {0.0, safe.alpha, 2.0}) {
+      const KnownGapCheck check = check_known_gaps(m, bounds, advanced(m, state, dy, along), rng);
+      EXPECT_EQ(check.wrong, "") << "step " << k << ", " << along;
+      panels += check.panels;
+    }
+    state = advanced(m, state, dy, safe.alpha);
+  }
+  EXPECT_GT(panels, 200);
+  EXPECT_LT(with, without);
+}
+
+/// A surface is not inside of a tube around a curve because it is where the tube of a circle would be.
+TEST(CurveAndOval, OneIsWhereACircleWouldBe)
+{
+  const Sheet load(3);
+  const Primitive trefoil = knot(2, 3, 0.1);
+  const double R = make_body(trefoil, 0, 0, 1.0).R;
+  SceneSpec spec = chain({1, 0.12, 0.12}, {1, 0.12, 0.12}, 9.0);
+  spec.types[0].shape = std::make_shared<Fixed>(trefoil);
+  spec.types.push_back({"oval", std::make_shared<Fixed>(ellipse(0.1, 0.02, 0.03))});
+  spec.elements[0].parameters.clear();
+  spec.elements[1] = {1, {}, {Vec3(R - 0.12, 0.0, 0.0), Mat3::Identity()}};  // its place (0, 0) at R
+  spec.length = 1.0;
+  const Model m = make_model(spec, load, 0.0);
+  const State rest = rest_state(m);
+  ASSERT_GT(smallest(m, rest), 0.05);
+  Vector dy = Vector::Zero(m.dofs());
+  dy[m.offset(1)] = 0.01;
+  EXPECT_EQ(largest_safe_step(m, rest, dy, keep).alpha, 1.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Others, CurveMotion, ::testing::Values(0, 1, 2), [](const auto& info) {

@@ -17,8 +17,8 @@ struct PairSide {
   double share = 1.0;
 };
 
-/// The sides that make up the energy of a pair: the one that second_probes() says; for an arc between equals
-/// as `settings.sides` says. The difference of two curves is one side, which knows no order.
+/// The sides that make up the energy of a pair. Of surfaces' gaps the one that second_probes() says; for an
+/// arc between equals as `settings.sides` says. Else the cheaper probe set.
 std::span<const PairSide> pair_sides(const Body& A, const Body& B, const ContactSettings& settings);
 
 /// Terms of one side by the formulation of `settings`, weight `share`. `arc` and `nearest` look at `near`

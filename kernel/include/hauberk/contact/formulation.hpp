@@ -27,8 +27,9 @@ inline const char* name_of(Formulation f)
 /// How local minima of the distance are found: none missed, or from samples as published (`published` only).
 enum class MinimaSearch { certified, sampled };
 
-/// How accurately `arc` integrates: `fine` to 1e-8 and better of the energy, `rough` to about 3e-5 over
-/// surfaces and 1e-7 along lines, at half and two thirds of the cost, for stages that only lead on to others.
+/// How accurately `arc` integrates, in parts of the energy (tests/accuracy/quadrature_test.cpp): along lines
+/// `fine` to 1e-11 and `rough` to 1e-7; over surfaces `fine` mostly to 1e-7 and at worst to 5e-5, `rough` to
+/// 2e-4 and 1e-2. Rough costs three quarters and a fifth, for stages that only lead on to others.
 enum class Quadrature { fine, rough };
 
 /// Which of two equals an `arc` is integrated over: `both`, half each, so that labels do not matter; or
@@ -43,7 +44,7 @@ struct ContactSettings {
   MinimaSearch search = MinimaSearch::certified;
   /// Of `arc`: half-width of a panel over the distance to the integrand's nearest complex singularity. With
   /// y = 1/ratio the error of n-point Gauss falls like (y + sqrt(y^2 - 1))^(-2n): 5e-11 for n = 9 on lines,
-  /// 1e-8 for n = 7 on surfaces (rough: 1e-7 for n = 6, 3e-5 for n = 4) at the default, as far as the gap is
+  /// 1e-8 for n = 7 on surfaces (rough: 1e-7 for n = 6, 4e-4 for n = 3) at the default, as far as the gap is
   /// quadratic over a panel; smaller ratios serve to measure it.
   double panel_ratio = 0.5;
   Quadrature quadrature = Quadrature::fine;

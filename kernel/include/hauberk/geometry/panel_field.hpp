@@ -79,7 +79,8 @@ class NearPanels {
 template <int dim>
 class FirstPanels {
  public:
-  static constexpr int across = dim == 2 ? 4 : 1, along = 8, rows = along * across / 4;
+  static constexpr int across = dim == 2 ? 4 : 1, along = 8,
+                       rows = along * across / static_cast<int>(most_together);
 
   explicit FirstPanels(const Probe<dim>& probe, double turn = 0.0) : probe_(probe), turn_(turn)
   {
@@ -89,20 +90,20 @@ class FirstPanels {
   /// True where some of row k may be in range.
   bool meets(int k, const NearPanels& near) const
   {
-    for (int j = 0; j < 4; ++j)
-      if (near.meet(panel(k, j))) return true;
+    for (std::size_t j = 0; j < most_together; ++j)
+      if (near.meet(panel(k, static_cast<int>(j)))) return true;
     return false;
   }
 
   /// Row k, with places and without fields.
-  std::array<PanelField, 4> row(int k) const
+  std::array<PanelField, most_together> row(int k) const
   {
-    std::array<PanelField, 4> out;
-    for (int j = 0; j < 4; ++j) {
-      PanelField& p = out[static_cast<std::size_t>(j)];
-      p.s = panel(k, j);
+    std::array<PanelField, most_together> out;
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      PanelField& p = out[j];
+      p.s = panel(k, static_cast<int>(j));
       p.u = j > 0 && dim == 2 ? out[0].u : Angle(p.s.u);
-      if constexpr (dim == 2) p.v = v_[static_cast<std::size_t>(j)];
+      if constexpr (dim == 2) p.v = v_[j];
       p.q = probe_.at(p.u, p.v);
     }
     return out;
@@ -111,7 +112,8 @@ class FirstPanels {
  private:
   Panel panel(int k, int j) const
   {
-    if constexpr (dim == 1) return {center(4 * k + j, along), 0.0, std::numbers::pi / along, 0.0};
+    if constexpr (dim == 1)
+      return {center(static_cast<int>(most_together) * k + j, along), 0.0, std::numbers::pi / along, 0.0};
     return {center(k, along), center(j, across), std::numbers::pi / along, std::numbers::pi / across};
   }
   double center(int i, int count) const { return turn_ + (2 * i + 1) * std::numbers::pi / count; }

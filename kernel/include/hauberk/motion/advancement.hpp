@@ -31,8 +31,9 @@ struct SafeStep {
 /// Jiang 2021) with bounds of their speeds over rigid motions. Thread safe, deterministic; `threads` share
 /// the pairs of a large scene and never change a result.
 ///
-/// `bounds`, if given, says which pairs are too far apart to be looked at, and learns the gaps of others: of
-/// pairs with room to spare at least half of the gap is certified.
+/// `bounds`, if given, says which pairs, and which panels of others, are too far apart to be looked at, and
+/// is left with what was found of all panels. Of pairs with room to spare half of the gap is certified, if it
+/// can be. How far the step goes may depend on it; that it is safe does not.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep,
                            unsigned threads = 1, GapBounds* bounds = nullptr);
 

@@ -4,6 +4,7 @@
 #include <hauberk/geometry/pair_frame.hpp>
 #include <hauberk/mechanics/model.hpp>
 
+#include <cstddef>
 #include <unordered_map>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace hauberk {
 struct RelativePlace {
   Vec3 centre = Vec3::Zero();
   Mat3 rotation = Mat3::Identity();
+  double rounding = 0.0;  ///< of both, and of what is made of them
 
   RelativePlace() = default;
   RelativePlace(const Body& P, const Pose& pp, const Body& F, const Pose& pf);
@@ -21,8 +23,7 @@ struct RelativePlace {
   ///
   ///     |c' - c| + |R' - R| radius,
   ///
-  /// of the norm of a difference of rotations the spectral one, the Frobenius norm over sqrt(2); and
-  /// rounding.
+  /// of a difference of rotations the spectral norm, which is the Frobenius norm over sqrt(2); and rounding.
   double farthest(const RelativePlace& other, double radius) const;
 };
 
@@ -36,10 +37,16 @@ struct KnownPanel {
 struct KnownGap {
   RelativePlace place;             ///< of the body that probes, see second_probes()
   std::vector<KnownPanel> panels;  ///< all of the probe set, by rising bound; never empty
-  long from_scratch = 0;           ///< closest points that it took to begin with nothing known
+  long from_scratch = 0;           ///< closest points of the first look that began with nothing known
 
   /// How much smaller a gap may be at these poses of the elements of A and B.
   double lost(const Body& A, const Pose& pa, const Body& B, const Pose& pb) const;
+
+  /// Certified: no more than the gap at these poses.
+  double at_least(const Body& A, const Pose& pa, const Body& B, const Pose& pb) const
+  {
+    return panels.front().gap - lost(A, pa, B, pb);
+  }
 };
 
 /// What is known of the gaps of a model's bodies, from one step to the next. It belongs to placements, not to
@@ -50,11 +57,7 @@ class GapBounds {
   /// Of bodies a and b, b in this image; null where nothing is known. Until the next `remember`.
   const KnownGap* known(int a, int b, const Image& image) const;
 
-  /// Certified: no more than the gap of a and b at these poses of their elements. Zero, or less, where
-  /// nothing is known.
-  double at_least(const Model& model, int a, const Pose& pa, int b, const Image& image, const Pose& pb) const;
-
-  /// Puts this in the place of what was known of a and b.
+  /// Puts this in the place of what was known of a and b; nothing, where it is more than is worth keeping.
   void remember(int a, int b, const Image& image, KnownGap known);
 
  private:

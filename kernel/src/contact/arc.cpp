@@ -49,6 +49,22 @@ const GaussRule<n>& gauss_rule()
   return rule;
 }
 
+/// The rule's places on an interval about `middle`, in pairs on either side of it.
+template <int n>
+std::array<Angle, n> rule_angles(const Angle& middle, double half)
+{
+  const auto& x = gauss_rule<n>().x;
+  std::array<Angle, n> out;
+  std::size_t k = 0;
+  if (n % 2 == 1) out[k++] = middle;
+  for (; k < n; k += 2) {
+    const Angle by(half * x[k]);
+    out[k] = middle.turned(by);
+    out[k + 1] = middle.turned(by.reversed());
+  }
+  return out;
+}
+
 /// Half-width of the largest panels in each probe coordinate, radians.
 constexpr double widest_panel = 0.15;
 
@@ -256,7 +272,7 @@ class ArcIntegral {
     // be across the onset: looking for it on every line would take as long as the integral itself.
     const bool whole = g + probe_.Lu * s.hu + probe_.Lv * s.hv < settings_.g_hat;
     if (whole || (rough && dim == 2))
-      integrate(s);
+      integrate(p.u, p.v, s);
     else
       integrate_inside(s);
   }
@@ -306,7 +322,8 @@ class ArcIntegral {
     if constexpr (dim == 1) {
       inside_pieces([this](double u) { return line_point(u, Angle(u), {}); }, s.u - s.hu, s.u + s.hu,
                     [this](double from, double to) {
-                      integrate({0.5 * (from + to), 0.0, 0.5 * std::abs(to - from), 0.0});
+                      const Panel inside{0.5 * (from + to), 0.0, 0.5 * std::abs(to - from), 0.0};
+                      integrate(Angle(inside.u), {}, inside);
                     });
     } else {
       for (std::size_t i = 0; i < n; ++i) {
@@ -314,26 +331,22 @@ class ArcIntegral {
         const Angle at_u(s.u + s.hu * rule.x[i]);
         inside_pieces([&](double v) { return line_point(v, at_u, Angle(v)); }, s.v - s.hv, s.v + s.hv,
                       [&](double from, double to) {
-                        const Angle middle(0.5 * (from + to));
                         const double half = 0.5 * std::abs(to - from);
-                        std::array<Angle, n> at_v;
-                        for (std::size_t j = 0; j < n; ++j) at_v[j] = middle.turned(half * rule.x[j]);
-                        line(at_u, at_v, w * half);
+                        line(at_u, rule_angles<n>(Angle(0.5 * (from + to)), half), w * half);
                       });
       }
     }
   }
 
-  void integrate(const Panel& s)
+  /// Over a panel about (u, v).
+  void integrate(const Angle& u, const Angle& v, const Panel& s)
   {
-    const auto& rule = gauss_rule<n>();
-    const Angle middle_u(s.u), middle_v = dim == 2 ? Angle(s.v) : Angle();
-    std::array<Angle, n> at_u, at_v;
-    for (std::size_t j = 0; j < n; ++j) at_u[j] = middle_u.turned(s.hu * rule.x[j]);
-    for (std::size_t j = 0; dim == 2 && j < n; ++j) at_v[j] = middle_v.turned(s.hv * rule.x[j]);
+    const std::array<Angle, n> at_u = rule_angles<n>(u, s.hu);
     if constexpr (dim == 1) {
       nodes([&](std::size_t k) { return probe_.at(at_u[k], {}); }, weight_ * s.hu);
     } else {
+      const auto& rule = gauss_rule<n>();
+      const std::array<Angle, n> at_v = rule_angles<n>(v, s.hv);
       for (std::size_t i = 0; i < n; ++i) line(at_u[i], at_v, weight_ * s.hu * rule.w[i] * s.hv);
     }
   }
@@ -380,6 +393,10 @@ class ArcIntegral {
     }
   }
 
+  /// Part of a pair's force below which a zone is none: stray nodes at the rim of the range, beyond the width
+  /// of the zone that bears the load.
+  static constexpr double negligible = 1e-9;
+
   /// One resultant for each contact zone: nodes are taken by falling force and join the first zone near whose
   /// seed they lie: within a few widths sqrt(2 r g_hat), and no further than g_hat from the plane in which it
   /// touches. Where surfaces conform, a zone bends around a tube and is cut into as many as that takes: a
@@ -416,8 +433,10 @@ class ArcIntegral {
       home->weight += c.force;
       home->seed.gap = std::min(home->seed.gap, c.gap);
     }
+    double total = 0.0;
+    for (const Zone& z : zones) total += z.weight;
     for (const Zone& z : zones) {
-      if (z.weight <= 0.0) continue;
+      if (z.weight <= negligible * total) continue;
       ContactPoint c = z.seed;
       c.force = z.force.norm();
       c.normal = z.force / c.force;

@@ -116,13 +116,12 @@ PairTerms to_world(const SideTerms& side, const Mat3& M, const Vec3& xi, int ord
   H.bottomLeftCorner<3, 3>() = H.topRightCorner<3, 3>().transpose();
   H.bottomRightCorner<3, 3>() = M * local.bottomRightCorner<3, 3>() * M.transpose();
 
-  // First-order map (eta, w_P, w_F) -> (eta', w_P').
-  Eigen::Matrix<double, 6, 9> T = Eigen::Matrix<double, 6, 9>::Zero();
-  T.topLeftCorner<3, 3>().setIdentity();
-  T.block<3, 3>(0, 6) = X;
-  T.block<3, 3>(3, 3).setIdentity();
-  T.block<3, 3>(3, 6) = -Mat3::Identity();
-  t.hessian.noalias() = T.transpose() * (H * T);
+  // First-order map (eta, w_P, w_F) -> (eta', w_P') = (eta + X w_F, w_P - w_F), T = [I, (X; -I)]: T^T H T.
+  const Eigen::Matrix<double, 6, 3> K = H.leftCols<3>() * X - H.rightCols<3>();
+  t.hessian.topLeftCorner<6, 6>() = H;
+  t.hessian.topRightCorner<6, 3>() = K;
+  t.hessian.bottomLeftCorner<3, 6>() = K.transpose();
+  t.hessian.bottomRightCorner<3, 3>() = X.transpose() * K.topRows<3>() - K.bottomRows<3>();
 
   // Second-order parts: ge . (-w_F x eta + 1/2 w_F x (w_F x xi)) + gp . (-1/2 w_F x w_P).
   const Mat3 G = skew(ge);  // ge.(-w x eta) = w.(-(eta x ge)) = w . (ge x eta) = w^T G eta

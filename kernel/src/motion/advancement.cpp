@@ -66,8 +66,8 @@ void advance(Tight& tight, double clearance, double alpha, double keep, bool rem
   const Body &A = bodies.A, &B = bodies.B;
   const bool swap = second_probes(A, B);
   const Body &P = swap ? B : A, &F = swap ? A : B;
-  const Pose &pp = swap ? pair.pj : pair.pi, &pf = swap ? pair.pi : pair.pj;
   const Track &tp = swap ? pair.tj : pair.ti, &tf = swap ? pair.ti : pair.tj;
+  const Pose &pp = tp.pose, &pf = tf.pose;
   if (inside(PairFrame(P, pp, F, pf)) || inside(PairFrame(F, pf, P, pp))) return;
   const auto run = [&](auto&& pair_advance) {
     tight.alpha = pair_advance.run(alpha, keep, remember);
@@ -107,6 +107,7 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
   for (std::size_t k = 0; k < all.size() && out.alpha > 0.0; ++k) {
     const BodyPair& bodies = all[k];
     const CandidatePair& pair = *bodies.pair;
+    const Pose &pi = pair.ti.pose, &pj = pair.tj.pose;
     if (bodies.A.facets) {
       out.alpha = advance_facets(bodies.A, pair.ti, bodies.B, pair.tj, m.clearance, out.alpha, keep, out);
       continue;
@@ -114,9 +115,9 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
     const auto far = [&](double apart) {
       return apart > 0.0 && (1.0 - keep) * apart >= out.alpha * bodies.motion;
     };
-    if (far(ball_gap(bodies.A, pair.pi, bodies.B, pair.pj, m.clearance))) continue;
+    if (far(ball_gap(bodies.A, pi, bodies.B, pj, m.clearance))) continue;
     const KnownGap* known = bounds != nullptr ? bounds->known(bodies.a, bodies.b, pair.tj.image) : nullptr;
-    if (known != nullptr && far(known->at_least(bodies.A, pair.pi, bodies.B, pair.pj))) continue;
+    if (known != nullptr && far(known->at_least(bodies.A, pi, bodies.B, pj))) continue;
     ++out.tight_pairs;
     tight.push_back({&bodies, known});
     if (tight.size() == most) advance_all();

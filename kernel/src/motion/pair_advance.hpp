@@ -79,10 +79,12 @@ class PairAdvance {
 
   void begin(double s, double left)
   {
-    Pose pp, pf;
-    Vec3 vp, vf;
-    tp_.at(s, pp, vp);
-    tf_.at(s, pf, vf);
+    Pose pp = tp_.pose, pf = tf_.pose;
+    Vec3 vp = tp_.velocity, vf = tf_.velocity;
+    if (s > 0.0) {
+      tp_.at(s, pp, vp);
+      tf_.at(s, pf, vf);
+    }
     frame_ = PairFrame(P_, pp, F_, pf);
     touching_ = gap_rounding(frame_);
     const Mat3 Mt = frame_.M.transpose();
@@ -198,7 +200,7 @@ class PairAdvance {
   void replace_first(std::size_t k)
   {
     const auto lower = [](const KnownPanel& a, const KnownPanel& b) { return a.gap < b.gap; };
-    std::stable_sort(split_.begin(), split_.end(), lower);
+    std::sort(split_.begin(), split_.end(), lower);
     merged_.clear();
     merged_.reserve(split_.size() + gap_.panels.size() - k);
     std::merge(split_.begin(), split_.end(), gap_.panels.begin() + static_cast<std::ptrdiff_t>(k),

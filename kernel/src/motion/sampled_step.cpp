@@ -104,8 +104,8 @@ SafeStep sampled_safe_step(const Model& m, const State& from, const Vector& dy, 
         for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
           const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
           const double motion = pair.approach + pair.ti.w.norm() * A.reach + pair.tj.w.norm() * B.reach;
-          const Vec3 ca = pair.pi.position + pair.pi.rotation * A.center;
-          const Vec3 cb = pair.pj.position + pair.pj.rotation * B.center;
+          const Vec3 ca = pair.ti.pose.position + pair.ti.pose.rotation * A.center;
+          const Vec3 cb = pair.tj.pose.position + pair.tj.pose.rotation * B.center;
           if ((ca - cb).norm() - A.bound - B.bound - motion > m.clearance) continue;
           visit(pair, A, B, motion);
         }

@@ -13,9 +13,10 @@ Track::Track(const Model& model, const State& state, const Vector& step, int k, 
   acceleration = m->load->acceleration_bound(
       {state.macro.data(), nm}, {step.data(), nm}, {state.e.data() + k * nc, n}, {step.data() + o, n},
       m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
+  at(0.0, pose, velocity);
 }
 
-void Track::at(double s, Pose& pose, Vec3& velocity) const
+void Track::at(double s, Pose& there, Vec3& moving) const
 {
   const int nc = m->coordinate_count, nm = m->macro_count, o = m->offset(element);
   std::array<double, max_macro> macro{};
@@ -26,8 +27,8 @@ void Track::at(double s, Pose& pose, Vec3& velocity) const
   const auto i = static_cast<std::size_t>(element);
   m->load->position({macro.data(), static_cast<std::size_t>(nm)}, {e.data(), static_cast<std::size_t>(nc)},
                     m->rest[i].position, m->translation(image), map);
-  pose = {map.x, rotation_exp(s * w) * from->rotation[i]};
-  velocity = map.J.leftCols(nm) * dy->head(nm) + map.J.middleCols(nm, nc) * dy->segment(o, nc);
+  there = {map.x, rotation_exp(s * w) * from->rotation[i]};
+  moving = map.J.leftCols(nm) * dy->head(nm) + map.J.middleCols(nm, nc) * dy->segment(o, nc);
 }
 
 double wall_step(const Model& m, const State& from, const Vector& dy, double keep)
@@ -78,10 +79,7 @@ std::vector<ElementPair> pairs_of_patch(const Model& m, const State& from, const
   double farthest = 0.0;
   for (int i = 0; i < m.element_count(); ++i) {
     const Track track(m, from, dy, i, {0, 0});
-    Pose pose;
-    Vec3 velocity;
-    track.at(0.0, pose, velocity);
-    farthest = std::max(farthest, velocity.norm() + 0.5 * track.acceleration);
+    farthest = std::max(farthest, track.velocity.norm() + 0.5 * track.acceleration);
   }
   // Beyond rounding: what is as far as it may be is told apart below.
   return near_pairs(m, from, (m.clearance + 2.0 * farthest) * (1.0 + 1e-12) + 1e-12);
@@ -95,14 +93,11 @@ std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, co
   for (const ElementPair& pair :
        m.lattice.empty() ? pairs_of_patch(m, from, dy) : pairs_of_cell(m, from, dy)) {
     const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
-    Pose pi, pj;
-    Vec3 vi, vj;
-    ti.at(0.0, pi, vi);
-    tj.at(0.0, pj, vj);
     const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-    const double approach = (vi - vj).norm() + 0.5 * (ti.acceleration + tj.acceleration);
-    if ((pi.position - pj.position).norm() - m.reach[i] - m.reach[j] - approach > m.clearance) continue;
-    out.push_back({ti, tj, pi, pj, approach});
+    const double approach = (ti.velocity - tj.velocity).norm() + 0.5 * (ti.acceleration + tj.acceleration);
+    if ((ti.pose.position - tj.pose.position).norm() - m.reach[i] - m.reach[j] - approach > m.clearance)
+      continue;
+    out.push_back({ti, tj, approach});
   }
   return out;
 }

@@ -14,17 +14,18 @@ struct Track {
   Image image;
   Vec3 w;               ///< rotation vector of the whole step
   double acceleration;  ///< bound of |x''|
+  Pose pose;            ///< at the start, as
+  Vec3 velocity;        ///< this
 
   Track(const Model& model, const State& state, const Vector& step, int k, const Image& im);
 
   /// Pose and velocity at s.
-  void at(double s, Pose& pose, Vec3& velocity) const;
+  void at(double s, Pose& there, Vec3& moving) const;
 };
 
-/// Two elements that the step may bring together, at its start.
+/// Two elements that the step may bring together.
 struct CandidatePair {
   Track ti, tj;
-  Pose pi, pj;
   double approach;  ///< bound of how far the origins come together over the whole step
 };
 

@@ -66,9 +66,10 @@ class Path {
   {
     Stage s;
     s.contact = {f, g_hat, m_.clearance, schedule_.search};
-    s.contact.quadrature = last                       ? schedule_.last_quadrature
-                           : g_hat > schedule_.change ? Quadrature::rough
-                                                      : Quadrature::fine;
+    // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
+    s.contact.quadrature = g_hat > schedule_.change ? Quadrature::rough
+                           : last                   ? schedule_.last_quadrature
+                                                    : Quadrature::fine;
     if (!last && g_hat > schedule_.change) s.contact.sides = Sides::one;
     s.contact.threads = schedule_.threads;
     s.ccd = schedule_.ccd;
@@ -164,6 +165,8 @@ class Path {
       }
       if (out_.stages.back().g_hat < 2.0 * g_hat) break;
       out_.state = out_.trail.back();
+      out_.status = narrowest.status;  // what an attempt before this one said does not count
+      out_.message = narrowest.message;
       previous_.reset();
       if (!stage(g_hat, true)) {
         if (out_.status == LockStatus::interrupted) return;

@@ -34,7 +34,7 @@ struct Schedule {
   double stiffness = 0.03;  ///< sets gaps at equilibrium to about a tenth of g_hat
   double tolerance = 1e-3;  ///< of a stage, relative to its mu
   double last_tolerance = 1e-8;
-  /// Of the last stage; those before it only lead there, and are rough while wider than `change`.
+  /// Of the last stage, if it is not wider than `change`; stages that are are rough.
   Quadrature last_quadrature = Quadrature::fine;
   int most_iterations = 300;  ///< of a stage without noticeable decrease
   CollisionCheck ccd = CollisionCheck::certified;

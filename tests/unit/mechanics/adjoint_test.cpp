@@ -32,6 +32,7 @@ Schedule to(double last)
   Schedule schedule;
   schedule.first = 0.1;
   schedule.last = last;
+  schedule.change = last;  // integrated finely: what a rough integral is off, gradients do not know
   schedule.tolerance = schedule.last_tolerance = 1e-13;
   return schedule;
 }

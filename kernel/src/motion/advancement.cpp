@@ -69,7 +69,7 @@ void advance(Tight& tight, double clearance, double alpha, double keep, bool rem
   const Track &tp = swap ? pair.tj : pair.ti, &tf = swap ? pair.ti : pair.tj;
   const Pose &pp = tp.pose, &pf = tf.pose;
   if (inside(PairFrame(P, pp, F, pf)) || inside(PairFrame(F, pf, P, pp))) return;
-  const auto run = [&](auto&& pair_advance) {
+  const auto run = [&](auto pair_advance) {
     tight.alpha = pair_advance.run(alpha, keep, remember);
     tight.evaluations = pair_advance.evaluations();
     if (remember) tight.found = std::move(pair_advance).found();

@@ -174,7 +174,7 @@ std::optional<LinePoint> beyond_turn(At&& at, LinePoint a, LinePoint b)
 
 /// Calls piece(from, to) for the parts of a line on which the gap is below g_hat. The barrier is a power of
 /// (1 - x) there, and no more than twice differentiable at g_hat: Gauss's rule across that point has an error
-/// of 1e-4 of the energy, on the parts up to it one of 1e-8. The line is so short that the gap turns at most
+/// of 1e-5 of the energy, on the parts up to it one of 1e-7. The line is so short that the gap turns at most
 /// once on it.
 template <typename At, typename Piece>
 void inside_pieces(At&& at, double from, double to, Piece&& piece)

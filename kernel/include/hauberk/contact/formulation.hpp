@@ -29,7 +29,7 @@ enum class MinimaSearch { certified, sampled };
 
 /// How accurately `arc` integrates, in parts of the energy (tests/accuracy/quadrature_test.cpp): along lines
 /// `fine` to 1e-11 and `rough` to 1e-7; over surfaces `fine` mostly to 1e-7 and at worst to 5e-5, `rough` to
-/// 2e-4 and 1e-2. Rough costs three quarters and a fifth, for stages that only lead on to others.
+/// 2e-4 and 1e-2. Rough costs three quarters and a fifth, for stages wider than 3e-4 L.
 enum class Quadrature { fine, rough };
 
 /// Which of two equals an `arc` is integrated over: `both`, half each, so that labels do not matter; or

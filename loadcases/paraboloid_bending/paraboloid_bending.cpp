@@ -11,19 +11,20 @@ enum { ux = 3, uy };  // columns of an element's coordinates
 
 }  // namespace
 
-ParaboloidBending::ParaboloidBending() : macros_{{"A", -1}, {"B", -1}, {"C", -1}} {}
+ParaboloidBending::ParaboloidBending(Hold hold) : hold_(hold), macros_{{"A", -1}, {"B", -1}, {"C", -1}} {}
 
 void ParaboloidBending::do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
                                     const Vec3& T, PositionMap& out) const
 {
-  const double x = X.x() + T.x() + e[0];
-  const double y = X.y() + T.y() + e[1];
+  const double x = X.x() + T.x() + (hold_.places ? 0.0 : e[0]);
+  const double y = X.y() + T.y() + (hold_.places ? 0.0 : e[1]);
   out.x = Vec3(x, y, X.z() + T.z() + macro[A] * x * x + macro[B] * y * y + macro[C] * x * y);
-  out.J(0, ux) = 1.0;
-  out.J(1, uy) = 1.0;
   out.J(2, A) = x * x;
   out.J(2, B) = y * y;
   out.J(2, C) = x * y;
+  if (hold_.places) return;
+  out.J(0, ux) = 1.0;
+  out.J(1, uy) = 1.0;
   out.J(2, ux) = 2.0 * macro[A] * x + macro[C] * y;
   out.J(2, uy) = 2.0 * macro[B] * y + macro[C] * x;
 
@@ -46,6 +47,7 @@ double ParaboloidBending::do_acceleration_bound(std::span<const double> macro, s
                                                 std::span<const double> e, std::span<const double> de,
                                                 const Vec3& X, const Vec3& T) const
 {
+  if (hold_.places) return 0.0;  // z is linear in (A, B, C)
   // z is cubic in s, so z'' is linear: its size is largest at one of the ends. With q the quadratic form,
   // z'' = 4 q_dmacro(x + s dx, dx) + 2 q_(macro + s dmacro)(dx, dx).
   const auto form = [](double a, double b, double c, double x1, double y1, double x2, double y2) {
@@ -99,6 +101,7 @@ void ParaboloidBending::do_metric(std::span<double> m) const
 
 std::vector<LinearEquality> ParaboloidBending::do_equalities(std::span<const Vec3> X) const
 {
+  if (hold_.places) return {};
   LinearEquality mean_x{"mean x", {}};
   LinearEquality mean_y{"mean y", {}};
   LinearEquality turn{"turn about z", {}};
@@ -116,6 +119,25 @@ Boundedness ParaboloidBending::do_boundedness(std::span<const double> /*load*/,
                                               std::span<const Vec3> /*cycles*/) const
 {
   return Boundedness::attained;
+}
+
+std::vector<std::string> ParaboloidBending::do_hold() const
+{
+  std::vector<std::string> names;
+  if (hold_.places) names.emplace_back("places");
+  if (hold_.twist) names.emplace_back("twist");
+  if (hold_.transverse) names.emplace_back("transverse");
+  return names;
+}
+
+std::vector<MacroCondition> ParaboloidBending::do_conditions(double theta) const
+{
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  std::vector<MacroCondition> out;
+  if (hold_.twist) out.push_back({"twist", {-2.0 * c * s, 2.0 * c * s, c * c - s * s}});
+  if (hold_.transverse) out.push_back({"transverse", {2.0 * s * s, 2.0 * c * c, -2.0 * c * s}});
+  return out;
 }
 
 }  // namespace hauberk

@@ -15,13 +15,21 @@ namespace hauberk {
 /// normal curvature along n = (c, s) at the apex, 2 (A c^2 + B s^2 + C c s). Alone this would be unbounded:
 /// the patch would slide to where the paraboloid is flat, or turn to its softest direction. So it keeps its
 /// mean (x, y), and sum of X x (x - X) about z is zero.
+///
+/// With H = [[2 A, C], [C, 2 B]] and m = (-s, c), the twist n^T H m and the transverse curvature m^T H m may
+/// be held at zero. With places held every (x, y) stays at rest (equation (14) of Tang et al. 2025): elements
+/// have no coordinates but their rotation, and positions are affine in (A, B, C).
 class ParaboloidBending final : public LoadCase {
  public:
-  ParaboloidBending();
+  struct Hold {
+    bool places = false, twist = false, transverse = false;
+  };
+
+  explicit ParaboloidBending(Hold hold);
 
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
-  int do_coordinate_count() const override { return 2; }
+  int do_coordinate_count() const override { return hold_.places ? 0 : 2; }
   bool do_periodic() const override { return false; }
   void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override;
@@ -38,12 +46,15 @@ class ParaboloidBending final : public LoadCase {
   void do_metric(std::span<double> m) const override;
   std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override;
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
+  std::vector<std::string> do_hold() const override;
+  std::vector<MacroCondition> do_conditions(double theta) const override;
 
  private:
+  Hold hold_;
   std::vector<MacroInfo> macros_;
 };
 
-/// The fields of the load case's own settings: none.
+/// The fields of the load case's own settings.
 void paraboloid_bending_fields(std::vector<Field>& out);
 
 /// Builds the load case; `length` is L in file units.

@@ -54,6 +54,14 @@ struct LinearEquality {
   std::vector<LinearTerm> terms;
 };
 
+/// A condition on the macroscopic unknowns that a limit keeps at its locked state: coefficients . macro = 0.
+/// Its component X = coefficients . macro has the unit of the value, so that the reaction, d value / dX, has
+/// none.
+struct MacroCondition {
+  std::string name;
+  std::array<double, max_macro> coefficients{};  ///< the first macro_count() count
+};
+
 /// Whether contact can stop the load, decided from the link graph alone.
 enum class Boundedness { attained, unbounded, not_attained };
 
@@ -68,7 +76,7 @@ class LoadCase {
 
   const std::vector<MacroInfo>& macros() const { return do_macros(); }
   int macro_count() const { return static_cast<int>(do_macros().size()); }
-  /// Free coordinates of an element besides its rotation (1 .. 3).
+  /// Free coordinates of an element besides its rotation (0 .. 3).
   int coordinate_count() const { return do_coordinate_count(); }
   /// True if images of the cell exist (lattice vectors are needed).
   bool periodic() const { return do_periodic(); }
@@ -121,6 +129,13 @@ class LoadCase {
   /// Further values reported beside that of an angle, e.g. {"line_stretch", |F n| - 1}; none for components.
   std::vector<std::pair<std::string, double>> companions(const Direction& direction,
                                                          std::span<const double> macro) const;
+  /// Names of all that a limit holds: conditions on macroscopic unknowns, which angles alone have, and what no
+  /// motion changes (the places of elements).
+  std::vector<std::string> hold(const Direction& direction) const;
+  /// The conditions on the macroscopic unknowns among what is held, linearly independent. The path from rest
+  /// may break them, the locked state keeps them. Rest keeps all of them (they are homogeneous). Throws
+  /// PluginError when one is not finite or zero.
+  std::vector<MacroCondition> conditions(const Direction& direction) const;
   /// Names of the senses in experiment files, positive first: {"stretch", "compress"}.
   std::pair<std::string, std::string> sense_names() const { return do_sense_names(); }
   /// Name of a sense of a direction. Components have one of their own, "along"; against them is "against".
@@ -145,7 +160,12 @@ class LoadCase {
   {
     return do_boundedness(load, cycles);
   }
-  /// The same for a direction and sense.
+  /// The same for a load along an angle, in one of its senses, under the conditions held there.
+  Boundedness held_boundedness(double theta, std::span<const double> load, std::span<const Vec3> cycles) const
+  {
+    return do_held_boundedness(theta, load, cycles);
+  }
+  /// The same for a direction and sense, with what is held there.
   Boundedness boundedness(const Direction& direction, Sense sense, std::span<const Vec3> cycles) const;
 
  protected:
@@ -176,6 +196,14 @@ class LoadCase {
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
   virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
   virtual Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const = 0;
+  virtual std::vector<std::string> do_hold() const { return {}; }
+  virtual std::vector<MacroCondition> do_conditions(double) const { return {}; }
+  /// The load is that of the angle theta in one of its senses, and `do_conditions(theta)` hold. Attained is
+  /// the safe answer: the load is tried then.
+  virtual Boundedness do_held_boundedness(double, std::span<const double>, std::span<const Vec3>) const
+  {
+    return Boundedness::attained;
+  }
 };
 
 }  // namespace hauberk

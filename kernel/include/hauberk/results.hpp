@@ -65,6 +65,9 @@ struct LimitResult {
   std::vector<Pose> poses;     ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
   std::optional<double> force_balance;
+  std::vector<std::string> hold;  ///< what the limit holds
+  /// d value / d(held component) of the conditions among them, in their order.
+  std::vector<std::pair<std::string, double>> reactions;
   std::string contact;                     ///< formulation that finished: "nearest", "arc" or "published"
   std::optional<double> quadrature_error;  ///< of arc: part of the load by which finer panels change forces
   std::optional<double> finite_target;     ///< of the published objective; none: a constant load

@@ -165,13 +165,13 @@ class Computation {
     const LimitTask& limit = tasks_[task];
     const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
-    const Vector load = load_vector(model_, limit.direction, limit.sense);
+    const MacroLoad load = macro_load(model_, limit.direction, limit.sense);
     try {
       for (int k = 0; k < settings_.tilts; ++k) {
         const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
         const State from =
             perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
-        Locked found = lock(model_, from, tilted(model_, load, settings_, seed), settings_.contact,
+        Locked found = lock(model_, from, tilted(model_, load.pull, settings_, seed), settings_.contact,
                             settings_.schedule, keep_going);
         if (found.status == LockStatus::interrupted) return false;
         const std::vector<FoundState> known = found_of(task);

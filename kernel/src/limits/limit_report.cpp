@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,12 +64,20 @@ double allowed_imbalance(const LimitResult& r, double length)
          (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
 }
 
+/// The part of forces on all unknowns that neither the model's equalities nor conditions take up.
+Vector unheld(const Model& m, const Matrix& held, const Vector& forces)
+{
+  Vector out = free_part(m, forces);
+  out.head(m.macro_count) = within(held, out.head(m.macro_count));
+  return out;
+}
+
 /// Largest component of the energy's gradient, by the load that is not subtracted yet.
-double energy_imbalance(const Model& m, const Vector& load, const ContactEnergy& e, double mu)
+double energy_imbalance(const Model& m, const MacroLoad& load, const ContactEnergy& e, double mu)
 {
   Vector rest = mu * e.gradient;
-  rest.head(m.macro_count) -= load;
-  return free_part(m, rest).cwiseAbs().maxCoeff();
+  rest.head(m.macro_count) -= load.pull;
+  return unheld(m, load.held, rest).cwiseAbs().maxCoeff();
 }
 
 /// Contacts of the last stage, with what forces and sensitivities need.
@@ -94,14 +104,14 @@ const char* certificate_of_path(const Locked& l)
 /// Largest component by which the gradient of arc's energy changes with panels half as long, whose quadrature
 /// is better by orders of magnitude; times the stiffness. At the last stages rounding of the gap is part of
 /// it.
-double quadrature_error(const Model& m, const Locked& l, const ContactEnergy& e)
+double quadrature_error(const Model& m, const Matrix& held, const Locked& l, const ContactEnergy& e)
 {
   ContactSettings finer = l.stage.contact;
   finer.panel_ratio *= 0.5;
   Request request;
   request.order = 1;
   const ContactEnergy better = contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), finer, request);
-  return l.stage.mu * free_part(m, better.gradient - e.gradient).cwiseAbs().maxCoeff();
+  return l.stage.mu * unheld(m, held, better.gradient - e.gradient).cwiseAbs().maxCoeff();
 }
 
 /// Poses in file units; where a translation is free, their mean position is that of the rest state.
@@ -146,6 +156,7 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   r.direction = task.direction;
   r.sense = m.load->sense_name(task.direction, task.sense);
   r.measure = m.load->measure(task.direction);
+  r.hold = m.load->hold(task.direction);
   // Their names only: there is no state yet.
   const State rest = rest_state(m);
   r.companions = m.load->companions(task.direction, macro_span(m, rest));
@@ -153,12 +164,12 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   return r;
 }
 
-double force_imbalance(const Model& m, const State& s, const Vector& load,
-                       const std::vector<ContactEnergy::Point>& points, double mu)
+ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load,
+                           const std::vector<ContactEnergy::Point>& points, double mu)
 {
   // load + sum f dg/dy = 0: a gap opens when B's point moves along the normal and A's against it.
   Vector rest = Vector::Zero(m.dofs());
-  rest.head(m.macro_count) = load;
+  rest.head(m.macro_count) = load.pull;
   const int nm = m.macro_count, nc = m.coordinate_count;
   const auto push = [&](int element, const Image& image, const Vec3& point, const Vec3& force) {
     PositionMap map;
@@ -180,7 +191,11 @@ double force_imbalance(const Model& m, const State& s, const Vector& load,
     push(m.bodies[static_cast<std::size_t>(p.a)].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
     push(m.bodies[static_cast<std::size_t>(p.b)].element, p.image, p.contact.on_f, f * p.contact.normal);
   }
-  return free_part(m, rest).cwiseAbs().maxCoeff();
+  ForceBalance out;
+  if (load.held.cols() > 0)
+    out.reactions = Eigen::ColPivHouseholderQR<Matrix>(load.held).solve(rest.head(m.macro_count));
+  out.imbalance = unheld(m, load.held, rest).cwiseAbs().maxCoeff();
+  return out;
 }
 
 LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task,
@@ -220,17 +235,23 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   for (const ContactEnergy::Point& p : e.points)
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   // A finite target drives the strain less the nearer it is; imbalance is a part of the full load.
-  const Vector full_load = load_vector(m, task.direction, task.sense),
-               load = driving_load(s, full_load, l.stage);
+  const MacroLoad full_load = macro_load(m, task.direction, task.sense),
+                  load(driving_load(m, s, full_load.pull, l.stage), full_load.held);
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
-  const double full = full_load.norm(), driving = load.norm() / full;
-  r.force_balance = force_imbalance(m, s, load, e.points, l.stage.mu) / full;
+  const double full = full_load.pull.norm(), driving = load.pull.norm() / full;
+  const ForceBalance forces = force_balance(m, s, load, e.points, l.stage.mu);
+  r.force_balance = forces.imbalance / full;
+  const std::vector<MacroCondition> conditions = m.load->conditions(task.direction);
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    const double rise = forces.reactions[static_cast<Eigen::Index>(k)];
+    r.reactions.emplace_back(conditions[k].name, task.sense == Sense::positive ? rise : -rise);
+  }
   if (l.status == LockStatus::locked && *r.force_balance > unbalanced) {
     r.message = fmt::format(
         "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   }
   r.contact = l.pressed ? "constrained" : name_of(l.stage.contact.formulation);
-  if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, l, e) / full;
+  if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, load.held, l, e) / full;
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
   r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;

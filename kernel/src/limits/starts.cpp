@@ -78,7 +78,7 @@ Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings,
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going)
 {
-  return lock(m, from, load_vector(m, task.direction, task.sense), settings.contact,
+  return lock(m, from, macro_load(m, task.direction, task.sense), settings.contact,
               without_widest(settings.schedule), keep_going);
 }
 
@@ -91,7 +91,7 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
   const State from = perturbed(
       m, start_state(m, settings), small ? settings.perturbation : settings.further_perturbation,
       settings.seed + static_cast<std::uint64_t>(start), start == 0 ? Copies::alike : Copies::apart);
-  return lock(m, from, load_vector(m, task.direction, task.sense), settings.contact, settings.schedule,
+  return lock(m, from, macro_load(m, task.direction, task.sense), settings.contact, settings.schedule,
               keep_going);
 }
 

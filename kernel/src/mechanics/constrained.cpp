@@ -141,11 +141,11 @@ class Search {
       p.worst = std::max(p.worst, margin_ - r.gap);
     }
     Vector slope = Vector::Zero(m_.dofs());
-    slope.head(m_.macro_count) = -driving_load(state, load_, out_.stage) / size_;
+    slope.head(m_.macro_count) = -driving_load(m_, state, load_, out_.stage) / size_;
     p.gradient = scaled(slope);
     p.objective = -load_.dot(state.macro) / size_;
     if (std::isfinite(out_.stage.target))
-      p.objective += state.macro.squaredNorm() / (2.0 * out_.stage.target * size_);
+      p.objective += 0.5 * (load_ - driving_load(m_, state, load_, out_.stage)).dot(state.macro) / size_;
     p.state = std::move(state);
     return p;
   }

@@ -42,14 +42,14 @@ std::array<double, all> along(const Draw& d, double s)
 
 TEST(ParaboloidBending, RestIsThePlace)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const Vec3 X(1.0, -2.0, 0.3);
   EXPECT_EQ(position(load, {}, X).x, X);
 }
 
 TEST(ParaboloidBending, ElementsAreOnTheParaboloid)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const Vec3 x = position(load, {0.1, -0.2, 0.3, 0.5, -1.0}, {1.5, 3.0, 0.25}).x;
   EXPECT_NEAR((x - Vec3(2.0, 2.0, 0.25 + 0.4 - 0.8 + 1.2)).norm(), 0.0, 1e-15);
 }
@@ -58,7 +58,7 @@ TEST(ParaboloidBending, ElementsAreOnTheParaboloid)
 /// first differences have exactly one error term, and second ones none).
 TEST(ParaboloidBending, DerivativesAreExact)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::mt19937_64 rng(1);
   for (int repeat = 0; repeat < 50; ++repeat) {
     const Draw d = draw(rng);
@@ -87,7 +87,7 @@ TEST(ParaboloidBending, DerivativesAreExact)
 /// Never below what is sampled, and reached at one of the ends.
 TEST(ParaboloidBending, AccelerationIsBoundedTightly)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::mt19937_64 rng(2);
   for (int repeat = 0; repeat < 200; ++repeat) {
     const Draw d = draw(rng);
@@ -110,7 +110,7 @@ TEST(ParaboloidBending, AccelerationIsBoundedTightly)
 /// The value is the curvature of the section along n at the apex, and the load its derivative.
 TEST(ParaboloidBending, ValueIsTheCurvatureOfTheSection)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const std::array<double, 3> macro{0.3, -0.1, 0.25};
   for (const double degrees : {0.0, 17.0, 45.0, 90.0, 135.0}) {
     const double theta = degrees * std::numbers::pi / 180.0, h = 1e-3;
@@ -130,7 +130,7 @@ TEST(ParaboloidBending, ValueIsTheCurvatureOfTheSection)
 /// The norm of macroscopic unknowns does not depend on the frame.
 TEST(ParaboloidBending, MetricIsFrameIndependent)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::array<double, 3> m{};
   load.metric(m);
   const auto norm = [&](const Eigen::Matrix2d& Q) {
@@ -146,7 +146,7 @@ TEST(ParaboloidBending, MetricIsFrameIndependent)
 /// Translations and turns, and nothing that keeps the mean and the net turn, violate what is held.
 TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const std::vector<Vec3> X{{1, 0, 0}, {-1, 0.5, 0}, {0, -0.5, 0}};
   const auto equalities = load.equalities(X);
   ASSERT_EQ(equalities.size(), 3U);
@@ -171,7 +171,7 @@ TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
 
 TEST(ParaboloidBending, UnitsAndNames)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   EXPECT_FALSE(load.periodic());
   EXPECT_EQ(load.value_length_power(), -1);
   EXPECT_EQ(load.measure(), "normal_curvature");

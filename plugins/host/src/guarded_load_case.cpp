@@ -82,6 +82,18 @@ class GuardedLoadCase final : public LoadCase {
   {
     return guard_("boundedness", [&] { return inner_->boundedness(load, cycles); });
   }
+  std::vector<std::string> do_hold() const override
+  {
+    return guard_("hold", [&] { return inner_->hold(Direction()); });
+  }
+  std::vector<MacroCondition> do_conditions(double theta) const override
+  {
+    return guard_("conditions", [&] { return inner_->conditions(Direction::at_radians(theta)); });
+  }
+  Boundedness do_held_boundedness(double theta, Values load, std::span<const Vec3> cycles) const override
+  {
+    return guard_("held_boundedness", [&] { return inner_->held_boundedness(theta, load, cycles); });
+  }
 
  private:
   std::unique_ptr<LoadCase> inner_;

@@ -87,6 +87,10 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   json::array& contacts = out["contacts"].emplace_array();
   for (const ContactForce& contact : limit.contacts) contacts.push_back(contact_json(contact));
   out["force_balance"] = number(limit.force_balance);
+  out["hold"] = json::value_from(limit.hold);
+  json::array& reactions = out["reactions"].emplace_array();
+  for (const auto& [name, value] : limit.reactions)
+    reactions.push_back(json::object{{"name", name}, {"value", number(value)}});
   return out;
 }
 

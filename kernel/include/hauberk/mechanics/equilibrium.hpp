@@ -19,6 +19,9 @@ struct Stage {
   /// T of the published objective (paper equations (12) and (14)), 1/2 |macro - T load|^2: divided by T and
   /// without its constant, -load . macro + |macro|^2/(2 T). Infinite: the load alone.
   double target = std::numeric_limits<double>::infinity();
+  /// Draws macroscopic unknowns to where tether^T macro = 0: adds tether_stiffness / 2 |tether^T macro|^2.
+  Matrix tether;
+  double tether_stiffness = 0.0;
   /// Ends as `merging` at a state with a contact less curved than this (relative curvature, 1/L; nearest).
   double least_curvature = -std::numeric_limits<double>::infinity();
   bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
@@ -54,11 +57,11 @@ using KeepGoing = std::function<bool()>;
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going, GapBounds* bounds = nullptr);
 
-/// What drives the macroscopic unknowns in a state: the load, less macro/T where the target is finite. At an
-/// equilibrium the contact forces balance it.
-Vector driving_load(const State& state, const Vector& load, const Stage& stage);
+/// What drives the macroscopic unknowns in a state: the load, less macro/T where the target is finite, less
+/// what a tether pulls. At an equilibrium the contact forces balance it.
+Vector driving_load(const Model& model, const State& state, const Vector& load, const Stage& stage);
 
-/// -load . macro (+ |macro|^2/(2 T)) + mu contact, with derivatives as asked.
+/// -load . macro (+ |macro|^2/(2 T), + a tether's energy) + mu contact, with derivatives as asked.
 struct TotalEnergy {
   double energy = 0.0;
   Vector gradient;

@@ -2,6 +2,7 @@
 /// From a state to the locked state that a load drives it to: stages of falling activation distance.
 
 #include <hauberk/mechanics/equilibrium.hpp>
+#include <hauberk/mechanics/held_model.hpp>
 
 #include <optional>
 #include <string_view>
@@ -93,8 +94,11 @@ struct Locked {
 Vector load_vector(const Model& model, const Direction& direction, Sense sense);
 
 /// Runs all stages from `start`, or solves the constrained problem. Later stages start from the extrapolation
-/// of the last two, along which positions are linear in g_hat. Thread safe; deterministic.
-Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+/// of the last two, along which positions are linear in g_hat. What the load holds is kept from the first
+/// stage on; a start that breaks it (another direction's state) is brought there first, on a certified path;
+/// where contact keeps it from there the result is `stalled` and has no stages. Derivatives in `pressed` are
+/// those of the macroscopic unknowns that conditions leave. Thread safe; deterministic.
+Locked lock(const Model& model, const State& start, const MacroLoad& load, ContactChoice choice,
             const Schedule& schedule, const KeepGoing& keep_going);
 
 }  // namespace hauberk

@@ -44,6 +44,8 @@ struct Model {
 
   int macro_count = 0, coordinate_count = 0;
   Vector metric;  ///< squared displacement per squared unknown: weights of the norm of a step
+  /// G of the squared size macro . G macro that the published objective takes; empty: the identity.
+  Matrix macro_square;
 
   /// d (scaled position, R, r0, r1, harmonics of a body; quantity 0, 1, ...) / d parameter of its element
   /// (file units).

@@ -108,13 +108,14 @@ TEST(ForceNetworks, DoNotSeeRattlersAndSpins)
 TEST(ForceNetworks, KnowAPairFromBothSides)
 {
   const Model m = make_model(chain({5, 0.7, 0.7}, {5, 0.7, 0.7}, 13.0), flat, 0.0);
-  ContactEnergy::Point p, q;
+  ContactEnergy::Point p;
   p.a = 0;
   p.b = 1;
   p.image = {-1, 0, 0};
+  p.contact.on_p = p.contact.on_f = Vec3::Zero();
   p.contact.normal = Vec3::UnitX();
   p.contact.force = 2.0;
-  q = p;
+  ContactEnergy::Point q = p;
   std::swap(q.a, q.b);
   q.image = {1, 0, 0};
   q.contact.normal = -Vec3::UnitX();

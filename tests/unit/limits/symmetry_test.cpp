@@ -345,7 +345,9 @@ TEST(Symmetry, TasksAreCarriedWithTheirValues)
       }
     }
     // Only angles of solids leave the plane.
-    if (k.load != &solid) EXPECT_EQ(carried, 3 * static_cast<int>(k.points));
+    if (k.load != &solid) {
+      EXPECT_EQ(carried, 3 * static_cast<int>(k.points));
+    }
   }
 }
 

@@ -141,6 +141,20 @@ void InPlanePeriodic::do_metric(std::span<double> m) const
   m[exy] = 2.0;  // the Frobenius norm counts the shear twice
 }
 
+bool InPlanePeriodic::do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const
+{
+  if (!keeps_plane(O)) return false;
+  // F' = O F O^T.
+  Eigen::Matrix2d eps;
+  eps << macro[exx], macro[exy], macro[exy], macro[eyy];
+  const Eigen::Matrix2d O2 = O.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d turned = O2 * eps * O2.transpose();
+  out[exx] = turned(0, 0);
+  out[eyy] = turned(1, 1);
+  out[exy] = 0.5 * (turned(0, 1) + turned(1, 0));
+  return true;
+}
+
 std::vector<LinearInequality> InPlanePeriodic::do_inequalities(std::span<const Vec3> X) const
 {
   std::vector<LinearInequality> walls;

@@ -54,6 +54,7 @@ class InPlanePeriodic final : public LoadCase {
                                                             std::span<const double> macro) const override;
   std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
   void do_metric(std::span<double> m) const override;
+  bool do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const override;
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override;
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
   std::vector<std::string> do_hold() const override;

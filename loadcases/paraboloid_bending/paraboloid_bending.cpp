@@ -99,6 +99,23 @@ void ParaboloidBending::do_metric(std::span<double> m) const
   m[C] = 0.5;
 }
 
+bool ParaboloidBending::do_transform(const Mat3& O, std::span<const double> macro,
+                                     std::span<double> out) const
+{
+  if (!keeps_plane(O)) return false;
+  // z = x . K x with K = [[A, C/2], [C/2, B]]. Moved by O, z' = O_zz z at x' = O x: K' = O_zz O K O^T, so
+  // that what is turned upside down bends down for up. The mean of x' is zero with that of x, and the turn
+  // about z changes its sign at most.
+  Eigen::Matrix2d K;
+  K << macro[A], 0.5 * macro[C], 0.5 * macro[C], macro[B];
+  const Eigen::Matrix2d O2 = O.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d turned = (O(2, 2) > 0.0 ? 1.0 : -1.0) * O2 * K * O2.transpose();
+  out[A] = turned(0, 0);
+  out[B] = turned(1, 1);
+  out[C] = turned(0, 1) + turned(1, 0);
+  return true;
+}
+
 std::vector<LinearEquality> ParaboloidBending::do_equalities(std::span<const Vec3> X) const
 {
   if (hold_.places) return {};

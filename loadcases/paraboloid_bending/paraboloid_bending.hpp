@@ -44,6 +44,7 @@ class ParaboloidBending final : public LoadCase {
   int do_value_length_power() const override { return -1; }
   std::pair<std::string, std::string> do_sense_names() const override { return {"up", "down"}; }
   void do_metric(std::span<double> m) const override;
+  bool do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const override;
   std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override;
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
   std::vector<std::string> do_hold() const override;

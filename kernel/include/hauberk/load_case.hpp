@@ -148,6 +148,13 @@ class LoadCase {
   /// a strain, |X|^4 for a curvature.
   void metric(std::span<double> m) const { do_metric(m); }
 
+  /// The macroscopic unknowns of the state that the isometry with orthogonal part O makes of one with
+  /// `macro`: `out` has macro_count() entries and depends linearly on `macro`. It means that position(out,
+  /// e', O X, O T) = O position(macro, e, X, T) has a solution e' for all e, X, T, and that walls and what
+  /// equalities hold are mapped to themselves. False: O is no symmetry of this load case, or none is known;
+  /// `out` is then left undefined. The identity is always one. O may be improper (det O = -1).
+  bool transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const;
+
   /// Walls that act on element coordinates, for elements with rest positions X.
   std::vector<LinearInequality> inequalities(std::span<const Vec3> X) const { return do_inequalities(X); }
 
@@ -193,6 +200,7 @@ class LoadCase {
   }
   virtual std::pair<std::string, std::string> do_sense_names() const = 0;
   virtual void do_metric(std::span<double> m) const = 0;
+  virtual bool do_transform(const Mat3&, std::span<const double>, std::span<double>) const { return false; }
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
   virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
   virtual Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const = 0;

@@ -63,6 +63,23 @@ double LoadCase::value(const Direction& direction, std::span<const double> macro
   return sum;
 }
 
+bool LoadCase::transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const
+{
+  const auto macros = static_cast<std::size_t>(macro_count());
+  if (macro.size() != macros || out.size() != macros) {
+    throw PluginError("load case: expected " + std::to_string(macros) + " macroscopic unknowns, found " +
+                      std::to_string(macro.size()) + " and " + std::to_string(out.size()));
+  }
+  if (O == Mat3::Identity()) {
+    std::copy(macro.begin(), macro.end(), out.begin());
+    return true;
+  }
+  if (!do_transform(O, macro, out)) return false;
+  if (!std::all_of(out.begin(), out.end(), [](double x) { return std::isfinite(x); }))
+    throw PluginError("load case: a transformed macroscopic unknown is not finite");
+  return true;
+}
+
 std::vector<std::pair<std::string, double>> LoadCase::companions(const Direction& direction,
                                                                  std::span<const double> macro) const
 {

@@ -196,6 +196,26 @@ TEST(InPlanePeriodic, LineStretch)
   EXPECT_NEAR(flat.companions(Direction::at_radians(0.0), tiny)[0].second, 1e-14, 1e-28);
 }
 
+TEST(InPlanePeriodic, TransformsWithTheSheet)
+{
+  Mat3 mirror = Mat3::Identity(), over = Mat3::Identity();
+  mirror(0, 0) = over(2, 2) = -1.0;
+  const Mat3 turn = rotation_exp(Vec3(0.0, 0.0, 0.7));
+  const Vec3 X(1.5, -2.5, 0.75), T(3, 4, 0);
+  std::vector<double> out(3);
+  for (const Mat3& O : {turn, Mat3(turn * mirror), Mat3(turn * over), Mat3(-turn)}) {
+    ASSERT_TRUE(flat.transform(O, strain, out));
+    PositionMap before, after;
+    flat.position(strain, std::vector<double>(2, 0.0), X, T, before);
+    flat.position(out, std::vector<double>(2, 0.0), O * X, O * T, after);
+    EXPECT_LT((after.x - O * before.x).norm(), 1e-14);
+  }
+  EXPECT_FALSE(flat.transform(rotation_exp(Vec3(0.1, 0.0, 0.0)), strain, out));
+  EXPECT_TRUE(flat.transform(Mat3::Identity(), strain, out));
+  EXPECT_EQ(out, strain);
+  EXPECT_THROW(flat.transform(turn, std::vector<double>(2, 0.0), out), PluginError);
+}
+
 TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
 {
   const std::vector<Vec3> X = {Vec3(0, 0, 5), Vec3(1, 0, 0), Vec3(0, 1, -2)};

@@ -169,6 +169,28 @@ TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(violation(k, scaled), 0.0, 1e-15);
 }
 
+/// What moves the patch moves the paraboloid: turned over, it bends down for up.
+TEST(ParaboloidBending, TransformsWithTheSheet)
+{
+  const ParaboloidBending load;
+  std::mt19937_64 rng(5);
+  Mat3 mirror = Mat3::Identity(), over = Mat3::Identity();
+  mirror(0, 0) = over(2, 2) = -1.0;
+  const Mat3 turn = rotation_exp(Vec3(0.0, 0.0, 0.7));
+  for (const Mat3& O : {turn, Mat3(turn * mirror), Mat3(turn * over), Mat3(-turn)}) {
+    const Draw d = draw(rng);
+    const std::span<const double> macro = std::span(d.y).first(macros);
+    std::array<double, all> y{};
+    ASSERT_TRUE(load.transform(O, macro, std::span(y).first(macros)));
+    const Vec3 u = O * Vec3(d.y[3], d.y[4], 0.0);
+    y[3] = u.x();
+    y[4] = u.y();
+    EXPECT_LT((position(load, y, O * d.X).x - O * position(load, d.y, d.X).x).norm(), 1e-13);
+  }
+  std::array<double, macros> out{};
+  EXPECT_FALSE(load.transform(rotation_exp(Vec3(0.1, 0.0, 0.0)), std::array{1.0, 2.0, 3.0}, out));
+}
+
 TEST(ParaboloidBending, UnitsAndNames)
 {
   const ParaboloidBending load({});

@@ -70,6 +70,10 @@ class GuardedLoadCase final : public LoadCase {
   {
     guard_("metric", [&] { inner_->metric(m); });
   }
+  bool do_transform(const Mat3& O, Values macro, std::span<double> out) const override
+  {
+    return guard_("transform", [&] { return inner_->transform(O, macro, out); });
+  }
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override
   {
     return guard_("inequalities", [&] { return inner_->inequalities(X); });

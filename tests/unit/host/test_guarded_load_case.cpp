@@ -88,6 +88,12 @@ class Odd final : public LoadCase {
     maybe_fail();
     return {{"held", {{0, 1, static_cast<double>(X.size())}}}};
   }
+  bool do_transform(const Mat3& O, Values macro, std::span<double> out) const override
+  {
+    maybe_fail();
+    out[0] = O(0, 1) * macro[0];
+    return O(2, 2) > 0.0;
+  }
   Boundedness do_boundedness(Values load, std::span<const Vec3> cycles) const override
   {
     maybe_fail();
@@ -136,6 +142,10 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   load_case->load(turned, out);
   EXPECT_EQ(out[0], 0.75);
   EXPECT_EQ(load_case->value(turned, macro), 5.75);
+  const Mat3 turn = rotation_exp(Vec3(0, 0, -0.5 * std::numbers::pi));
+  EXPECT_TRUE(load_case->transform(turn, macro, out));
+  EXPECT_NEAR(out[0], 0.5, 1e-15);
+  EXPECT_FALSE(load_case->transform(-turn, macro, out));
   EXPECT_EQ(load_case->measure(), "odd");
   EXPECT_EQ(load_case->value_length_power(), -3);
   EXPECT_EQ(load_case->companions(turned, macro), (std::vector<std::pair<std::string, double>>{{"c", 0.25}}));

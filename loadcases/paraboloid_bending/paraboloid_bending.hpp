@@ -15,8 +15,16 @@ namespace hauberk {
 /// normal curvature along n = (c, s) at the apex, 2 (A c^2 + B s^2 + C c s). Alone this would be unbounded:
 /// the patch would slide to where the paraboloid is flat, or turn to its softest direction. So it keeps its
 /// mean (x, y), and sum of X x (x - X) about z is zero.
+///
+/// A paraboloid keeps no lengths: where no contact stops it, a patch turns into a hairpin, which is a state
+/// of rings hung on each other and none of a fabric. So a state counts while it is a sheet on the scale of
+/// its elements: the largest curvature times the largest radius of an element stays below `most_curvature`,
+/// and linked elements stay nearer along the surface than `most_stretch` times their distance at rest, or
+/// times the mean of their radii where that is longer.
 class ParaboloidBending final : public LoadCase {
  public:
+  static constexpr double most_curvature = 2.0, most_stretch = 3.0;
+
   ParaboloidBending();
 
  protected:
@@ -38,6 +46,7 @@ class ParaboloidBending final : public LoadCase {
   void do_metric(std::span<double> m) const override;
   std::vector<LinearEquality> do_equalities(std::span<const Vec3> X) const override;
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
+  std::string do_not_a_sheet(const SheetState& state) const override;
 
  private:
   std::vector<MacroInfo> macros_;

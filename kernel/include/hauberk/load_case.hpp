@@ -54,6 +54,15 @@ struct LinearEquality {
   std::vector<LinearTerm> terms;
 };
 
+/// A state of a cell or patch as one asks whether it still is a sheet. Scaled lengths.
+struct SheetState {
+  std::span<const double> macro;
+  std::span<const double> e;                   ///< coordinate_count() numbers for each element
+  std::span<const Vec3> X;                     ///< rest positions
+  std::span<const double> radius;              ///< of a sphere about an element's origin that holds it
+  std::span<const std::array<int, 2>> linked;  ///< elements of the patch, each pair once
+};
+
 /// Whether contact can stop the load, decided from the link graph alone.
 enum class Boundedness { attained, unbounded, not_attained };
 
@@ -148,6 +157,11 @@ class LoadCase {
   /// The same for a direction and sense.
   Boundedness boundedness(const Direction& direction, Sense sense, std::span<const Vec3> cycles) const;
 
+  /// Why the elements of a state no longer form a sheet on the scale of one element: what is passed, where,
+  /// and what is allowed, for people and without units. Empty where they form one. Such a state is no limit,
+  /// and no path leads through it: a computation ends there.
+  std::string not_a_sheet(const SheetState& state) const { return do_not_a_sheet(state); }
+
  protected:
   virtual const std::vector<MacroInfo>& do_macros() const = 0;
   virtual int do_coordinate_count() const = 0;
@@ -176,6 +190,7 @@ class LoadCase {
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
   virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
   virtual Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const = 0;
+  virtual std::string do_not_a_sheet(const SheetState&) const { return {}; }
 };
 
 }  // namespace hauberk

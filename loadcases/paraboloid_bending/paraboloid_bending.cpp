@@ -1,5 +1,7 @@
 #include "paraboloid_bending.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,30 @@ namespace {
 
 enum { A, B, C };     // order of the macroscopic unknowns
 enum { ux = 3, uy };  // columns of an element's coordinates
+
+/// Largest curvature of the paraboloid: at the apex, |eigenvalue| of [[2 A, C], [C, 2 B]]. Anywhere else the
+/// surface curves less, since its slope divides the same second derivatives by more.
+double largest_curvature(std::span<const double> macro)
+{
+  const double mean = macro[A] + macro[B];
+  return std::abs(mean) + std::hypot(macro[A] - macro[B], macro[C]);
+}
+
+/// Length of the curve on the paraboloid above the straight line from (x, y) to (x + dx, y + dy): of a
+/// parabola of slope b at the start and b + 2 a at the end over a length d, in units of d.
+double length_along(std::span<const double> macro, double x, double y, double dx, double dy)
+{
+  const double d = std::hypot(dx, dy);
+  if (!(d > 0.0)) return 0.0;
+  const double a = (macro[A] * dx * dx + macro[B] * dy * dy + macro[C] * dx * dy) / d;
+  const double b = (2.0 * macro[A] * x * dx + 2.0 * macro[B] * y * dy + macro[C] * (x * dy + y * dx)) / d;
+  constexpr double straight = 1e-4;  // where slopes change by less, their mean is exact to nine digits
+  if (std::abs(a) < straight) return d * std::hypot(1.0, b + a);
+  const auto primitive = [](double slope) {
+    return 0.5 * (slope * std::hypot(1.0, slope) + std::asinh(slope));
+  };
+  return d * (primitive(b + 2.0 * a) - primitive(b)) / (2.0 * a);
+}
 
 }  // namespace
 
@@ -155,6 +181,36 @@ std::vector<MacroCondition> ParaboloidBending::do_conditions(double theta) const
   if (hold_.twist) out.push_back({"twist", {-2.0 * c * s, 2.0 * c * s, c * c - s * s}});
   if (hold_.transverse) out.push_back({"transverse", {2.0 * s * s, 2.0 * c * c, -2.0 * c * s}});
   return out;
+}
+
+std::string ParaboloidBending::do_not_a_sheet(const SheetState& state) const
+{
+  const auto widest = std::max_element(state.radius.begin(), state.radius.end());
+  if (widest == state.radius.end()) return {};
+  const double curvature = largest_curvature(state.macro) * *widest;
+  if (!(curvature < most_curvature)) {
+    return fmt::format(
+        "no sheet on the scale of its elements: at the apex the radius of curvature is {:.3g} times that of "
+        "element {}, which counts above {:g}",
+        1.0 / curvature, widest - state.radius.begin(), 1.0 / most_curvature);
+  }
+  const std::size_t own = state.e.size() / state.X.size();
+  const auto place = [&](int k, std::size_t axis) {
+    const auto i = static_cast<std::size_t>(k);
+    return state.X[i][static_cast<Eigen::Index>(axis)] + (axis < own ? state.e[i * own + axis] : 0.0);
+  };
+  for (const auto& [i, j] : state.linked) {
+    const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+    const double x = place(i, 0), y = place(i, 1);
+    const double along = length_along(state.macro, x, y, place(j, 0) - x, place(j, 1) - y);
+    const double unit = std::max((state.X[l] - state.X[k]).norm(), 0.5 * (state.radius[k] + state.radius[l]));
+    if (along < most_stretch * unit) continue;
+    return fmt::format(
+        "no sheet on the scale of its elements: along the surface the linked elements {} and {} are {:.3g} "
+        "times as far apart as at rest or as their mean radius, whichever is longer, which counts below {:g}",
+        i, j, along / unit, most_stretch);
+  }
+  return {};
 }
 
 }  // namespace hauberk

@@ -19,8 +19,16 @@ namespace hauberk {
 /// With H = [[2 A, C], [C, 2 B]] and m = (-s, c), the twist n^T H m and the transverse curvature m^T H m may
 /// be held at zero. With places held every (x, y) stays at rest (equation (14) of Tang et al. 2025): elements
 /// have no coordinates but their rotation, and positions are affine in (A, B, C).
+///
+/// A paraboloid keeps no lengths: where no contact stops it, a patch turns into a hairpin, which is a state
+/// of rings hung on each other and none of a fabric. So a state counts while it is a sheet on the scale of
+/// its elements: the largest curvature times the largest radius of an element stays below `most_curvature`,
+/// and linked elements stay nearer along the surface than `most_stretch` times their distance at rest, or
+/// times the mean of their radii where that is longer.
 class ParaboloidBending final : public LoadCase {
  public:
+  static constexpr double most_curvature = 2.0, most_stretch = 3.0;
+
   struct Hold {
     bool places = false, twist = false, transverse = false;
   };
@@ -49,6 +57,7 @@ class ParaboloidBending final : public LoadCase {
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
   std::vector<std::string> do_hold() const override;
   std::vector<MacroCondition> do_conditions(double theta) const override;
+  std::string do_not_a_sheet(const SheetState& state) const override;
 
  private:
   Hold hold_;

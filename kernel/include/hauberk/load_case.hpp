@@ -62,6 +62,15 @@ struct MacroCondition {
   std::array<double, max_macro> coefficients{};  ///< the first macro_count() count
 };
 
+/// A state of a cell or patch as one asks whether it still is a sheet. Scaled lengths.
+struct SheetState {
+  std::span<const double> macro;
+  std::span<const double> e;                   ///< coordinate_count() numbers for each element
+  std::span<const Vec3> X;                     ///< rest positions
+  std::span<const double> radius;              ///< of a sphere about an element's origin that holds it
+  std::span<const std::array<int, 2>> linked;  ///< elements of the patch, each pair once
+};
+
 /// Whether contact can stop the load, decided from the link graph alone.
 enum class Boundedness { attained, unbounded, not_attained };
 
@@ -175,6 +184,11 @@ class LoadCase {
   /// The same for a direction and sense, with what is held there.
   Boundedness boundedness(const Direction& direction, Sense sense, std::span<const Vec3> cycles) const;
 
+  /// Why the elements of a state no longer form a sheet on the scale of one element: what is passed, where,
+  /// and what is allowed, for people and without units. Empty where they form one. Such a state is no limit,
+  /// and no path leads through it: a computation ends there.
+  std::string not_a_sheet(const SheetState& state) const { return do_not_a_sheet(state); }
+
  protected:
   virtual const std::vector<MacroInfo>& do_macros() const = 0;
   virtual int do_coordinate_count() const = 0;
@@ -212,6 +226,7 @@ class LoadCase {
   {
     return Boundedness::attained;
   }
+  virtual std::string do_not_a_sheet(const SheetState&) const { return {}; }
 };
 
 }  // namespace hauberk

@@ -5,6 +5,7 @@
 #include <hauberk/direction.hpp>
 #include <hauberk/scene.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,8 +14,14 @@
 
 namespace hauberk {
 
-enum class LimitStatus { locked, unbounded, not_attained, stalled, failed, interrupted };
+enum class LimitStatus { locked, unbounded, not_attained, stalled, failed, interrupted, not_a_sheet };
+/// All of them, in the order of the enumeration.
+inline constexpr std::array all_limit_statuses = {
+    LimitStatus::locked, LimitStatus::unbounded,   LimitStatus::not_attained, LimitStatus::stalled,
+    LimitStatus::failed, LimitStatus::interrupted, LimitStatus::not_a_sheet};
 std::string to_string(LimitStatus status);
+/// True of what ends a question: there is a limit, or there is none. False: nothing is known.
+bool is_answer(LimitStatus status);
 
 /// One contact force at a locked state. For `arc`, one resultant per pair and side.
 struct ContactForce {
@@ -62,7 +69,13 @@ struct LimitResult {
   std::optional<double> sensitivity_clearance;
   std::vector<std::pair<std::string, double>>
       sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter
-  std::vector<Pose> poses;     ///< of the cell's elements at the limit, absolute
+  /// At a kink, where contact forces are not unique: derivatives towards smaller and larger clearances or
+  /// parameters (in the order of sensitivity_parameters).
+  using OneSided = std::array<double, 2>;
+  bool kink = false;
+  OneSided clearance_one_sided{};
+  std::vector<OneSided> parameters_one_sided;
+  std::vector<Pose> poses;  ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
   std::optional<double> force_balance;
   std::vector<std::string> hold;  ///< what the limit holds

@@ -1,5 +1,7 @@
 #include "limit_report.hpp"
 
+#include "kinks.hpp"
+
 #include <hauberk/mechanics/gaps.hpp>
 
 #include <fmt/format.h>
@@ -148,6 +150,52 @@ ContactForce reported_contact(const Model& m, const ContactEnergy::Point& p, dou
   return c;
 }
 
+/// The state itself: macroscopic unknowns, poses, gaps and links.
+Vec3 fill_state(LimitResult& r, const Model& m, const State& s)
+{
+  for (int k = 0; k < m.macro_count; ++k) {
+    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
+    r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
+  }
+  r.min_gap = smallest_gap(m, s, gap_range) * m.length;
+  r.links_kept = links_kept(m, s);
+  r.z_range = z_range(m, s) * m.length;
+  Vec3 shift;
+  r.poses = reported_poses(m, s, shift);
+  return shift;
+}
+
+void fill_kink(LimitResult& r, const Model& m, const LimitTask& task, const Locked& l)
+{
+  const std::optional<OneSidedSensitivities> sides = one_sided_sensitivities(m, task, l);
+  if (!sides) return;
+  const double scale = power(m.length, m.load->value_length_power());
+  const auto times = [](const std::array<double, 2>& x, double by) {
+    return std::array{x[0] * by, x[1] * by};
+  };
+  r.kink = true;
+  r.clearance_one_sided = times(sides->clearance, scale / m.length);
+  for (const auto& p : sides->parameters) r.parameters_one_sided.push_back(times(p, scale));
+}
+
+std::string certificate_of(const Model& m, const Locked& l, double gap)
+{
+  return fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l), m.links.size(), gap);
+}
+
+/// Where no contact stops a patch while it is a sheet there is no limit, and the state shows why.
+void fill_without_limit(LimitResult& r, const Model& m, const Locked& l)
+{
+  fill_state(r, m, l.state);
+  r.message = l.message +
+              "; contact does not stop this patch before: it needs thicker tubes, smaller rings or shorter "
+              "distances between linked elements";
+  r.certificate = certificate_of(m, l, *r.min_gap);
+  if (r.links_kept && *r.min_gap > 0.0) return;
+  r.status = LimitStatus::failed;
+  r.message = "a link was lost or surfaces overlap: the collision check failed";
+}
+
 }  // namespace
 
 LimitResult limit_header(const Model& m, const LimitTask& task)
@@ -205,6 +253,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   r.status = l.status == LockStatus::locked        ? LimitStatus::locked
              : l.status == LockStatus::interrupted ? LimitStatus::interrupted
              : l.status == LockStatus::unbounded   ? LimitStatus::failed
+             : l.status == LockStatus::not_a_sheet ? LimitStatus::not_a_sheet
                                                    : LimitStatus::stalled;
   r.message = l.message;
   if (l.status == LockStatus::unbounded) {
@@ -214,22 +263,18 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   }
   r.iterations = l.iterations;
   r.evaluations = l.evaluations;
+  if (l.status == LockStatus::not_a_sheet) {
+    fill_without_limit(r, m, l);
+    return r;
+  }
   if (l.stages.empty()) return r;
 
   const double scale = power(m.length, m.load->value_length_power());
   const State& s = l.state;
   r.value = m.load->value(task.direction, macro_span(m, s)) * scale;
   r.companions = m.load->companions(task.direction, macro_span(m, s));
-  for (int k = 0; k < m.macro_count; ++k) {
-    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
-    r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
-  }
   if (l.error_estimate) r.error_estimate = *l.error_estimate * scale;
-  r.min_gap = smallest_gap(m, s, gap_range) * m.length;
-  r.links_kept = links_kept(m, s);
-  r.z_range = z_range(m, s) * m.length;
-  Vec3 shift;
-  r.poses = reported_poses(m, s, shift);
+  const Vec3 shift = fill_state(r, m, s);
 
   const ContactEnergy e = l.pressed ? *l.pressed : contacts_of(m, l);
   for (const ContactEnergy::Point& p : e.points)
@@ -263,8 +308,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                             sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
     }
   }
-  r.certificate = fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l),
-                              m.links.size(), *r.min_gap);
+  if (l.status == LockStatus::locked) fill_kink(r, m, task, l);
+  r.certificate = certificate_of(m, l, *r.min_gap);
   if (r.status == LimitStatus::locked && !(driving > least_drive)) {
     r.status = LimitStatus::failed;
     r.message = fmt::format(

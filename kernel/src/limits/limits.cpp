@@ -3,6 +3,8 @@
 #include <hauberk/limits/limits.hpp>
 #include <hauberk/mechanics/gaps.hpp>
 
+#include <algorithm>
+
 namespace hauberk {
 namespace {
 
@@ -61,9 +63,14 @@ double reached(const Model& m, const LimitTask& task, const State& state)
 LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task,
                       const LimitSettings& settings, const std::vector<FoundState>& found)
 {
-  // The furthest sound locked state; if there is none, the first start tells what happened.
+  // The furthest sound locked state; if there is none, a search that came to an end for a reason tells it,
+  // else the first start what happened.
   const std::optional<std::size_t> sound_best = furthest(m, task, settings, found);
-  std::size_t best = sound_best.value_or(0);
+  const auto ended = std::find_if(found.begin(), found.end(), [](const FoundState& f) {
+    return f.locked.status == LockStatus::not_a_sheet;
+  });
+  std::size_t best =
+      sound_best.value_or(ended == found.end() ? 0 : static_cast<std::size_t>(ended - found.begin()));
   LimitResult r = fill_limit(m, spec, task, settings, found[best].locked);
   if (sound_best && r.status == LimitStatus::stalled) {
     // Its forces do not balance. Another search may have ended at the same state with forces that do.
@@ -84,7 +91,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
     r.evaluations += k == best ? 0 : found[k].locked.evaluations;
     if (sound(m, found[k].locked, settings.schedule)) add_start(r.starts, m, task, found[k]);
   }
-  r.better_state = best != 0;
+  r.better_state = sound_best && best != 0;
   return r;
 }
 

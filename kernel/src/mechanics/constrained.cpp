@@ -90,6 +90,8 @@ class Search {
     for (;; ++out_.iterations) {
       if (!keep_going_()) return finish(LockStatus::interrupted, "interrupted");
       if (runaway()) return finish(LockStatus::unbounded, "the strain leaves every bound");
+      if (std::string why = not_a_sheet(m_, now_.state); !why.empty())
+        return finish(LockStatus::not_a_sheet, std::move(why));
       QuadraticSolution step = direction();
       if (step.status != QuadraticSolution::Status::solved)
         return finish(LockStatus::stalled, "no step keeps the linearised gaps");

@@ -171,6 +171,8 @@ class Newton {
       now = std::move(next);
       curvature_ = curvature_of(m_, now, order_);
       if (runaway()) return finish(now, StageStatus::unbounded, "the strain leaves every bound");
+      if (std::string why = not_a_sheet(m_, state_); !why.empty())
+        return finish(now, StageStatus::not_a_sheet, std::move(why));
     }
   }
 

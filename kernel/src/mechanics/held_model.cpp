@@ -66,6 +66,13 @@ class SubspaceLoadCase final : public LoadCase {
   std::pair<std::string, std::string> do_sense_names() const override { return inner_.sense_names(); }
   void do_metric(std::span<double> m) const override { std::fill(m.begin(), m.end(), 1.0); }
   Boundedness do_boundedness(Values, std::span<const Vec3>) const override { return Boundedness::attained; }
+  std::string do_not_a_sheet(const SheetState& state) const override
+  {
+    Macros macro;
+    SheetState there = state;
+    there.macro = full(state.macro, macro);
+    return inner_.not_a_sheet(there);
+  }
 
  private:
   static constexpr const char* no_angles = "a load case restricted by conditions has no angles";

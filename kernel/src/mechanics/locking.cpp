@@ -101,6 +101,9 @@ class Path {
       case StageStatus::unbounded:
         out_.status = LockStatus::unbounded;
         break;
+      case StageStatus::not_a_sheet:
+        out_.status = LockStatus::not_a_sheet;
+        break;
       default:
         out_.status = LockStatus::stalled;
     }

@@ -16,19 +16,42 @@
 namespace hauberk {
 namespace {
 
+/// Orthonormal columns that span the translations of link cycles.
+Eigen::Matrix<double, 3, Eigen::Dynamic> linked_space(const Model& m)
+{
+  constexpr double independent = 1e-9;  // of the longest translation
+  const std::vector<Vec3> cycles = cycle_translations(m);
+  Eigen::Matrix<double, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(cycles.size()));
+  for (std::size_t k = 0; k < cycles.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = cycles[k];
+  if (cycles.empty()) return columns;
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  qr.setThreshold(independent);
+  return qr.householderQ() * Matrix::Identity(3, qr.rank());
+}
+
+/// How far, along each lattice vector, elements that hold each other may be apart: half the vector where
+/// chains of links run along it. An idle vector keeps copies apart that nothing joins, and its length says
+/// nothing: no more than the longest reach of an element counts.
+std::vector<double> lattice_distances(const Model& m)
+{
+  constexpr double aside = 1e-9;  // part of a vector outside of the span
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> space = linked_space(m);
+  const double reach = m.reach.empty() ? 0.0 : *std::max_element(m.reach.begin(), m.reach.end());
+  std::vector<double> out;
+  for (const Vec3& t : m.lattice) {
+    const bool idle = (t - space * (space.transpose() * t)).norm() > aside * t.norm();
+    out.push_back(idle ? std::min(0.5 * t.norm(), reach) : 0.5 * t.norm());
+  }
+  return out;
+}
+
 /// Mean squared displacement of elements against each other for a unit of a macroscopic unknown: |X|^2 for a
 /// strain, |X|^4 for a curvature.
-double squared_displacement(const Model& m, const MacroInfo& macro)
+double squared_displacement(const std::vector<double>& distances, const MacroInfo& macro)
 {
-  const double half_power = 1.0 - macro.length_power;
-  const auto of = [half_power](const Vec3& X) { return std::pow(X.squaredNorm(), half_power); };
   double sum = 0.0;
-  if (!m.lattice.empty()) {
-    for (const Vec3& t : m.lattice) sum += of(0.5 * t);
-    return std::max(1.0, sum / static_cast<double>(m.lattice.size()));
-  }
-  for (const Pose& p : m.rest) sum += of(p.position);
-  return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, m.rest.size())));
+  for (const double d : distances) sum += std::pow(d, 2.0 * (1.0 - macro.length_power));
+  return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, distances.size())));
 }
 
 /// Images of one pair that are looked at at rest. More are no fabric but a slip in a length.
@@ -89,9 +112,13 @@ void set_metric(Model& m)
   m.metric = Vector::Ones(m.dofs());
   std::vector<double> weights(static_cast<std::size_t>(m.macro_count));
   m.load->metric(weights);
+  std::vector<double> distances = lattice_distances(m);
+  if (m.lattice.empty()) {
+    for (const Pose& p : m.rest) distances.push_back(p.position.norm());
+  }
   for (int k = 0; k < m.macro_count; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    m.metric[k] = squared_displacement(m, m.load->macros()[i]) * weights[i];
+    m.metric[k] = squared_displacement(distances, m.load->macros()[i]) * weights[i];
   }
   for (int i = 0; i < m.element_count(); ++i) {
     const double r = m.reach[static_cast<std::size_t>(i)];
@@ -120,6 +147,19 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 }  // namespace
 
 namespace {
+
+std::vector<std::array<int, 2>> linked_elements(const Model& m)
+{
+  std::vector<std::array<int, 2>> out;
+  for (const Link& link : m.links) {
+    const auto [a, b] = std::minmax(m.bodies[static_cast<std::size_t>(link.a)].element,
+                                    m.bodies[static_cast<std::size_t>(link.b)].element);
+    if (a != b) out.push_back({a, b});
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
 
 std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 {
@@ -198,9 +238,10 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   }
   check_images(m);
   m.walls = load.inequalities(positions);
+  m.links = find_links(m, rest_state(m));
   set_metric(m);
   m.held = held_directions(m, load.equalities(positions));
-  m.links = find_links(m, rest_state(m));
+  if (!load.periodic()) m.linked = linked_elements(m);
   return m;
 }
 
@@ -283,6 +324,19 @@ Vector difference(const Model& m, const State& from, const State& to)
     dy.segment<3>(o + m.coordinate_count) = s > 1e-150 ? Vec3(a * (angle / s)) : Vec3(a);
   }
   return dy;
+}
+
+std::string not_a_sheet(const Model& m, const State& s)
+{
+  if (m.load->periodic()) return {};
+  std::vector<Vec3> X;
+  X.reserve(m.rest.size());
+  for (const Pose& p : m.rest) X.push_back(p.position);
+  return m.load->not_a_sheet({{s.macro.data(), static_cast<std::size_t>(s.macro.size())},
+                              {s.e.data(), static_cast<std::size_t>(s.e.size())},
+                              X,
+                              m.reach,
+                              m.linked});
 }
 
 Vector free_part(const Model& m, const Vector& x)

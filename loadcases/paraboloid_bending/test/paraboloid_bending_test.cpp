@@ -172,7 +172,7 @@ TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
 /// What moves the patch moves the paraboloid: turned over, it bends down for up.
 TEST(ParaboloidBending, TransformsWithTheSheet)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::mt19937_64 rng(5);
   Mat3 mirror = Mat3::Identity(), over = Mat3::Identity();
   mirror(0, 0) = over(2, 2) = -1.0;
@@ -199,6 +199,71 @@ TEST(ParaboloidBending, UnitsAndNames)
   EXPECT_EQ(load.measure(), "normal_curvature");
   EXPECT_EQ(load.sense_names(), (std::pair<std::string, std::string>{"up", "down"}));
   for (const MacroInfo& macro : load.macros()) EXPECT_EQ(macro.length_power, -1);
+}
+
+/// Two linked elements 4 apart along x about the apex, of radius 2 and 1.5.
+struct Two {
+  std::array<Vec3, 2> X{Vec3(-2, 0, 0), Vec3(2, 0, 0)};
+  std::array<double, 4> e{};
+  std::array<double, 2> radius{2.0, 1.5};
+  std::array<std::array<int, 2>, 1> linked{{{0, 1}}};
+
+  std::string why(const std::array<double, 3>& macro) const
+  {
+    return ParaboloidBending().not_a_sheet({macro, e, X, radius, linked});
+  }
+};
+
+/// Curvatures turn with the frame: A = k/2 along x is A = B = k/4, C = k/2 along the diagonal.
+TEST(ParaboloidBending, NoSheetIsLeftWhereItCurvesTwiceInARadius)
+{
+  const Two two;
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_EQ(two.why({0.0, sign * 0.4999, 0.0}), "");
+    EXPECT_EQ(two.why({sign * 0.2499, sign * 0.2499, 0.4999}), "");
+    for (const std::array<double, 3>& macro :
+         {std::array{0.0, sign * 0.5001, 0.0}, {sign * 0.25005, sign * 0.25005, 0.5001}}) {
+      EXPECT_EQ(
+          two.why(macro),
+          "no sheet on the scale of its elements: at the apex the radius of curvature is 0.5 times that "
+          "of element 0, which counts above 0.5");
+    }
+  }
+}
+
+TEST(ParaboloidBending, NoSheetIsLeftWhereLinkedElementsAreFarApartAlongIt)
+{
+  Two two;
+  // z = A x^2 between -x and x is x sqrt(1 + s^2) + asinh(s) / (2 A) long, with the slope s = 2 A x.
+  const auto length = [](double a, double x) {
+    const double s = 2.0 * a * x;
+    return x * std::hypot(1.0, s) + std::asinh(s) / (2.0 * a);
+  };
+  const double a = 0.49;
+  double x = 0.0;  // where it is 3 times 4
+  for (double step = 4.0; step > 1e-12; step *= 0.5) x += length(a, x + step) < 12.0 ? step : 0.0;
+  ASSERT_GT(x, 2.0);
+  two.e = {2.0 - (x - 1e-6), 0.0, x - 1e-6 - 2.0, 0.0};
+  EXPECT_EQ(two.why({a, 0.0, 0.0}), "");
+  two.e = {2.0 - (x + 1e-6), 0.0, x + 1e-6 - 2.0, 0.0};
+  EXPECT_EQ(
+      two.why({a, 0.0, 0.0}),
+      "no sheet on the scale of its elements: along the surface the linked elements 0 and 1 are 3 times "
+      "as far apart as at rest or as their mean radius, whichever is longer, which counts below 3");
+  two.linked = {};
+  two.linked[0] = {0, 0};
+  EXPECT_EQ(two.why({a, 0.0, 0.0}), "") << "not linked";
+}
+
+/// Two rings about one place have no distance at rest.
+TEST(ParaboloidBending, ElementsAboutOnePlaceMayPartByThreeRadii)
+{
+  Two two;
+  two.X = {Vec3::Zero(), Vec3::Zero()};
+  two.e = {-2.62, 0.0, 2.62, 0.0};  // 5.24 apart, of the mean radius 1.75
+  EXPECT_EQ(two.why({0.0, 0.0, 0.0}), "");
+  two.e = {-2.63, 0.0, 2.63, 0.0};
+  EXPECT_NE(two.why({0.0, 0.0, 0.0}), "");
 }
 
 }  // namespace

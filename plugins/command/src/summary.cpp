@@ -9,11 +9,7 @@
 namespace hauberk::command {
 namespace {
 
-bool answered(const LimitResult& limit)
-{
-  return limit.status == LimitStatus::locked || limit.status == LimitStatus::unbounded ||
-         limit.status == LimitStatus::not_attained;
-}
+bool answered(const LimitResult& limit) { return is_answer(limit.status); }
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6f}", *value) : "-"; }
 
@@ -118,12 +114,13 @@ std::string variables_table(const DesignResult& d, const std::string& unit)
   return text;
 }
 
-/// A line for each limit that is not an answer, or that has a reservation.
+/// A line for each limit that is not an answer, that has a reservation, or whose state tells why there is none.
 std::string remarks(const RunResult& run)
 {
   std::string text;
   for (const LimitResult& l : run.limits) {
-    if (answered(l) && (l.status != LimitStatus::locked || l.message.empty())) continue;
+    const bool plain = l.status == LimitStatus::unbounded || l.status == LimitStatus::not_attained;
+    if (plain || (l.status == LimitStatus::locked && l.message.empty())) continue;
     text += fmt::format("{}: {}{}{}\n", limit_name(l.sense, l.direction), to_string(l.status),
                         l.message.empty() ? "" : ": ", l.message);
   }

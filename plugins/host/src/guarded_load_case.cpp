@@ -98,6 +98,10 @@ class GuardedLoadCase final : public LoadCase {
   {
     return guard_("held_boundedness", [&] { return inner_->held_boundedness(theta, load, cycles); });
   }
+  std::string do_not_a_sheet(const SheetState& state) const override
+  {
+    return guard_("not_a_sheet", [&] { return inner_->not_a_sheet(state); });
+  }
 
  private:
   std::unique_ptr<LoadCase> inner_;

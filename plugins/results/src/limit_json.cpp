@@ -44,6 +44,19 @@ json::object contact_json(const ContactForce& contact)
   return out;
 }
 
+/// [towards smaller, towards larger]; null where there is no room that way.
+json::array pair_json(const LimitResult::OneSided& sides) { return {number(sides[0]), number(sides[1])}; }
+
+json::object one_sided_json(const LimitResult& limit)
+{
+  json::object out;
+  out["clearance"] = pair_json(limit.clearance_one_sided);
+  json::object& parameters = out["parameters"].emplace_object();
+  for (std::size_t k = 0; k < limit.parameters_one_sided.size(); ++k)
+    parameters[limit.sensitivity_parameters[k].first] = pair_json(limit.parameters_one_sided[k]);
+  return out;
+}
+
 }  // namespace
 
 json::object limit_json(const LimitResult& limit, const std::vector<std::string>& macro_names)
@@ -81,6 +94,9 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   json::object& sensitivity = out["sensitivity"].emplace_object();
   sensitivity["clearance"] = number(limit.sensitivity_clearance);
   sensitivity["parameters"] = named_numbers(limit.sensitivity_parameters);
+
+  out["kink"] = limit.kink;
+  if (limit.kink) out["sensitivity_one_sided"] = one_sided_json(limit);
 
   json::array& poses = out["poses"].emplace_array();
   for (const Pose& pose : limit.poses) poses.push_back(pose_json(pose));

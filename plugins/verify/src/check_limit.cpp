@@ -1,8 +1,10 @@
 #include "balance.hpp"
 #include "checks.hpp"
+#include "kinematics.hpp"
 #include "links.hpp"
 #include "neighbours.hpp"
 #include "saddle.hpp"
+#include "sheet.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -80,6 +82,38 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
   return fmt::format("imbalance {:.3g}", found);
 }
 
+/// How far a bent state is from being no sheet.
+Sheet sheet_of_limit(const Scene& scene, const Limit& limit)
+{
+  std::vector<std::array<int, 2>> linked;
+  for (const Link& link : links(scene, rest_places(scene), Mat3::Identity())) linked.push_back(link.elements);
+  return sheet_of(scene, *limit.macro, limit.poses, linked);
+}
+
+/// A state that is kept because it is no sheet: admissible, free of intersections, and beyond the criterion.
+VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const Limit& limit,
+                             const VerifyTolerances& tolerances)
+{
+  Sentences problems;
+  if (limit.value) problems.push_back(fmt::format("value {} reported, null expected", show(limit.value)));
+  if (!limit.contacts.empty()) problems.push_back("contacts listed, though nothing is at rest here");
+  for (std::string& p : misplaced(scene, {*limit.macro, limit.poses}, tolerances.translation))
+    problems.push_back(std::move(p));
+  const std::string gap = check_gap(scene, setting, limit, tolerances, problems);
+  const std::string kept = check_links(scene, limit, problems);
+  std::string how = "no patch on a paraboloid";
+  if (setting.load == Load::paraboloid) {
+    const Sheet sheet = sheet_of_limit(scene, limit);
+    how = sheet.text();
+    if (sheet.holds()) problems.push_back("a sheet: " + how);
+  } else {
+    problems.push_back(how);
+  }
+  return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
+                                        problems.empty() ? fmt::format("{}, {}, {}", gap, kept, how)
+                                                         : fmt::format("{}", fmt::join(problems, "; ")))};
+}
+
 }  // namespace
 
 VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& limit,
@@ -98,6 +132,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
                                scene.elements.size())};
   if (limit.status == "unbounded" || limit.status == "not_attained")
     return {false, limit.label + ": " + limit.status + " limits have no locked state"};
+  if (limit.status == "not_a_sheet") return check_not_a_sheet(scene, setting, limit, tolerances);
 
   Sentences problems, found;
   check_values(scene, setting, limit, tolerances, problems);
@@ -109,6 +144,10 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
       std::none_of(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end(),
                    [](const std::string& p) { return p.find("no such") != std::string::npos; });
   if (readable) found.push_back(check_balance(scene, setting, limit, tolerances, problems));
+  if (setting.load == Load::paraboloid && limit.status == "locked") {
+    if (const Sheet sheet = sheet_of_limit(scene, limit); !sheet.holds())
+      problems.push_back("no sheet: " + sheet.text());
+  }
   // Only where everything else is in order: it moves the state along its contacts.
   if (setting.facets > 0) {
     found.emplace_back("not tested for saddles");

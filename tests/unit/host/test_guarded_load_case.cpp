@@ -99,6 +99,11 @@ class Odd final : public LoadCase {
     maybe_fail();
     return load[0] < 0 && cycles.size() == 2 ? Boundedness::not_attained : Boundedness::attained;
   }
+  std::string do_not_a_sheet(const SheetState& state) const override
+  {
+    maybe_fail();
+    return state.X.size() == 2 && state.linked.size() == 1 ? "torn" : "";
+  }
 
  private:
   void maybe_fail() const
@@ -161,6 +166,9 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   EXPECT_EQ(held[0].terms[0].coefficient, 2.0);
   EXPECT_EQ(load_case->boundedness(turned, Sense::negative, both), Boundedness::not_attained);
   EXPECT_EQ(load_case->boundedness(turned, Sense::positive, both), Boundedness::attained);
+  const std::array<std::array<int, 2>, 1> linked{{{0, 1}}};
+  EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, linked}), "torn");
+  EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, {}}), "");
 }
 
 TEST(GuardedLoadCase, EveryCallIsGuarded)
@@ -182,6 +190,7 @@ TEST(GuardedLoadCase, EveryCallIsGuarded)
   expect("companions", [&] { load_case->companions(Direction(), macro); });
   expect("sense_names", [&] { load_case->sense_names(); });
   expect("metric", [&] { load_case->metric(out); });
+  expect("not_a_sheet", [&] { load_case->not_a_sheet({}); });
   expect("inequalities", [&] { load_case->inequalities(both); });
   expect("equalities", [&] { load_case->equalities(both); });
   expect("boundedness", [&] { load_case->boundedness(std::array{1.0}, both); });

@@ -29,7 +29,7 @@ struct Stage {
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
 };
 
-enum class StageStatus { minimum, stalled, iteration_limit, unbounded, merging, interrupted };
+enum class StageStatus { minimum, stalled, iteration_limit, unbounded, not_a_sheet, merging, interrupted };
 
 /// Outcome of a stage.
 struct StageResult {
@@ -52,8 +52,8 @@ using KeepGoing = std::function<bool()>;
 /// the path from the first to the last state is free of intersections, or by the sampled one; F stays
 /// positive definite. The quadratic model is shifted by lambda * metric until it is positive definite and its
 /// step stays within the trust radius. A stationary point with negative curvature is left along it. Null
-/// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. Thread safe;
-/// deterministic. `bounds`: what is known of gaps from stages before; otherwise nothing is at the beginning.
+/// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. A state that is no sheet
+/// any more (LoadCase::not_a_sheet) ends it. Thread safe; deterministic. `bounds`: what is known of gaps from stages before; otherwise nothing is at the beginning.
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going, GapBounds* bounds = nullptr);
 

@@ -73,7 +73,7 @@ struct StageRecord {
   int escapes = 0;
 };
 
-enum class LockStatus { locked, stalled, unbounded, interrupted };
+enum class LockStatus { locked, stalled, unbounded, not_a_sheet, interrupted };
 
 /// A locked state and how it was reached.
 struct Locked {

@@ -37,6 +37,7 @@ struct Model {
   std::vector<LinearInequality> walls;
   Matrix held;              ///< dofs x equalities: orthonormal directions that no motion has
   std::vector<Link> links;  ///< at rest
+  std::vector<std::array<int, 2>> linked;  ///< elements of a patch with links between them, ascending
   /// Per body: d(position, R, r0, r1, harmonics)/d(element parameters), row-major, file units (dimensionless
   /// ratios).
   std::vector<PrimitiveJacobian> jacobians;
@@ -129,6 +130,9 @@ std::vector<Link> find_links(const Model& model, const State& state);
 
 /// True if the links in `state` are those at rest.
 bool links_kept(const Model& model, const State& state);
+
+/// Why a state is no sheet on the scale of its elements (LoadCase::not_a_sheet); empty where it is one.
+std::string not_a_sheet(const Model& model, const State& state);
 
 /// Translations (at rest) of independent cycles of the link graph.
 std::vector<Vec3> cycle_translations(const Model& model);

@@ -67,7 +67,9 @@ inline constexpr const char* learnt_origin = "from ";
 /// A locked state and where it came from.
 struct FoundState {
   Locked locked;
-  std::string origin;      ///< "start", "tilt", or learnt_origin and the limit whose state it began with
+  /// "start", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the limit whose state it
+  /// began with
+  std::string origin;
   std::uint64_t seed = 0;  ///< of the start or tilt
 };
 
@@ -103,10 +105,13 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
 /// After its starts each task learns from tilted loads. Then limits learn from each other: a locked state of
-/// any task is a reachable state for all, so where its value along another task's direction is further than
-/// that task's own limit, that one is locked again from it, until none is. A limit that has no other of its
-/// sense within `settings.neighbours` learns from limits at that angle to either side, which are not
-/// reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
+/// any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that hold
+/// nothing that it breaks, so where its value along another task's direction is further than that task's own
+/// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
+/// folds keep from their furthest state, are searched twice from rest, with the widest stage and without, and
+/// walk: each begins again from the states of the loads beside its own, as long as these come to further ones.
+/// A limit that has no other of its sense within `settings.neighbours` learns from limits at that angle to
+/// either side, which are not reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
 /// result (status failed) and does not stop the others. Tasks that were not finished when `keep_going` said
 /// no are `interrupted`, with the best of the starts that were done. What the observer throws is rethrown.
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <tuple>
 
 namespace hauberk {
 namespace {
@@ -121,6 +122,63 @@ bool same_invariants(const std::vector<std::array<double, 5>>& a, const std::vec
   });
 }
 
+/// Whether the body is a torus, whose axis says how it lies; balls, curves and meshes have none.
+bool has_axis(const Body& b) { return !b.curve && !b.surface && !b.is_point(); }
+
+/// How two bodies lie to each other, as a number that no isometry changes, seen from the first.
+double mutual(const Body& a, const Frame& at_a, const Body& b, const Frame& at_b)
+{
+  const Vec3 d = at_b.center - at_a.center;
+  double sum = 1.0 + d.norm();
+  if (has_axis(a)) sum += std::pow(at_a.axes.col(2).dot(d), 2);
+  if (has_axis(a) && has_axis(b)) sum += std::pow(at_a.axes.col(2).dot(at_b.axes.col(2)), 2);
+  return sum;
+}
+
+/// Per element a number that says how its neighbours lie around it, equal for elements that a symmetry
+/// carries to each other. Neighbours fade out with distance, so that rounding cannot make one appear.
+std::vector<double> surroundings(const Model& m)
+{
+  constexpr double margin = 0.5;  // L: beyond the touch of bounding spheres
+  const State rest = rest_state(m);
+  std::vector<double> out(m.rest.size(), 0.0);
+  for (const ElementPair& pair : near_pairs(m, rest, margin)) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const Pose own = m.rest[i];
+    const Pose other{m.rest[j].position + m.translation(pair.image), m.rest[j].rotation};
+    const double far = m.reach[i] + m.reach[j] + margin;
+    const double nearness = std::max(0.0, 1.0 - (other.position - own.position).norm() / far);
+    for (const Body& a : bodies_of(m, pair.i)) {
+      for (const Body& b : bodies_of(m, pair.j)) {
+        const Frame at_a = world_frame(a, own), at_b = world_frame(b, other);
+        out[i] += nearness * nearness * mutual(a, at_a, b, at_b);
+        out[j] += nearness * nearness * mutual(b, at_b, a, at_a);
+      }
+    }
+  }
+  return out;
+}
+
+/// Divides kinds by surroundings. Values closer than `same` stay together, however many: what tolerances of
+/// places make of one value must not be torn apart, and what is together by chance does no harm.
+void divide_by_surroundings(const Model& m, std::vector<int>& kinds)
+{
+  constexpr double same = 1e-6;
+  const std::vector<double> around = surroundings(m);
+  std::vector<std::tuple<int, double, std::size_t>> order;
+  for (std::size_t i = 0; i < kinds.size(); ++i) order.emplace_back(kinds[i], around[i], i);
+  std::sort(order.begin(), order.end());
+  int kind = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto& [shape, value, i] = order[k];
+    if (k > 0) {
+      const auto& [last_shape, last_value, last] = order[k - 1];
+      if (shape != last_shape || value - last_value > same * (1.0 + std::abs(value))) ++kind;
+    }
+    kinds[i] = kind;
+  }
+}
+
 }  // namespace
 
 bool carries_bodies(const Model& m, int i, int j, const Mat3& S)
@@ -148,6 +206,7 @@ std::vector<int> element_kinds(const Model& m)
     kinds.push_back(static_cast<int>(at - known.begin()));
     if (at == known.end()) known.push_back(std::move(own));
   }
+  divide_by_surroundings(m, kinds);
   return kinds;
 }
 

@@ -12,7 +12,8 @@ inline constexpr double same_geometry = 1e-8;
 bool carries_bodies(const Model& model, int i, int j, const Mat3& S);
 
 /// Per element a number from 0, equal for elements whose primitives have the same kinds, sizes and distances
-/// from the origin: only such may be carried to each other.
+/// from the origin, and whose neighbours lie around them in the same distances and angles: only such may be
+/// carried to each other.
 std::vector<int> element_kinds(const Model& model);
 
 }  // namespace hauberk

@@ -16,8 +16,7 @@ constexpr double same_part = 1e-6;
 /// The scene as the search for symmetries needs it.
 class SymmetrySearch {
  public:
-  explicit SymmetrySearch(const Model& model)
-      : m_(model), places_(model), lattice_(model), kinds_(element_kinds(model))
+  explicit SymmetrySearch(const Model& model) : m_(model), places_(model), kinds_(element_kinds(model))
   {
     choose_rarest();
   }
@@ -71,7 +70,8 @@ class SymmetrySearch {
     return m_.load->transform(O, macro, out);
   }
 
-  /// Elements of the kind that there are the fewest of.
+  /// Elements of the kind that there are the fewest of, and the order in which elements are looked at: rare
+  /// ones first, so that a wrong guess shows at once where one element in a large scene is not as the others.
   void choose_rarest()
   {
     std::vector<std::vector<int>> by_kind;
@@ -80,8 +80,11 @@ class SymmetrySearch {
       if (kind >= by_kind.size()) by_kind.resize(kind + 1);
       by_kind[kind].push_back(i);
     }
-    for (std::vector<int>& elements : by_kind) {
-      if (rarest_.empty() || elements.size() < rarest_.size()) rarest_ = std::move(elements);
+    std::stable_sort(by_kind.begin(), by_kind.end(),
+                     [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    if (!by_kind.empty()) rarest_ = by_kind.front();
+    for (const std::vector<int>& elements : by_kind) {
+      for (const int i : elements) order_.push_back(static_cast<std::size_t>(i));
     }
   }
 
@@ -106,7 +109,10 @@ class SymmetrySearch {
     g.t = t;
     std::vector<bool> taken(n, false);
     std::vector<Placed> there;
-    for (std::size_t i = 0; i < n; ++i) {
+    g.to.resize(n);
+    g.image.resize(n);
+    g.local.resize(n);
+    for (const std::size_t i : order_) {
       places_.find(O * m_.rest[i].position + t, there);
       const auto goes_to = [&](const Placed& p) {
         const auto j = static_cast<std::size_t>(p.element);
@@ -117,9 +123,9 @@ class SymmetrySearch {
       if (at == there.end()) return std::nullopt;
       const auto j = static_cast<std::size_t>(at->element);
       taken[j] = true;
-      g.to.push_back(at->element);
-      g.image.push_back(at->image);
-      g.local.push_back(local(O, i, j));
+      g.to[i] = at->element;
+      g.image[i] = at->image;
+      g.local[i] = local(O, i, j);
     }
     return g;
   }
@@ -131,9 +137,9 @@ class SymmetrySearch {
 
   const Model& m_;
   PlaceIndex places_;
-  LatticeCoordinates lattice_;
   std::vector<int> kinds_;
   std::vector<int> rarest_;
+  std::vector<std::size_t> order_;
 };
 
 }  // namespace

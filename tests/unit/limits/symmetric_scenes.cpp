@@ -133,7 +133,7 @@ SceneSpec cubic()
 
 SceneSpec trefoils()
 {
-  constexpr double a = 7.0;
+  constexpr double a = 5.7;
   SceneSpec s;
   s.types.push_back({"trefoil", std::make_shared<Trefoil>()});
   s.elements.push_back({0, {0.3}, {Vec3::Zero(), Mat3::Identity()}});

@@ -92,7 +92,7 @@ std::vector<Known> known_groups()
       {"chainmail 2 x 2", chainmail(2, 2), &flat, 8, 32},
       {"chainmail 3 x 2, z free", chainmail(3, 2), &deep, 8, 48},
       {"chain", chain({5, 0.7, 0.7}, {5, 0.7, 0.7}, 16.5), &flat, 8, 8},
-      {"chain of two kinds", chain({5, 0.7, 0.7}, {4, 0.7, 0.5}, 16.5), &flat, 8, 8},
+      {"chain of two kinds", chain({5, 0.7, 0.7}, {4, 0.7, 0.5}, 14.6), &flat, 8, 8},
       {"japanese 4-in-1", japanese(false), &flat, 16, 16},
       {"japanese 6-in-1", japanese(true), &flat, 24, 24},
       {"japanese 6-in-1, 2 x 2", repeated(japanese(true), 2, 2), &deep, 24, 96},
@@ -227,6 +227,10 @@ TEST(Symmetry, LargeScenesHaveTheirPointsAlone)
 {
   const Model m = make_model(chainmail(20, 20), flat, 0.0);  // 3200 symmetries of 800 elements
   EXPECT_EQ(scene_symmetries(m).size(), 8U);
+  // One ring that stands out leaves what carries it to itself.
+  SceneSpec mail = chainmail(20, 20);
+  mail.elements[400].rest.position.z() += 0.01;
+  expect_parts(scene_symmetries(make_model(mail, deep, 0.0)), {Mat3::Identity(), diagonal(-1, 1, 1)});
 }
 
 /// A random state near rest with random macroscopic unknowns, free of collisions.

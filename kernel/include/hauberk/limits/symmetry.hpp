@@ -51,8 +51,9 @@ inline constexpr std::size_t most_symmetric_elements = 200000;
 /// where one lies upon the other: of theirs, rotations of the element alone are found. An element's symmetry
 /// has to keep its origin, which is what load cases move: a ring away from its origin has no others.
 ///
-/// Takes O(n) for n elements and candidate; a candidate that fails mostly does so at once. Thread safe;
-/// deterministic.
+/// A candidate takes O(n) for n elements if it is a symmetry, and mostly O(1) if it is none: elements are
+/// first told apart by how their neighbours lie around them, rare ones are looked at first, and only elements
+/// of the rarest kind are candidates for each other's images. Thread safe; deterministic.
 std::vector<SceneSymmetry> point_symmetries(const Model& model);
 
 /// All symmetries modulo lattice translations of the model's cell: the group of its layer or space group

@@ -242,8 +242,10 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                             sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
     }
   }
-  r.certificate = fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l),
-                              m.links.size(), *r.min_gap);
+  int links = 0;
+  for (const ElementLink& link : element_links(m)) links += link.primitives + link.together;
+  r.certificate =
+      fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l), links, *r.min_gap);
   if (r.status == LimitStatus::locked && !(driving > least_drive)) {
     r.status = LimitStatus::failed;
     r.message = fmt::format(

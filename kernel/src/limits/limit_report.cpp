@@ -180,7 +180,9 @@ void fill_kink(LimitResult& r, const Model& m, const LimitTask& task, const Lock
 
 std::string certificate_of(const Model& m, const Locked& l, double gap)
 {
-  return fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l), m.links.size(), gap);
+  int links = 0;
+  for (const ElementLink& link : element_links(m)) links += link.primitives + link.together;
+  return fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l), links, gap);
 }
 
 /// Where no contact stops a patch while it is a sheet there is no limit, and the state shows why.

@@ -151,9 +151,8 @@ namespace {
 std::vector<std::array<int, 2>> linked_elements(const Model& m)
 {
   std::vector<std::array<int, 2>> out;
-  for (const Link& link : m.links) {
-    const auto [a, b] = std::minmax(m.bodies[static_cast<std::size_t>(link.a)].element,
-                                    m.bodies[static_cast<std::size_t>(link.b)].element);
+  for (const ElementLink& link : element_links(m)) {
+    const auto [a, b] = std::minmax(link.pair.i, link.pair.j);
     if (a != b) out.push_back({a, b});
   }
   std::sort(out.begin(), out.end());
@@ -190,6 +189,44 @@ void set_facets(Model& m, int count)
     if (!facets) facets = facets_of(b, count);
     b.facets = facets;
   }
+}
+
+/// Finds the spines of elements; equal elements share one. Where none has a loop beyond its primitives' cores
+/// and meshes, cores are all there is and spines are not kept.
+void set_spines(Model& m)
+{
+  std::map<std::vector<double>, std::shared_ptr<const Spine>> made;
+  bool together = false;
+  std::vector<std::shared_ptr<const Spine>> spines;
+  const auto several = [](const SpineLoop& l) { return l.primitives.size() > 1; };
+  if (m.bodies.size() == m.rest.size()) return;  // one primitive each
+  for (std::size_t e = 0; e < m.rest.size(); ++e) {
+    const auto first = static_cast<std::size_t>(m.first_body[e]),
+               end = static_cast<std::size_t>(m.first_body[e + 1]);
+    std::vector<double> key;
+    bool meshes = false;
+    for (std::size_t k = first; k < end; ++k) {
+      const Body& b = m.bodies[k];
+      const std::vector<double> size = mesh_key(b);
+      key.insert(key.end(), b.center.begin(), b.center.end());
+      key.insert(key.end(), b.axes.reshaped().begin(), b.axes.reshaped().end());
+      key.insert(key.end(), size.begin(), size.end());
+      meshes = meshes || b.surface;
+    }
+    std::shared_ptr<const Spine> spine;
+    if (const auto known = made.find(key); known != made.end() && !meshes) spine = known->second;
+    if (!spine) {
+      spine = std::make_shared<const Spine>(make_spine(std::span(m.bodies).subspan(first, end - first)));
+      if (!meshes) made[key] = spine;
+    }
+    together = together || std::any_of(spine->loops.begin(), spine->loops.end(), several);
+    spines.push_back(std::move(spine));
+  }
+  if (!together) return;
+  m.spines = std::move(spines);
+  m.first_loop.assign(1, 0);
+  for (const auto& s : m.spines)
+    m.first_loop.push_back(m.first_loop.back() + static_cast<int>(s->loops.size()));
 }
 
 /// Nothing but contact of meshes knows where the surface of a triangle mesh is.
@@ -238,6 +275,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   }
   check_images(m);
   m.walls = load.inequalities(positions);
+  set_spines(m);
   m.links = find_links(m, rest_state(m));
   set_metric(m);
   m.held = held_directions(m, load.equalities(positions));

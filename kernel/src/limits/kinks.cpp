@@ -105,16 +105,16 @@ bool differ(const std::array<double, 2>& s)
 
 }  // namespace
 
-std::optional<OneSidedSensitivities> one_sided_sensitivities(const Model& m, const LimitTask& task,
-                                                             const Locked& l)
+namespace {
+
+/// `falls`: the value is the load's, with the sign changed.
+std::optional<OneSidedSensitivities> sides_at(const Model& m, const State& state, const Vector& pull,
+                                              double within_gap, bool falls)
 {
-  const Formulation f = l.stage.contact.formulation;
-  if (m.sparse() || std::isfinite(l.stage.target) || f == Formulation::mesh || f == Formulation::published)
-    return std::nullopt;
-  const Closed closed = closed_contacts(m, l.state, active * l.stage.contact.g_hat);
+  const Closed closed = closed_contacts(m, state, within_gap);
   if (closed.normals.cols() < 2) return std::nullopt;
   Vector load = Vector::Zero(m.dofs());
-  load.head(m.macro_count) = load_vector(m, task.direction, task.sense);
+  load.head(m.macro_count) = pull;
   load = m.metric.cwiseSqrt().cwiseInverse().cwiseProduct(free_part(m, load));
   const double size = load.norm();
 
@@ -124,7 +124,6 @@ std::optional<OneSidedSensitivities> one_sided_sensitivities(const Model& m, con
   if (!multipliers.feasible()) return std::nullopt;
 
   OneSidedSensitivities out;
-  const bool falls = task.sense == Sense::negative;
   bool kink = false;
   const auto add = [&](const Vector& c, std::array<double, 2>& to) {
     const auto found = sides(multipliers, c);
@@ -141,6 +140,22 @@ std::optional<OneSidedSensitivities> one_sided_sensitivities(const Model& m, con
       return std::nullopt;
   }
   return kink ? std::optional(std::move(out)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<OneSidedSensitivities> one_sided_sensitivities(const Model& m, const LimitTask& task,
+                                                             const Locked& l)
+{
+  const Formulation f = l.stage.contact.formulation;
+  if (m.sparse() || std::isfinite(l.stage.target) || f == Formulation::mesh || f == Formulation::published)
+    return std::nullopt;
+  const double within_gap = active * l.stage.contact.g_hat;
+  const bool falls = task.sense == Sense::negative;
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  if (load.held.cols() == 0) return sides_at(m, l.state, load.pull, within_gap, falls);
+  const HeldModel held(m, load.held);
+  return sides_at(held.model(), held.restricted(l.state), held.pull(load.pull), within_gap, falls);
 }
 
 }  // namespace hauberk

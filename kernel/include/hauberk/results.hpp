@@ -45,6 +45,28 @@ struct LockedState {
   int count = 0;
 };
 
+/// A search for a limit that ended in no locked state.
+struct FailedSearch {
+  std::string origin;  ///< as LockedState::origin
+  std::uint64_t seed = 0;
+  std::string status;
+  std::optional<double> reached;  ///< value of the state in which it gave up
+};
+
+/// How far a limit may be taken for the furthest: no search proves that it is, so what was done is told.
+///
+/// Words: `confirmed`: independent searches ended here, or a relation that must hold between true limits
+/// does; `single`: one search ended here; `contradicted`: a relation that must hold does not, or a search
+/// that failed came further; `none`: there is no locked state.
+struct Confidence {
+  std::string word = "none";
+  int searches = 0;    ///< all of them
+  int ended_here = 0;  ///< of these, at the value that is reported
+  int distinct = 0;    ///< locked states of the fabric that were found
+  std::vector<std::string> confirmed_by, contradicted_by;
+  std::vector<FailedSearch> failed_searches;
+};
+
 struct LimitResult {
   bool resumed = false;  ///< read from a former run's results, without poses and contacts
   std::string load_case;
@@ -66,6 +88,7 @@ struct LimitResult {
   double z_range = 0.0;
   std::vector<LockedState> starts;
   bool better_state = false;  ///< further than the state that the first start from rest led to
+  Confidence confidence;
   std::optional<double> sensitivity_clearance;
   std::vector<std::pair<std::string, double>>
       sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter

@@ -1,3 +1,4 @@
+#include "confidence.hpp"
 #include "donors.hpp"
 #include "limit_report.hpp"
 
@@ -41,7 +42,7 @@ class Computation {
               const LimitSettings& settings, const LimitsObserver& observer)
       : model_(model),
         spec_(spec),
-        tasks_(with_neighbours(model, tasks, settings.neighbours)),
+        tasks_(with_neighbours(model, tasks, settings.lessons ? settings.neighbours : 0.0)),
         asked_(tasks.size()),
         settings_(settings),
         observer_(observer),
@@ -50,7 +51,7 @@ class Computation {
   {
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
       // A fabric with room folds one way under the widest stage and another way without it.
-      const bool twice = k < asked_ && may_fold(model, tasks_[k]);
+      const bool twice = settings.lessons && k < asked_ && may_fold(model, tasks_[k]);
       states_[k].starts.resize((k < asked_ ? starts_ : 1) + (twice ? 1 : 0));
       states_[k].missing = states_[k].starts.size();
       results_.push_back(limit_header(model, tasks_[k]));
@@ -91,7 +92,11 @@ class Computation {
     parallel_for(items.size(), threads, [&](std::size_t i) {
       if (going()) solve(items[i].first, items[i].second);
     });
-    if (unfinished_ == 0 && !complete) learn(threads);
+    if (unfinished_ == 0 && !complete) {
+      const Donors donors(model_, tasks_);
+      if (settings_.lessons) learn(donors, threads);
+      enter_relations(results_, model_, settings_, tasks_, donors);
+    }
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
     if (observer_.on_unreported)
@@ -324,9 +329,8 @@ class Computation {
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
   /// loads beside its own, as long as these come to new ones.
-  void learn(unsigned threads)
+  void learn(const Donors& donors, unsigned threads)
   {
-    const Donors donors(model_, tasks_);
     Lessons rounds(asked_, donors.count(), further_than(settings_));
     Walks walks(donors.beside());
     const auto own = [&](std::size_t k) -> std::optional<double> {

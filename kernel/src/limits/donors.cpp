@@ -39,6 +39,19 @@ std::optional<State> Donors::state(std::size_t donor, const State& own) const
   return is_own(donor) ? own : transformed(model_, symmetries_[donor % symmetries_.size()], own);
 }
 
+bool Donors::same_load(std::size_t donor, const LimitTask& task) const
+{
+  const std::optional<LimitTask>& other = images_[donor];
+  if (!other || other->sense != task.sense || other->direction.is_angle() != task.direction.is_angle())
+    return false;
+  if (task.direction.is_angle())
+    return std::abs(turn(other->direction.degrees(), task.direction.degrees())) < same_angle;
+  const auto a = other->direction.components(), b = task.direction.components();
+  constexpr double same_component = 1e-9;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return std::abs(x - y) < same_component; });
+}
+
 std::optional<double> Donors::reached(std::size_t donor, const Vector& macro, const LimitTask& along) const
 {
   if (!images_[donor]) return std::nullopt;

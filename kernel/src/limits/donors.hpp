@@ -23,6 +23,9 @@ class Donors {
   /// A state of the donor's task as the donor has it; null where the symmetry makes none of it.
   std::optional<State> state(std::size_t donor, const State& own) const;
 
+  /// Whether the donor's load, carried over, is that of a task: their limits are equal then.
+  bool same_load(std::size_t donor, const LimitTask& task) const;
+
   /// How far a macroscopic state of the donor's task is along another task, once carried over; null where it
   /// does not keep what that task holds.
   std::optional<double> reached(std::size_t donor, const Vector& macro, const LimitTask& along) const;

@@ -367,7 +367,8 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   s.origin = found.origin;
   s.count = 1;
   const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
-  // Mirror images have the same value, height and metric norm of the macroscopic state.
+  // Mirror images have the same value and metric norm of the macroscopic state. Heights are those of loose
+  // elements, too, which are no part of what holds.
   const auto norm = [&m](const std::vector<double>& x) {
     double n = 0.0;
     for (std::size_t k = 0; k < x.size(); ++k) n += m.metric[static_cast<int>(k)] * x[k] * x[k];
@@ -375,8 +376,7 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   };
   for (LockedState& o : list) {
     if (std::abs(o.value - s.value) < same_state * scale &&
-        std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale &&
-        std::abs(o.z_range - s.z_range) < 100 * same_state * m.length) {
+        std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale) {
       // The furthest of them stands for all: it is the value of the limit where it is the best state.
       s.count = o.count + 1;
       if (sign * s.value > sign * o.value)

@@ -1,3 +1,4 @@
+#include "confidence.hpp"
 #include "limit_report.hpp"
 
 #include <hauberk/limits/limits.hpp>
@@ -92,6 +93,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
     if (sound(m, found[k].locked, settings.schedule)) add_start(r.starts, m, task, found[k]);
   }
   r.better_state = sound_best && best != 0;
+  if (sound_best) enter_searches(r.confidence, m, task, settings, found, best, r.starts.size());
   return r;
 }
 

@@ -30,6 +30,24 @@ json::object start_json(const LockedState& state, const std::vector<std::string>
   return out;
 }
 
+json::object confidence_json(const Confidence& confidence)
+{
+  json::object out;
+  out["word"] = confidence.word;
+  out["searches"] = confidence.searches;
+  out["ended_here"] = confidence.ended_here;
+  out["distinct"] = confidence.distinct;
+  out["confirmed_by"] = json::value_from(confidence.confirmed_by);
+  out["contradicted_by"] = json::value_from(confidence.contradicted_by);
+  json::array& failed = out["failed_searches"].emplace_array();
+  for (const FailedSearch& search : confidence.failed_searches)
+    failed.push_back(json::object{{"origin", search.origin},
+                                  {"seed", search.seed},
+                                  {"status", search.status},
+                                  {"reached", number(search.reached)}});
+  return out;
+}
+
 json::object contact_json(const ContactForce& contact)
 {
   json::object out;
@@ -90,6 +108,7 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   for (const LockedState& state : limit.starts)
     starts.push_back(start_json(state, names.empty() ? macro_names : names));
   out["better_state"] = limit.better_state;
+  out["confidence"] = confidence_json(limit.confidence);
 
   json::object& sensitivity = out["sensitivity"].emplace_object();
   sensitivity["clearance"] = number(limit.sensitivity_clearance);

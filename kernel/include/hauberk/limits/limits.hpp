@@ -20,6 +20,9 @@ struct LimitSettings {
   double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
   double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
+  /// Whether limits learn from each other, from symmetric images and from loads beside their own; otherwise
+  /// each stands alone, and what contradicts it is told.
+  bool lessons = true;
   int tilts = 0;                      ///< random loads beside the task's own, from whose states it learns
   double tilt = 20.0;                 ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;

@@ -38,6 +38,12 @@ struct LockedState {
   int count = 0;
 };
 
+/// A state of the motion that shows that nothing stops a load.
+struct WitnessState {
+  std::vector<std::pair<std::string, double>> macro;
+  std::vector<Pose> poses;
+};
+
 struct LimitResult {
   bool resumed = false;  ///< read from a former run's results, without poses and contacts
   std::string load_case;
@@ -64,6 +70,9 @@ struct LimitResult {
       sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter
   std::vector<Pose> poses;     ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
+  /// Of unbounded and not_attained: states from rest until a strain passes its bound. Between two of them
+  /// macroscopic unknowns and displacements change linearly and elements turn about fixed axes.
+  std::vector<WitnessState> witness;
   std::optional<double> force_balance;
   std::string contact;                     ///< formulation that finished: "nearest", "arc" or "published"
   std::optional<double> quadrature_error;  ///< of arc: part of the load by which finer panels change forces

@@ -44,6 +44,19 @@ json::object contact_json(const ContactForce& contact)
   return out;
 }
 
+json::array witness_json(const std::vector<WitnessState>& witness)
+{
+  json::array out;
+  for (const WitnessState& state : witness) {
+    json::object entry;
+    entry["macro"] = macro_json(state.macro);
+    json::array& poses = entry["poses"].emplace_array();
+    for (const Pose& pose : state.poses) poses.push_back(pose_json(pose));
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
 }  // namespace
 
 json::object limit_json(const LimitResult& limit, const std::vector<std::string>& macro_names)
@@ -87,6 +100,7 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   json::array& contacts = out["contacts"].emplace_array();
   for (const ContactForce& contact : limit.contacts) contacts.push_back(contact_json(contact));
   out["force_balance"] = number(limit.force_balance);
+  if (!limit.witness.empty()) out["witness"] = witness_json(limit.witness);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "links.hpp"
 #include "neighbours.hpp"
 #include "saddle.hpp"
+#include "witness.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,6 +87,12 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
                        const VerifyTolerances& tolerances)
 {
   const bool has_state = !limit.poses.empty();
+  if (!has_state && !limit.value && (limit.status == "unbounded" || limit.status == "not_attained")) {
+    Sentences problems, found;
+    check_witness(scene, limit, problems, found);
+    return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
+                                          fmt::join(problems.empty() ? found : problems, "; "))};
+  }
   if (!has_state || !limit.macro) {
     const bool may_lack = !has_state && limit.status != "locked" && !limit.value;
     return {

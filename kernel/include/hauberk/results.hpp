@@ -67,6 +67,12 @@ struct Confidence {
   std::vector<FailedSearch> failed_searches;
 };
 
+/// A state of the motion that shows that nothing stops a load.
+struct WitnessState {
+  std::vector<std::pair<std::string, double>> macro;
+  std::vector<Pose> poses;
+};
+
 struct LimitResult {
   bool resumed = false;  ///< read from a former run's results, without poses and contacts
   std::string load_case;
@@ -100,6 +106,9 @@ struct LimitResult {
   std::vector<OneSided> parameters_one_sided;
   std::vector<Pose> poses;  ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
+  /// Of unbounded and not_attained: states from rest until a strain passes its bound. Between two of them
+  /// macroscopic unknowns and displacements change linearly and elements turn about fixed axes.
+  std::vector<WitnessState> witness;
   std::optional<double> force_balance;
   std::vector<std::string> hold;  ///< what the limit holds
   /// d value / d(held component) of the conditions among them, in their order.

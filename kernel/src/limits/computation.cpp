@@ -68,10 +68,7 @@ class Computation {
       // What was learnt from other limits is learnt again unless all is known: then nothing depends on
       // where a run was interrupted.
       std::optional<LimitResult> there;
-      if (k < known.size() && known[k] && (complete || !learnt(*known[k])))
-        there = known[k];
-      else
-        there = decided_by_links(model_, tasks_[k]);
+      if (k < known.size() && known[k] && (complete || !learnt(*known[k]))) there = known[k];
       if (there || (complete && k >= asked_)) {
         if (there) results_[k] = std::move(*there);
         states_[k].known = true;
@@ -418,14 +415,14 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
       const double to = std::abs(o.direction.degrees() - task.direction.degrees());
       return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
     });
-    if (!lone || decided_by_links(model, task)) continue;
+    if (!lone || bounded_by_links(model, task) != Boundedness::attained) continue;
     for (const double by : {-apart, apart}) {
       const LimitTask beside{Direction::at_degrees(task.direction.degrees() + by), task.sense};
       const bool there = std::any_of(all.begin(), all.end(), [&](const LimitTask& o) {
         return o.direction.is_angle() && o.sense == task.sense &&
                std::abs(o.direction.degrees() - beside.direction.degrees()) < 1e-9;
       });
-      if (!there && !decided_by_links(model, beside)) all.push_back(beside);
+      if (!there && bounded_by_links(model, beside) == Boundedness::attained) all.push_back(beside);
     }
   }
   return all;

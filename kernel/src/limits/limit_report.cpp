@@ -258,9 +258,13 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
              : l.status == LockStatus::not_a_sheet ? LimitStatus::not_a_sheet
                                                    : LimitStatus::stalled;
   r.message = l.message;
+  if (l.status == LockStatus::unbounded && !l.path.empty()) {
+    add_witness(r, m, task, l);
+    return r;
+  }
   if (l.status == LockStatus::unbounded) {
     r.message = m.load->periodic()
-                    ? "the strain left every bound although links bound this direction"
+                    ? "the strain left every bound, but not on a certified way from rest"
                     : "the macroscopic unknowns left every bound: nothing stops this patch in this direction";
   }
   r.iterations = l.iterations;

@@ -169,6 +169,7 @@ class Newton {
       }
       state_ = std::move(trial);
       now = std::move(next);
+      if (stage_.keep_path) result_.path.push_back(state_);
       curvature_ = curvature_of(m_, now, order_);
       if (runaway()) return finish(now, StageStatus::unbounded, "the strain leaves every bound");
       if (std::string why = not_a_sheet(m_, state_); !why.empty())

@@ -103,6 +103,7 @@ Locked lock(const Model& model, const State& start, const MacroLoad& load, Conta
                            schedule, keep_going);
   out.state = held.full(out.state);
   for (State& s : out.trail) s = held.full(s);
+  for (State& s : out.path) s = held.full(s);
   out.iterations += approach.iterations;
   out.evaluations += approach.evaluations;
   return out;

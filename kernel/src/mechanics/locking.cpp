@@ -42,6 +42,7 @@ class Path {
         size_(load_size(m, load))
   {
     out_.state = start;
+    if (schedule.keep_path) out_.path.push_back(start);
     arc_to_the_end_ = choice == ContactChoice::arc;
   }
 
@@ -83,6 +84,7 @@ class Path {
         r.status == StageStatus::minimum && r.residual > unbalanced) {
       // Contacts that merge can leave forces on points that do not balance; spread forces do.
       const State points = out_.state;
+      const std::vector<State> path = path_;
       const StageResult spread = attempt(before, g_hat, last, Formulation::arc);
       if (spread.status == StageStatus::interrupted ||
           (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
@@ -90,8 +92,10 @@ class Path {
         r = spread;
       } else {
         out_.state = points;
+        path_ = path;
       }
     }
+    if (schedule_.keep_path) out_.path.insert(out_.path.end(), path_.begin(), path_.end());
     switch (r.status) {
       case StageStatus::minimum:
         break;
@@ -166,9 +170,14 @@ class Path {
   {
     State s = before;
     extrapolate(s, g_hat, f);
+    const State from = schedule_.keep_path ? s : State();
     StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_, &bounds_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
+    if (schedule_.keep_path) {
+      path_.assign(1, from);
+      path_.insert(path_.end(), r.path.begin(), r.path.end());
+    }
     out_.state = std::move(s);
     return r;
   }
@@ -196,6 +205,7 @@ class Path {
   GapBounds bounds_;
   bool arc_to_the_end_ = false;
   bool before_valid_ = false;
+  std::vector<State> path_;        ///< of the last attempt, from where its stage began
   std::optional<State> previous_;  ///< end of the stage before the last finished one
   Locked out_;
 };
@@ -221,6 +231,7 @@ Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Sch
   s.ccd = schedule.ccd;
   s.target = schedule.target;
   s.mu = schedule.stiffness * g_hat * size;
+  s.keep_path = schedule.keep_path;
   s.balance = last;
   s.tolerance = last ? schedule.last_tolerance : schedule.tolerance;
   s.most_iterations = schedule.most_iterations;

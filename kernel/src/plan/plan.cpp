@@ -215,10 +215,10 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   for (auto& [name, k] : kinds) p.pairs.push_back(k);
   decide(p, m, tasks, settings);
   for (const LimitTask& t : tasks) {
-    const auto decided = decided_by_links(m, t);
-    p.bounded.emplace_back(t, !decided                                    ? "attained"
-                              : decided->status == LimitStatus::unbounded ? "unbounded"
-                                                                          : "not attained");
+    const Boundedness b = bounded_by_links(m, t);
+    p.bounded.emplace_back(t, b == Boundedness::attained    ? "attained"
+                              : b == Boundedness::unbounded ? "unbounded"
+                                                            : "not attained");
   }
   return p;
 }

@@ -75,6 +75,19 @@ json::object one_sided_json(const LimitResult& limit)
   return out;
 }
 
+json::array witness_json(const std::vector<WitnessState>& witness)
+{
+  json::array out;
+  for (const WitnessState& state : witness) {
+    json::object entry;
+    entry["macro"] = macro_json(state.macro);
+    json::array& poses = entry["poses"].emplace_array();
+    for (const Pose& pose : state.poses) poses.push_back(pose_json(pose));
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
 }  // namespace
 
 json::object limit_json(const LimitResult& limit, const std::vector<std::string>& macro_names)
@@ -126,6 +139,7 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   json::array& reactions = out["reactions"].emplace_array();
   for (const auto& [name, value] : limit.reactions)
     reactions.push_back(json::object{{"name", name}, {"value", number(value)}});
+  if (!limit.witness.empty()) out["witness"] = witness_json(limit.witness);
   return out;
 }
 

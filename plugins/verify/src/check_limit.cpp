@@ -5,6 +5,7 @@
 #include "neighbours.hpp"
 #include "saddle.hpp"
 #include "sheet.hpp"
+#include "witness.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -120,6 +121,12 @@ VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& 
                        const VerifyTolerances& tolerances)
 {
   const bool has_state = !limit.poses.empty();
+  if (!has_state && !limit.value && (limit.status == "unbounded" || limit.status == "not_attained")) {
+    Sentences problems, found;
+    check_witness(scene, limit, problems, found);
+    return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
+                                          fmt::join(problems.empty() ? found : problems, "; "))};
+  }
   if (!has_state || !limit.macro) {
     const bool may_lack = !has_state && limit.status != "locked" && !limit.value;
     return {

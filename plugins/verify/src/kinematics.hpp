@@ -26,12 +26,6 @@ inline Eigen::Index first_of(const Scene& scene, int element)
 }
 Eigen::Index unknowns(const Scene& scene);
 
-/// A state of all elements.
-struct MovedState {
-  Macro macro;
-  std::vector<Place> places;
-};
-
 /// Macroscopic unknowns without unit.
 Macros scaled(const Macro& macro, double length);
 

@@ -50,7 +50,7 @@ TEST(States, WithoutPosesNeedAStatusThatSaysSo)
   limit["status"] = "unbounded";
   EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): unbounded, but no state is given");
   limit["value"] = nullptr;
-  EXPECT_EQ(limit_line(document), "NONE /limits/0 (0 deg, stretch): unbounded, no state to check");
+  EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): unbounded: no witness is given");
   document = chain_document();
   document.at_pointer("/limits/0/status") = "not_attained";
   EXPECT_EQ(limit_line(document),

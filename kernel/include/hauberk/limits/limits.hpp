@@ -81,8 +81,9 @@ struct FoundState {
 LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
                       const LimitSettings& settings, const std::vector<FoundState>& found);
 
-/// Result for a task that the links leave unbounded or not attained, or null if it is to be solved.
-std::optional<LimitResult> decided_by_links(const Model& model, const LimitTask& task);
+/// What links say of a task. `attained` is proved by them; the others mean that links do not stop the load:
+/// something else may (elements can be entangled without a link), so the load is tried.
+Boundedness bounded_by_links(const Model& model, const LimitTask& task);
 
 /// Who follows a computation of limits. Empty functions are not called.
 struct LimitsObserver {

@@ -26,6 +26,7 @@ struct Stage {
   double least_curvature = -std::numeric_limits<double>::infinity();
   bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
   double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
+  bool keep_path = false;     ///< StageResult::path is wanted
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
 };
 
@@ -41,6 +42,7 @@ struct StageResult {
   double residual = 0.0;        ///< norm of dE/dy over the norm of the load, in the dual of the step norm
   double lowest_curvature = 0;  ///< smallest eigenvalue of the Hessian in the step norm, when it was needed
   int escapes = 0;              ///< saddles left along a direction of negative curvature
+  std::vector<State> path;      ///< where kept: the states after each step; steps between them are checked
 };
 
 /// Called between iterations; returns false to interrupt. Must be thread safe.

@@ -42,7 +42,8 @@ struct Schedule {
   MinimaSearch search = MinimaSearch::certified;  ///< of contact `published`
   /// Finite target of the published objective, see Stage; infinite: the load alone.
   double target = std::numeric_limits<double>::infinity();
-  unsigned threads = 1;  ///< for the pairs of one large scene; never changes a result
+  bool keep_path = false;  ///< Locked::path is wanted
+  unsigned threads = 1;    ///< for the pairs of one large scene; never changes a result
 };
 
 /// Activation distances of a schedule's stages, falling.
@@ -85,6 +86,9 @@ struct Locked {
   int iterations = 0;
   long evaluations = 0;
   std::vector<State> trail;  ///< states at the ends of `stages`, for warm starts
+  /// Where kept, and where the strain left every bound: states from the start to there, between which
+  /// `advanced` along their `difference` is free of intersection.
+  std::vector<State> path;
   std::optional<double> error_estimate;
   /// Of `constrained`: contacts with the multipliers of the problem as forces (stage.mu is 1).
   std::optional<ContactEnergy> pressed;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Geometry>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 

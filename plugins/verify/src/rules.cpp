@@ -136,6 +136,7 @@ constexpr std::array rules{
     VerifyRule{"/limits/*/sensitivity/parameters/*",
                {sensitivity},
                "forces times differences of the gaps with the shape made anew, where forces are unique"},
+    VerifyRule{"/limits/*/sensitivity/parameters", {sensitivity}, "empty only without a state"},
     VerifyRule{"/limits/*/sensitivity/**", {}, "sensitivities where forces are not unique"},
     VerifyRule{"/limits/*/poses/**",
                {values, gap, contacts},

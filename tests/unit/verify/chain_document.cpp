@@ -6,6 +6,7 @@
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace hauberk::test {
@@ -100,7 +101,7 @@ json::value chain_document(const Chain& chain)
 
   const Vector3d v1 = rest_period * n, v2 = turn * Vector3d(0.0, 100.0, 0.0);
   json::object scene{{"cell_vectors", {{v1.x(), v1.y()}, {v2.x(), v2.y()}}},
-                     {"length", 0.5 * (chain.R_a + chain.R_b)},
+                     {"length", std::max(chain.R_a, chain.R_b)},
                      {"elements",
                       {{{"type", "a"},
                         {"parameters", {{"ring.R", chain.R_a}}},

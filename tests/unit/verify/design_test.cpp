@@ -117,9 +117,11 @@ TEST(Profiles, EtaFollowsFromBothSenses)
   auto& limit = compressed.as_object();
   limit["sense"] = "compress";
   limit["status"] = "unbounded";
-  limit["value"] = nullptr;
-  limit["poses"].emplace_array();
+  for (const char* key : {"value", "line_stretch", "min_gap", "force_balance"}) limit[key] = nullptr;
+  for (const char* key : {"poses", "contacts", "starts"}) limit[key].emplace_array();
+  limit["contact"] = "";
   document.at("limits").as_array().push_back(compressed);
+  document.at_pointer("/experiment/load_case/senses") = {"stretch", "compress"};
   EXPECT_TRUE(verify(document).ok) << report(document);
   document.at_pointer("/profiles/0/eta") = 0.5;
   EXPECT_NE(report(document).find("FAIL profiles: /profiles/0/eta: 0.5 reported, null from the limits"),

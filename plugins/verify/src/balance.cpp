@@ -4,6 +4,7 @@
 #include "neighbours.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <numbers>
@@ -72,6 +73,11 @@ Macros load(const Limit& limit)
   throw Malformed("the measure \"" + measure + "\" is not known to this check");
 }
 
+double metric_norm(Load load, const Macros& components)
+{
+  return std::sqrt(weights(load).cwiseProduct(components).dot(components));
+}
+
 double value(const Limit& limit, const Macro& macro) { return load(limit).dot(macro.values); }
 
 double line_stretch(double direction_deg, const Macro& macro)
@@ -93,7 +99,7 @@ Macros driving_load(const Limit& limit, double length)
   return out;
 }
 
-double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
+Vector left_over(const Scene& scene, const Setting& setting, const Limit& limit)
 {
   const MovedState state{*limit.macro, limit.poses};
   Vector residual = Vector::Zero(unknowns(scene));
@@ -104,7 +110,21 @@ double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
     else
       add_wall(residual, scene, contact);
   }
-  return free_part(held(scene, setting), residual).cwiseAbs().maxCoeff() / load(limit).norm();
+  return residual;
+}
+
+Vector reactions(const Scene& scene, const Setting& setting, const Limit& limit)
+{
+  const HeldComponents components = held_components(scene, setting);
+  if (components.names.empty()) return Vector(0);
+  const Vector left = left_over(scene, setting, limit).head(macros(scene));
+  return (is_positive(limit) ? 1.0 : -1.0) * components.coefficients.colPivHouseholderQr().solve(left);
+}
+
+double imbalance(const Scene& scene, const Setting& setting, const Limit& limit)
+{
+  return free_part(held(scene, setting), left_over(scene, setting, limit)).cwiseAbs().maxCoeff() /
+         load(limit).norm();
 }
 
 }  // namespace hauberk::verification

@@ -1,4 +1,5 @@
 #pragma once
+#include "kinematics.hpp"
 #include "model.hpp"
 
 namespace hauberk::verification {
@@ -8,6 +9,8 @@ namespace hauberk::verification {
 /// with m = (1, 1, 2) or (1, 1, 1, 2, 2, 2) for strains,
 /// (1, 1, 1/2) for curvatures: those of the Frobenius norm.
 Macros load(const Limit& limit);
+/// Norm of components in the metric above.
+double metric_norm(Load load, const Macros& components);
 /// Value of a limit's measure at any state.
 double value(const Limit& limit, const Macro& macro);
 /// |F n| - 1.
@@ -19,6 +22,12 @@ bool is_positive(const Limit& limit);
 /// What drives the macroscopic unknowns in a limit's state: s t, less macro/T where there is a finite target
 /// T.
 Macros driving_load(const Limit& limit, double length);
+
+/// s t + sum_k f_k dg_k/dy, all of it: what no held component or place has taken yet.
+Vector left_over(const Scene& scene, const Setting& setting, const Limit& limit);
+
+/// r of each held component h_j: the least squares solution of left_over = s sum_j r_j dh_j/d macro.
+Vector reactions(const Scene& scene, const Setting& setting, const Limit& limit);
 
 /// Largest component of the imbalance driving_load + sum_k f_k dg_k/dy over the norm of t, without the part
 /// that what the load case holds takes.

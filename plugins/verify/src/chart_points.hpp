@@ -31,9 +31,14 @@ Values read_values(const boost::json::value& list, const std::string& where);
 /// Throws Malformed.
 ChartPoint read_chart_point(const boost::json::value& entry, const std::string& where);
 
-/// The points are those that `experiment`, the section of the experiment, asks for, each once; exact values
-/// are the experiment's or the reference's. Throws Malformed.
-void check_chart_table(const boost::json::value& experiment, const boost::json::value& chart,
-                       const std::vector<ChartPoint>& points, Sentences& problems);
+/// `locked` counts the values. Throws Malformed.
+void check_locked(const boost::json::value& entry, const Values& values, const std::string& where,
+                  Sentences& problems);
+
+/// The points are those that `experiment`, the section of the experiment `whole`, asks for, each once; exact
+/// values are the experiment's or the reference's. Throws Malformed.
+void check_chart_table(const boost::json::value& whole, const boost::json::value& experiment,
+                       const boost::json::value& chart, const std::vector<ChartPoint>& points,
+                       Sentences& problems);
 
 }  // namespace hauberk::verification

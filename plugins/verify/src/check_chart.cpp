@@ -109,7 +109,8 @@ std::optional<Values> exact_of(const json::array& scenes, const std::string& nam
 
 }  // namespace
 
-void check_chart(const json::value& experiment, const json::value& chart, std::vector<VerifyLine>& lines)
+void check_chart(const json::value& experiment, const json::value& chart, std::vector<VerifyLine>& lines,
+                 Record& record)
 {
   const json::value& asked = member(experiment, "chart", "/experiment");
   const json::array& scenes = array(member(chart, "scenes", "/chart"), "/chart/scenes");
@@ -119,7 +120,9 @@ void check_chart(const json::value& experiment, const json::value& chart, std::v
   for (const json::value& entry : entries)
     points.push_back(read_chart_point(entry, fmt::format("/chart/points/{}", points.size())));
   Sentences table;
-  check_chart_table(asked, chart, points, table);
+  check_chart_table(experiment, asked, chart, points, table);
+  record.done(VerifyPart::chart, "/chart", table.empty());
+  record.done(VerifyPart::chart, "/experiment/chart", table.empty());
   lines.push_back(
       {table.empty(),
        "/chart: " + (table.empty() ? fmt::format("{} points, as asked for", points.size()) : joined(table))});
@@ -133,6 +136,8 @@ void check_chart(const json::value& experiment, const json::value& chart, std::v
     check_seconds(member(entries[k], "seconds", p.where), p, repeats, problems);
     check_fronts(p, points, problems);
     check_same(p, points, problems);
+    check_locked(entries[k], p.values, p.where, problems);
+    record.done(VerifyPart::chart, p.where, problems.empty());
     if (!problems.empty())
       lines.push_back({false, name + ": " + joined(problems)});
     else if (p.error)

@@ -120,9 +120,104 @@ void check_exact(const json::value& asked, const json::value& scene, const std::
   check_floor(expected, reference, scene, where, problems);
 }
 
+/// Names of the settings: labels where there are any, and then as many as values.
+void check_methods(const json::value& asked, const json::value& chart, Sentences& problems)
+{
+  const std::string where = "/chart/methods";
+  const json::array& given =
+      array(member(asked, "methods", "/experiment/chart"), "/experiment/chart/methods");
+  const json::array& found = array(member(chart, "methods", "/chart"), where);
+  if (given.size() != found.size()) return problems.push_back("methods: not the experiment's");
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const std::string at = fmt::format("{}/{}", where, k);
+    const json::array& settings = array(member(found[k], "settings", at), at + "/settings");
+    const json::value* labels = given[k].as_object().if_contains("labels");
+    if (member(found[k], "name", at) != member(given[k], "name", at) ||
+        settings.size() != setting_count(given[k], at) ||
+        (labels != nullptr && *labels != json::value(settings)))
+      problems.push_back(fmt::format("methods/{}: not the experiment's", k));
+  }
+}
+
+/// Points of a method run through its settings.
+void check_settings(const json::value& chart, const std::vector<ChartPoint>& points, Sentences& problems)
+{
+  for (const json::value& method : array(member(chart, "methods", "/chart"), "/chart/methods")) {
+    const json::array& settings = array(member(method, "settings", "/chart/methods"), "/chart/methods");
+    for (const ChartPoint& p : points) {
+      if (json::value(p.method) != member(method, "name", "/chart/methods")) continue;
+      if (std::find(settings.begin(), settings.end(), json::value(p.setting)) == settings.end())
+        problems.push_back(fmt::format("{}: '{}' is no setting of '{}'", p.where, p.setting, p.method));
+    }
+    for (const json::value& setting : settings) {
+      const std::string name = text(setting, "/chart/methods");
+      if (std::none_of(points.begin(), points.end(), [&](const ChartPoint& p) { return p.setting == name; }))
+        problems.push_back(fmt::format("methods: no point has the setting '{}'", name));
+    }
+  }
+}
+
+/// Sets what a pointer leads to, or adds a member.
+void enter(json::value& v, std::string_view pointer, const json::value& value)
+{
+  json::error_code none;
+  if (json::value* found = v.find_pointer(pointer, none))
+    *found = value;
+  else if (json::object* object = v.if_object();
+           object != nullptr && pointer.find('/', 1) == std::string_view::npos)
+    (*object)[pointer.substr(1)] = value;
+}
+
+/// The experiment's load case with what a scene sets in it.
+json::value load_case_of(const json::value& experiment, const json::value& asked)
+{
+  json::value load = member(experiment, "load_case", "/experiment");
+  const json::value* set = asked.as_object().if_contains("set");
+  if (set == nullptr || !set->is_object()) return load;
+  constexpr std::string_view section = "/load_case";
+  for (const auto& [pointer, value] : set->as_object()) {
+    const std::string_view at = pointer;
+    if (at == section) load = value;
+    if (at.starts_with(section) && at.size() > section.size()) enter(load, at.substr(section.size()), value);
+  }
+  return load;
+}
+
+/// As many limits as values, each in a direction and a sense that are asked for.
+void check_limits(const json::value& experiment, const json::value& asked, const json::value& scene,
+                  const std::string& where, Sentences& problems)
+{
+  const json::array& limits = array(member(scene, "limits", where), where + "/limits");
+  const json::value& exact = member(scene, "exact", where);
+  if (exact.is_array() && exact.as_array().size() != limits.size())
+    problems.push_back(where + "/limits: not as many as exact values");
+  const json::value load = load_case_of(experiment, asked);
+  const auto listed = [&](const char* key, const json::value& wanted) {
+    const json::value* list = load.as_object().if_contains(key);
+    if (list == nullptr || !list->is_array()) return true;
+    return std::any_of(list->as_array().begin(), list->as_array().end(), [&](const json::value& x) {
+      return x.is_number() && wanted.is_number() ? x.to_number<double>() == wanted.to_number<double>()
+                                                 : x == wanted;
+    });
+  };
+  for (const json::value& limit : limits) {
+    if (!listed("senses", member(limit, "sense", where + "/limits")) ||
+        !listed("directions_deg", member(limit, "direction_deg", where + "/limits")))
+      problems.push_back(where + "/limits: one that is not asked for");
+  }
+}
+
 }  // namespace
 
-void check_chart_table(const json::value& experiment, const json::value& chart,
+void check_locked(const json::value& entry, const Values& values, const std::string& where,
+                  Sentences& problems)
+{
+  const auto count = std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
+  if (number(member(entry, "locked", where), where + "/locked") != static_cast<double>(count))
+    problems.push_back(fmt::format("{}/locked: {} expected", where, count));
+}
+
+void check_chart_table(const json::value& whole, const json::value& experiment, const json::value& chart,
                        const std::vector<ChartPoint>& points, Sentences& problems)
 {
   const std::string where = "/experiment/chart/scenes";
@@ -131,12 +226,23 @@ void check_chart_table(const json::value& experiment, const json::value& chart,
   statuses.reserve(points.size());
   for (const ChartPoint& p : points) statuses.push_back(p.status);
   check_counts(member(chart, "counts", "/chart"), statuses, "points", problems);
+  for (const char* key : {"repeats", "threads"})
+    if (member(chart, key, "/chart") != member(experiment, key, "/experiment/chart"))
+      problems.push_back(fmt::format("{}: not the experiment's", key));
+  check_methods(experiment, chart, problems);
+  check_settings(chart, points, problems);
   const json::array& asked = array(member(experiment, "scenes", "/experiment/chart"), where);
   const json::array& scenes = array(member(chart, "scenes", "/chart"), "/chart/scenes");
   if (scenes.size() != asked.size())
     problems.push_back(fmt::format("scenes: {} expected, found {}", asked.size(), scenes.size()));
-  for (std::size_t k = 0; k < std::min(scenes.size(), asked.size()); ++k)
-    check_exact(asked[k], scenes[k], fmt::format("/chart/scenes/{}", k), problems);
+  for (std::size_t k = 0; k < std::min(scenes.size(), asked.size()); ++k) {
+    const std::string at = fmt::format("/chart/scenes/{}", k);
+    check_exact(asked[k], scenes[k], at, problems);
+    check_limits(whole, asked[k], scenes[k], at, problems);
+    const json::value& reference = member(scenes[k], "reference", at);
+    if (!reference.is_null())
+      check_locked(reference, read_values(member(reference, "values", at), at), at + "/reference", problems);
+  }
 }
 
 }  // namespace hauberk::verification

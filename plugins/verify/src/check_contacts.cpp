@@ -66,13 +66,14 @@ void check_surfaces(const Scene& scene, const Limit& limit, const Contact& conta
   }
 }
 
-void check_wall(const Scene& scene, const Setting& setting, const Limit& limit, const Contact& contact,
+/// False where its element does not exist.
+bool check_wall(const Scene& scene, const Setting& setting, const Limit& limit, const Contact& contact,
                 double tolerance, const std::string& name, Sentences& problems)
 {
   const int k = contact.elements[0];
   if (k < 0 || k >= static_cast<int>(scene.elements.size()) || contact.elements[1] != -1) {
     problems.push_back(name + ": no such element");
-    return;
+    return false;
   }
   double mean = 0.0;
   for (std::size_t e = 0; e < limit.poses.size(); ++e)
@@ -84,13 +85,15 @@ void check_wall(const Scene& scene, const Setting& setting, const Limit& limit, 
   if (contact.normal.head<2>().norm() > 0.0) problems.push_back(name + ": the normal of a wall is along z");
   if (!(std::abs(gap - contact.gap) <= tolerance))
     problems.push_back(fmt::format("{}: gap {:.6g} listed, {:.6g} found", name, contact.gap, gap));
+  return true;
 }
 
 }  // namespace
 
-void check_contacts(const Scene& scene, const Setting& setting, const Limit& limit,
+bool check_contacts(const Scene& scene, const Setting& setting, const Limit& limit,
                     const VerifyTolerances& tolerances, Sentences& problems)
 {
+  bool all_exist = true;
   for (std::size_t i = 0; i < limit.contacts.size(); ++i) {
     const Contact& contact = limit.contacts[i];
     const std::string name = fmt::format("contact {}", i);
@@ -98,23 +101,26 @@ void check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
     if (std::abs(contact.normal.norm() - 1.0) > tolerances.gap)
       problems.push_back(fmt::format("{}: the normal's length is {:.12g}", name, contact.normal.norm()));
     if (!contact.wall.empty()) {
-      check_wall(scene, setting, limit, contact, tolerances.gap * scene.length, name, problems);
+      all_exist = check_wall(scene, setting, limit, contact, tolerances.gap * scene.length, name, problems) &&
+                  all_exist;
       continue;
     }
     if (!indices_exist(scene, contact)) {
       problems.push_back(name + ": no such elements or primitives");
+      all_exist = false;
       continue;
     }
     const Slack allowed = slack(scene, limit, contact, tolerances);
     check_surfaces(scene, limit, contact, allowed, name, problems);
     const double gap = (contact.points[1] - contact.points[0]).dot(contact.normal) - setting.clearance;
     const Vec3 aside = contact.points[1] - contact.points[0] - (gap + setting.clearance) * contact.normal;
-    if (setting.facets > 0 && aside.norm() > allowed.length)
+    if (!(aside.norm() <= allowed.length))
       problems.push_back(fmt::format("{}: its points are {:.3g} off its normal", name, aside.norm()));
     if (std::abs(gap - contact.gap) > allowed.length)
       problems.push_back(
           fmt::format("{}: gap {:.6g} listed, {:.6g} between its points", name, contact.gap, gap));
   }
+  return all_exist;
 }
 
 }  // namespace hauberk::verification

@@ -1,4 +1,5 @@
 #include "checks.hpp"
+#include "layout.hpp"
 #include "read.hpp"
 
 #include <fmt/format.h>
@@ -96,65 +97,95 @@ void check_targets(const json::value& design, const std::vector<Limit>& initial,
   }
 }
 
-/// The variable "scope/parameter", and its elements where the scope is a place (of every tile).
-struct Variable {
-  std::string name;
-  std::set<std::size_t> places;
-  /// True when it names a parameter of element k of type `type`.
-  bool names_element(const std::string& scope, std::size_t k, const std::string& type) const
-  {
-    return scope == "*" || scope == type || (is_number(scope) && places.contains(k));
-  }
-  static bool is_number(const std::string& scope)
-  {
-    return !scope.empty() && scope.find_first_not_of("0123456789") == std::string::npos;
-  }
-};
-
-void check_parameters(const json::value& scene, const std::string& where, const Variable& of, double expected,
-                      double tolerance, Sentences& problems)
+/// What is designed is what the experiment asks for.
+void check_question(const json::value& asked, const json::value& design, double tolerance,
+                    Sentences& problems)
 {
-  const std::string& variable = of.name;
-  const auto slash = variable.find('/');
-  if (slash == std::string::npos) return;
-  const std::string scope = variable.substr(0, slash), parameter = variable.substr(slash + 1);
-  std::size_t k = 0;
-  for (const json::value& element : array(member(scene, "elements", where), where)) {
-    const std::string at = fmt::format("{}/elements/{}", where, k);
-    const auto found =
-        optional_number(member(element, "parameters", at), parameter.c_str(), at + "/parameters");
-    const bool named = of.names_element(scope, k, text(member(element, "type", at), at + "/type"));
-    if (named && found && !equal(*found, expected, tolerance))
-      problems.push_back(fmt::format("{}: {} is {:.10g}, the variable {} is {:.10g}", at, parameter, *found,
-                                     variable, expected));
-    ++k;
+  const std::string where = "/experiment/design";
+  if (member(design, "quantity", "/design") != member(asked, "quantity", where))
+    problems.emplace_back("/design/quantity: not the experiment's");
+  const json::array& given = array(member(asked, "targets", where), where + "/targets");
+  const json::array& found = array(member(design, "targets", "/design"), "/design/targets");
+  if (given.size() != found.size())
+    return problems.push_back(
+        fmt::format("/design/targets: {} expected, found {}", given.size(), found.size()));
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const std::string at = fmt::format("/design/targets/{}", k), of = fmt::format("{}/targets/{}", where, k);
+    const double weight = optional_number(given[k], "weight", of).value_or(1.0);
+    const bool same = equal(number(member(found[k], "direction_deg", at), at),
+                            number(member(given[k], "direction_deg", of), of), tolerance) &&
+                      equal(number(member(found[k], "target", at), at),
+                            number(member(given[k], "value", of), of), tolerance) &&
+                      equal(number(member(found[k], "weight", at), at), weight, tolerance);
+    if (!same) problems.push_back(at + ": not the experiment's");
   }
 }
 
-void check_variables(const json::value& results, const json::value& design, double tolerance,
-                     Sentences& problems)
+/// Names, bounds and elements are as asked for; their values are those that the scenes must have.
+void check_variables(const json::value& experiment, const json::value& design, DesignedScenes& designed,
+                     double tolerance, Sentences& problems)
 {
-  const json::value& initial_scene = member(member(design, "initial", "/design"), "scene", "/design/initial");
-  const auto count = static_cast<double>(
-      array(member(member(results, "scene", ""), "elements", "/scene"), "/scene/elements").size());
-  std::size_t i = 0;
-  for (const json::value& v : array(member(design, "variables", "/design"), "/design/variables")) {
-    const std::string at = fmt::format("/design/variables/{}", i++);
-    Variable name{text(member(v, "name", at), at), {}};
-    for (const json::value& k : array(member(v, "elements", at), at + "/elements")) {
-      const double element = number(k, at + "/elements");
-      if (!(element >= 0.0 && element < count))
-        throw Malformed(at + "/elements: expected numbers of elements of the scene");
-      name.places.insert(static_cast<std::size_t>(element));
-    }
+  const json::array& found = array(member(design, "variables", "/design"), "/design/variables");
+  const auto laid = laid_out(experiment);
+  if (!laid) throw Malformed("/experiment/cell/place: missing, so that variables cannot be told");
+  const std::vector<AskedVariable> asked =
+      asked_variables(member(experiment, "design", "/experiment"), *laid);
+  if (asked.size() != found.size())
+    return problems.push_back(
+        fmt::format("/design/variables: {} expected, found {}", asked.size(), found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::string at = fmt::format("/design/variables/{}", i);
+    const json::value& v = found[i];
+    if (const std::string name = text(member(v, "name", at), at + "/name"); name != asked[i].name)
+      problems.push_back(fmt::format("{}: {} expected, found {}", at, asked[i].name, name));
+    std::set<double> expected, elements;
+    for (const auto& [k, parameter] : asked[i].parameters) expected.insert(static_cast<double>(k));
+    for (const json::value& k : array(member(v, "elements", at), at + "/elements"))
+      elements.insert(number(k, at + "/elements"));
+    if (elements != expected) problems.push_back(at + "/elements: not those that the variable is of");
     const double lower = number(member(v, "lower", at), at), upper = number(member(v, "upper", at), at);
+    if (!equal(lower, asked[i].lower, tolerance) || !equal(upper, asked[i].upper, tolerance))
+      problems.push_back(at + ": bounds are not the experiment's");
     const double first = number(member(v, "initial", at), at), last = number(member(v, "final", at), at);
     for (const double x : {first, last})
       if (x < lower - tolerance * (1.0 + std::abs(lower)) || x > upper + tolerance * (1.0 + std::abs(upper)))
         problems.push_back(fmt::format("{}: {:.10g} is outside [{:.10g}, {:.10g}]", at, x, lower, upper));
-    check_parameters(initial_scene, "/design/initial/scene", name, first, tolerance, problems);
-    check_parameters(member(results, "scene", ""), "/scene", name, last, tolerance, problems);
+    designed.initial.push_back({asked[i].parameters, first});
+    designed.final.push_back({asked[i].parameters, last});
   }
+}
+
+/// Objectives of iterates follow from their values.
+void check_history(const json::value& design, double tolerance, Sentences& problems)
+{
+  const json::array& targets = array(member(design, "targets", "/design"), "/design/targets");
+  std::size_t i = 0;
+  for (const json::value& h : array(member(design, "history", "/design"), "/design/history")) {
+    const std::string at = fmt::format("/design/history/{}", i);
+    const json::array& values = array(member(h, "values", at), at + "/values");
+    if (values.size() != targets.size()) throw Malformed(at + "/values: a value for each target expected");
+    Objective objective;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      objective.add(values[k].is_null() ? std::nullopt : std::optional(number(values[k], at + "/values")),
+                    number(member(targets[k], "target", at), at),
+                    number(member(targets[k], "weight", at), at));
+    const auto reported = optional_number(h, "objective", at);
+    if (objective.sum && !equal(reported, objective.sum, tolerance))
+      problems.push_back(fmt::format("{}/objective: {} reported, {} from its values", at, show(reported),
+                                     show(objective.sum)));
+    if (number(member(h, "iteration", at), at) != static_cast<double>(i))
+      problems.push_back(fmt::format("{}/iteration: {} expected", at, i));
+    ++i;
+  }
+}
+
+void check_start(const json::value& design, Sentences& problems)
+{
+  const json::value& start = member(design, "start", "/design");
+  bool there = false;
+  for (const json::value& s : array(member(design, "starts", "/design"), "/design/starts"))
+    there = there || member(s, "start", "/design/starts") == start;
+  if (!there) problems.emplace_back("/design/start: not one of the starts");
 }
 
 VerifyLine line(const std::string& what, const Sentences& problems, const std::string& found)
@@ -202,12 +233,19 @@ VerifyLine check_profiles(const json::value& results, Load load, const std::vect
 }
 
 VerifyLine check_design(const json::value& results, const std::vector<Limit>& initial,
-                        const std::vector<Limit>& final, const VerifyTolerances& tolerances)
+                        const std::vector<Limit>& final, DesignedScenes& designed,
+                        const VerifyTolerances& tolerances, Record& record)
 {
   const json::value& design = member(results, "design", "");
   Sentences problems;
   check_targets(design, initial, final, tolerances.value, problems);
-  check_variables(results, design, tolerances.value, problems);
+  const json::value& experiment = member(results, "experiment", "");
+  check_question(member(experiment, "design", "/experiment"), design, tolerances.value, problems);
+  check_variables(experiment, design, designed, tolerances.value, problems);
+  check_history(design, tolerances.value, problems);
+  check_start(design, problems);
+  record.done(VerifyPart::design, "/design", problems.empty());
+  record.done(VerifyPart::design, "/experiment/design", problems.empty());
   return line("design", problems, "targets, objectives and variables agree with limits and scenes");
 }
 

@@ -3,6 +3,7 @@
 #include "kinematics.hpp"
 #include "links.hpp"
 #include "neighbours.hpp"
+#include "read.hpp"
 #include "saddle.hpp"
 #include "sheet.hpp"
 #include "witness.hpp"
@@ -11,11 +12,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace hauberk::verification {
 namespace {
+
+namespace json = boost::json;
 
 /// Pairs whose bounding spheres are farther apart than this many L are not searched.
 constexpr double search_margin = 1.0;
@@ -58,8 +62,8 @@ std::string check_links(const Scene& scene, const Limit& limit, Sentences& probl
   return changed.empty() ? fmt::format("{} links kept", at_rest.size()) : "links changed";
 }
 
-std::string check_balance(const Scene& scene, const Setting& setting, const Limit& limit,
-                          const VerifyTolerances& tolerances, Sentences& problems)
+double check_balance(const Scene& scene, const Setting& setting, const Limit& limit,
+                     const VerifyTolerances& tolerances, Sentences& problems)
 {
   const double found = imbalance(scene, setting, limit);
   double least = std::numeric_limits<double>::infinity();
@@ -80,7 +84,7 @@ std::string check_balance(const Scene& scene, const Setting& setting, const Limi
   else if (!(std::abs(*limit.force_balance - found) <= tolerances.balance_agreement))
     problems.push_back(
         fmt::format("force_balance {:.3g} reported, {:.3g} found", *limit.force_balance, found));
-  return fmt::format("imbalance {:.3g}", found);
+  return found;
 }
 
 /// How far a bent state is from being no sheet.
@@ -93,7 +97,7 @@ Sheet sheet_of_limit(const Scene& scene, const Limit& limit)
 
 /// A state that is kept because it is no sheet: admissible, free of intersections, and beyond the criterion.
 VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const Limit& limit,
-                             const VerifyTolerances& tolerances)
+                             const VerifyTolerances& tolerances, Record& record)
 {
   Sentences problems;
   if (limit.value) problems.push_back(fmt::format("value {} reported, null expected", show(limit.value)));
@@ -110,59 +114,169 @@ VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const L
   } else {
     problems.push_back(how);
   }
+  for (const VerifyPart part : {VerifyPart::values, VerifyPart::gap, VerifyPart::links, VerifyPart::contacts,
+                                VerifyPart::balance, VerifyPart::held})
+    record.done(part, limit.where, problems.empty());
   return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
                                         problems.empty() ? fmt::format("{}, {}, {}", gap, kept, how)
                                                          : fmt::format("{}", fmt::join(problems, "; ")))};
 }
 
-}  // namespace
-
-VerifyLine check_limit(const Scene& scene, const Setting& setting, const Limit& limit,
-                       const VerifyTolerances& tolerances)
+/// Reactions are those of what is held, and as large as what the forces leave of the load.
+void check_held(const Scene& scene, const Setting& setting, const Limit& limit, double imbalance,
+                const VerifyTolerances& tolerances, Sentences& problems)
 {
-  const bool has_state = !limit.poses.empty();
-  if (!has_state && !limit.value && (limit.status == "unbounded" || limit.status == "not_attained")) {
-    Sentences problems, found;
-    check_witness(scene, limit, problems, found);
-    return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
-                                          fmt::join(problems.empty() ? found : problems, "; "))};
+  const HeldComponents components = held_components(scene, setting);
+  const Vector zero = components.coefficients.transpose() * scaled(*limit.macro, scene.length);
+  for (Eigen::Index k = 0; k < zero.size(); ++k)
+    if (!(std::abs(zero[k]) <= tolerances.held))
+      problems.push_back(
+          fmt::format("{} is held, and is {:.3g}", components.names[static_cast<std::size_t>(k)], zero[k]));
+  std::vector<std::string> names;
+  for (const Reaction& r : limit.reactions) names.push_back(r.name);
+  if (names != components.names) {
+    problems.push_back(fmt::format("reactions of [{}] expected, found [{}]",
+                                   fmt::join(components.names, ", "), fmt::join(names, ", ")));
+    return;
   }
-  if (!has_state || !limit.macro) {
-    const bool may_lack = !has_state && limit.status != "locked" && !limit.value;
-    return {
-        may_lack,
-        limit.label + ": " + limit.status + (may_lack ? ", no state to check" : ", but no state is given"),
-        false};
+  const Vector found = reactions(scene, setting, limit);
+  for (Eigen::Index k = 0; k < found.size(); ++k) {
+    const double reported = limit.reactions[static_cast<std::size_t>(k)].value;
+    if (!(std::abs(reported - found[k]) <= tolerances.reaction + 10.0 * imbalance))
+      problems.push_back(fmt::format("reaction of {} {:.8g} reported, the forces leave {:.8g}",
+                                     names[static_cast<std::size_t>(k)], reported, found[k]));
   }
-  if (limit.poses.size() != scene.elements.size())
-    return {false, fmt::format("{}: {} poses for {} elements", limit.label, limit.poses.size(),
-                               scene.elements.size())};
-  if (limit.status == "unbounded" || limit.status == "not_attained")
-    return {false, limit.label + ": " + limit.status + " limits have no locked state"};
-  if (limit.status == "not_a_sheet") return check_not_a_sheet(scene, setting, limit, tolerances);
+}
+
+bool known_status(const std::string& status)
+{
+  constexpr std::array statuses{"locked", "unbounded",   "not_attained", "stalled",
+                                "failed", "interrupted", "not_a_sheet"};
+  return std::find(statuses.begin(), statuses.end(), status) != statuses.end();
+}
+
+/// A limit that nothing stops, and the motion that shows it.
+VerifyLine check_witnessed(const Scene& scene, const Limit& limit, Record& record)
+{
+  Sentences problems, found;
+  if (limit.value || !limit.contacts.empty()) problems.push_back("a value or contacts, though nothing stops it");
+  check_witness(scene, limit, problems, found);
+  for (const VerifyPart part :
+       {VerifyPart::values, VerifyPart::witness, VerifyPart::gap, VerifyPart::balance, VerifyPart::held})
+    record.done(part, limit.where, problems.empty());
+  record.skip(limit.where + "/links_kept", "what says nothing without a state");
+  return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
+                                        fmt::join(problems.empty() ? found : problems, "; "))};
+}
+
+/// A limit without a state: nothing that a state would have is given.
+VerifyLine check_stateless(const Limit& limit, Record& record)
+{
+  const bool bare = !limit.value && !limit.line_stretch && !limit.min_gap && !limit.force_balance &&
+                    limit.contacts.empty() && limit.z_range.value_or(0.0) == 0.0;
+  const bool may_lack = limit.poses.empty() && limit.status != "locked" && bare &&
+                        known_status(limit.status) && (!limit.infimum || limit.status == "not_attained");
+  for (const VerifyPart part : {VerifyPart::values, VerifyPart::gap, VerifyPart::balance, VerifyPart::held})
+    record.done(part, limit.where, may_lack);
+  if (may_lack) {
+    record.skip(limit.where + "/status", "statuses without a state or a witness");
+    record.skip(limit.where + "/infimum", "statuses without a state or a witness");
+    record.skip(limit.where + "/links_kept", "what says nothing without a state");
+  }
+  return {may_lack,
+          limit.label + ": " + limit.status + (may_lack ? ", no state to check" : ", but no state is given"),
+          false};
+}
+
+/// The parts of the check of a limit with a state, one after the other.
+class StateCheck {
+ public:
+  StateCheck(const Limit& limit, Record& record, const std::string& experiment)
+      : limit_(limit), record_(record), experiment_(experiment)
+  {
+  }
+
+  /// Does a part, and notes whether it found anything wrong.
+  template <class F>
+  void part(VerifyPart part, const F& check)
+  {
+    const std::size_t before = problems.size();
+    check();
+    const bool passed = problems.size() == before;
+    record_.done(part, limit_.where, passed);
+    record_.done(part, experiment_, passed);
+  }
 
   Sentences problems, found;
-  check_values(scene, setting, limit, tolerances, problems);
-  found.push_back(check_gap(scene, setting, limit, tolerances, problems));
-  found.push_back(check_links(scene, limit, problems));
-  const std::size_t before = problems.size();
-  check_contacts(scene, setting, limit, tolerances, problems);
-  const bool readable =
-      std::none_of(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end(),
-                   [](const std::string& p) { return p.find("no such") != std::string::npos; });
-  if (readable) found.push_back(check_balance(scene, setting, limit, tolerances, problems));
-  if (setting.load == Load::paraboloid && limit.status == "locked") {
-    if (const Sheet sheet = sheet_of_limit(scene, limit); !sheet.holds())
-      problems.push_back("no sheet: " + sheet.text());
+
+ private:
+  const Limit& limit_;
+  Record& record_;
+  const std::string& experiment_;
+};
+
+}  // namespace
+
+VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& limit, const json::value& json,
+                       const json::value& experiment, const VerifyTolerances& tolerances, Record& record)
+{
+  const auto refused = [&](const std::string& why) {
+    record.done(VerifyPart::values, limit.where, false);
+    return VerifyLine{false, limit.label + ": " + why};
+  };
+  if (limit.status == "unbounded" || limit.status == "not_attained") {
+    if (!limit.poses.empty()) return refused(limit.status + " limits have no locked state");
+    return check_witnessed(scene, limit, record);
+  }
+  if (limit.poses.empty() || !limit.macro) return check_stateless(limit, record);
+  if (limit.poses.size() != scene.elements.size())
+    return refused(fmt::format("{} poses for {} elements", limit.poses.size(), scene.elements.size()));
+  if (limit.status == "unbounded" || limit.status == "not_attained")
+  if (!known_status(limit.status)) return refused("status \"" + limit.status + "\" is not known");
+  Setting setting = of_all;
+  setting.hold = limit.hold;
+  setting.direction_deg = limit.direction_deg;
+
+  if (limit.status == "not_a_sheet") return check_not_a_sheet(scene, setting, limit, tolerances, record);
+
+  StateCheck check(limit, record, of_all.where);
+  Sentences &problems = check.problems, &found = check.found;
+  check.part(VerifyPart::values, [&] { check_values(scene, setting, limit, tolerances, problems); });
+  check.part(VerifyPart::gap,
+             [&] { found.push_back(check_gap(scene, setting, limit, tolerances, problems)); });
+  check.part(VerifyPart::links, [&] { found.push_back(check_links(scene, limit, problems)); });
+  bool readable = true;
+  check.part(VerifyPart::contacts,
+             [&] { readable = check_contacts(scene, setting, limit, tolerances, problems); });
+  if (readable) {
+    double imbalance = 0.0;
+    check.part(VerifyPart::balance, [&] {
+      imbalance = check_balance(scene, setting, limit, tolerances, problems);
+      found.push_back(fmt::format("imbalance {:.3g}", imbalance));
+    });
+    check.part(VerifyPart::held, [&] { check_held(scene, setting, limit, imbalance, tolerances, problems); });
+    if (setting.load == Load::paraboloid && limit.status == "locked") {
+      check.part(VerifyPart::values, [&] {
+        if (const Sheet sheet = sheet_of_limit(scene, limit); !sheet.holds())
+          problems.push_back("no sheet: " + sheet.text());
+      });
+    }
+    if (problems.empty()) {
+      const std::string at = limit.where + "/sensitivity";
+      check_sensitivity(scene, setting, limit, member(json, "sensitivity", limit.where), experiment, at,
+                        problems, record);
+    }
   }
   // Only where everything else is in order: it moves the state along its contacts.
   if (setting.facets > 0) {
     found.emplace_back("not tested for saddles");
   } else if (problems.empty() && limit.status == "locked") {
-    if (const auto further = further_nearby(scene, setting, limit))
+    if (const auto further = further_nearby(scene, setting, limit)) {
       problems.push_back(fmt::format(
           "a saddle, not a locked state: moved by {:.2g} it goes further by {:.3g} without intersection",
           further->away, further->gain));
+      record.done(VerifyPart::values, limit.where, false);
+    }
   }
   const Sentences& said = problems.empty() ? found : problems;
   return {problems.empty(), fmt::format("{}: {} {}: {}", limit.label, limit.status, show(limit.value),

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hauberk::verification {
 namespace {
@@ -54,6 +55,10 @@ PositionDerivatives derivatives(const Scene& scene, const Setting& setting, cons
   const double x = state.places[k].position.x() / scene.length;
   const double y = state.places[k].position.y() / scene.length;
   out.macro.row(2) << x * x, y * y, x * y;
+  if (setting.places()) {
+    out.own.setZero();
+    return out;
+  }
   out.own.row(2) << 2.0 * c[0] * x + c[2] * y, 2.0 * c[1] * y + c[2] * x, 0.0;
   return out;
 }
@@ -65,7 +70,8 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
   out.macro.values += y.head(macros(scene)) / (setting.load == Load::paraboloid ? L : 1.0);
   const Mat3 change = out.macro.deformation() - state.macro.deformation();
   for (std::size_t k = 0; k < out.places.size(); ++k) {
-    const Vec3 u = L * y.segment<3>(first_of(scene, static_cast<int>(k)));
+    Vec3 u = L * y.segment<3>(first_of(scene, static_cast<int>(k)));
+    if (setting.places()) u.setZero();
     Vec3& x = out.places[k].position;
     if (setting.load != Load::paraboloid) {
       x += change * rest_of(scene, k).position + Vec3(u.x(), u.y(), setting.half_height == 0.0 ? 0.0 : u.z());
@@ -83,12 +89,43 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
   return out;
 }
 
+HeldComponents held_components(const Scene& scene, const Setting& setting)
+{
+  const double theta = setting.direction_deg * std::numbers::pi / 180.0;
+  const double c = std::cos(theta), s = std::sin(theta);
+  HeldComponents out{{}, Matrix::Zero(macros(scene), 0)};
+  const bool bent = setting.load == Load::paraboloid;
+  for (const std::string& name : setting.hold) {
+    if (bent && name == "places") continue;
+    Vector row = Vector::Zero(macros(scene));
+    const Eigen::Index last = row.size() - 1;
+    // Of x^2, y^2 and x y, or of exx, eyy and exy, the last of all.
+    if ((name == "shear" && !bent) || (name == "twist" && bent)) {
+      row[0] = -c * s * (bent ? 2.0 : 1.0);
+      row[1] = c * s * (bent ? 2.0 : 1.0);
+      row[last] = c * c - s * s;
+    } else if ((name == "lateral" && !bent) || (name == "transverse" && bent)) {
+      row[0] = s * s * (bent ? 2.0 : 1.0);
+      row[1] = c * c * (bent ? 2.0 : 1.0);
+      row[last] = -2.0 * c * s;
+    } else {
+      throw Unknown("hold \"" + name + "\" is not known to this check");
+    }
+    out.names.push_back(name);
+    out.coefficients.conservativeResize(Eigen::NoChange, out.coefficients.cols() + 1);
+    out.coefficients.rightCols<1>() = row;
+  }
+  return out;
+}
+
 Matrix held(const Scene& scene, const Setting& setting)
 {
-  Matrix rows = Matrix::Zero(unknowns(scene), 0);
-  if (setting.load != Load::paraboloid) return rows;
-  rows = Matrix::Zero(unknowns(scene), 3);
-  for (std::size_t k = 0; k < scene.elements.size(); ++k) {
+  const Matrix components = held_components(scene, setting).coefficients;
+  const bool gauged = setting.load == Load::paraboloid && !setting.places();
+  Matrix rows = Matrix::Zero(unknowns(scene), components.cols() + (gauged ? 3 : 0));
+  if (rows.cols() == 0) return rows;
+  rows.topRightCorner(components.rows(), components.cols()) = components;
+  for (std::size_t k = 0; gauged && k < scene.elements.size(); ++k) {
     const Vec3 X = rest_of(scene, k).position / scene.length;
     const Eigen::Index o = first_of(scene, static_cast<int>(k));
     rows(o, 0) = rows(o + 1, 1) = 1.0;
@@ -104,7 +141,8 @@ Vector free_part(const Matrix& held, const Vector& x)
   return held.cols() == 0 ? x : Vector(x - held * (held.transpose() * x));
 }
 
-std::vector<std::string> misplaced(const Scene& scene, const MovedState& state, double tolerance)
+std::vector<std::string> misplaced(const Scene& scene, const Setting& setting, const MovedState& state,
+                                   double tolerance)
 {
   std::vector<std::string> out;
   const auto n = static_cast<double>(state.places.size());
@@ -119,6 +157,14 @@ std::vector<std::string> misplaced(const Scene& scene, const MovedState& state, 
     turn += X.cross(x - X).z() / (n * scene.length);
   }
   const double allowed = tolerance * scene.length;
+  if (setting.places()) {
+    for (std::size_t k = 0; k < state.places.size(); ++k) {
+      const double away = (state.places[k].position - rest_of(scene, k).position).head<2>().norm();
+      if (!(away <= allowed)) out.push_back(fmt::format("element {} is {:.3g} from its place", k, away));
+    }
+    if (!(off <= allowed)) out.push_back(fmt::format("an element is {:.3g} off the paraboloid", off));
+    return out;
+  }
   if (state.macro.load != Load::paraboloid) {
     // Either the mean position or the mean of u = x - F X may be the one that is held.
     const double mean = std::min(moved.norm(), fluctuation.norm());

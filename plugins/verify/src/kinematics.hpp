@@ -5,7 +5,9 @@
 ///
 /// strain:     x = F (X + T) + u, u.z = 0 where z is fixed
 /// solid:      x = F (X + T) + u
-/// paraboloid: x = (X + u_x, Y + u_y, Z + A x^2 + B y^2 + C x y); the mean of u and sum of X x u are zero
+/// paraboloid: x = (X + u_x, Y + u_y, Z + A x^2 + B y^2 + C x y); the mean of u and sum of X x u are zero, or
+/// all of u
+///             where places are held
 #include "model.hpp"
 
 #include <string>
@@ -25,6 +27,16 @@ inline Eigen::Index first_of(const Scene& scene, int element)
   return macros(scene) + per_element * element;
 }
 Eigen::Index unknowns(const Scene& scene);
+
+/// Components of the macroscopic unknowns that a limit holds at zero, in the order of `hold`: a column of
+/// coefficients each. With n = (c, s) along the load and m = (-s, c) across it they are n^T eps m (shear),
+/// m^T eps m (lateral), and of H = [[2A, C], [C, 2B]] n^T H m (twist), m^T H m (transverse); `places` is none
+/// of them. Throws Unknown.
+struct HeldComponents {
+  std::vector<std::string> names;
+  Eigen::MatrixXd coefficients;
+};
+HeldComponents held_components(const Scene& scene, const Setting& setting);
 
 /// Macroscopic unknowns without unit.
 Macros scaled(const Macro& macro, double length);
@@ -48,7 +60,8 @@ Matrix held(const Scene& scene, const Setting& setting);
 Vector free_part(const Matrix& held, const Vector& x);
 
 /// Everything by which a state is not one of the load case's: positions off the paraboloid, a mean or a turn
-/// that is held. Lengths within `tolerance` (L).
-std::vector<std::string> misplaced(const Scene& scene, const MovedState& state, double tolerance);
+/// that is held, elements that left held places. Lengths within `tolerance` (L).
+std::vector<std::string> misplaced(const Scene& scene, const Setting& setting, const MovedState& state,
+                                   double tolerance);
 
 }  // namespace hauberk::verification

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -23,6 +25,13 @@ using Image = std::array<int, 3>;
 
 /// The file lacks something or holds something of the wrong kind; the message names the place.
 class Malformed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The file holds something that this check has no rule for, such as a load case of somebody else's plugin;
+/// the message says what. Nothing is wrong with that, and nothing that depends on it can be checked.
+class Unknown : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -60,6 +69,7 @@ struct Loop {
 
 struct Element {
   Place rest;
+  std::map<std::string, double> parameters;
   std::vector<Torus> tori;
   std::vector<Loop> loops;  ///< see loops_together
   /// Of a sphere about the element's origin that holds the element.
@@ -127,13 +137,23 @@ struct MovedState {
   std::vector<Place> places;
 };
 
+/// What a component that is held at zero takes: d value / d component.
+struct Reaction {
+  std::string name;
+  double value = 0.0;
+};
+
 struct Limit {
-  std::string label;           ///< "limits/3 (30 deg, stretch)"
+  std::string label;  ///< "limits/3 (30 deg, stretch)"
+  std::string where;  ///< its JSON pointer
+  std::string load_case;
   double direction_deg = 0.0;  ///< not a number when the direction is one of components
   std::optional<Macros> direction;
   Load load = Load::strain;
   std::string sense, measure, status, contact;
-  std::optional<double> value, line_stretch, min_gap, force_balance;
+  std::optional<double> value, line_stretch, min_gap, force_balance, infimum, z_range;
+  std::vector<std::string> hold;  ///< what is held, as the experiment names it
+  std::vector<Reaction> reactions;
   /// T of the objective 1/2 |macro - T load|^2; none: the load is constant.
   std::optional<double> finite_target;
   std::optional<Macro> macro;
@@ -150,7 +170,14 @@ struct Setting {
   double clearance = 0.0;
   /// Half-height that elements keep to; infinite when free.
   double half_height = std::numeric_limits<double>::infinity();
-  int facets = 0;  ///< of contact mesh, else 0
+  int facets = 0;     ///< of contact mesh, else 0
+  std::string where;  ///< of the experiment that it is from
+  /// What a limit holds, and along which direction; see held_components.
+  std::vector<std::string> hold{};
+  double direction_deg = 0.0;
+
+  /// Every element keeps its x and y.
+  bool places() const { return std::find(hold.begin(), hold.end(), "places") != hold.end(); }
 };
 
 }  // namespace hauberk::verification

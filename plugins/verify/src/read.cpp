@@ -189,6 +189,22 @@ Contact read_contact(const json::value& v, const std::string& where)
   return out;
 }
 
+/// What is held, and what that takes; files without it hold nothing.
+void read_held(const json::value& limit, const std::string& where, Limit& out)
+{
+  if (const json::value* hold = limit.as_object().if_contains("hold")) {
+    for (const json::value& name : array(*hold, where + "/hold"))
+      out.hold.push_back(text(name, where + "/hold/" + std::to_string(out.hold.size())));
+  }
+  if (const json::value* reactions = limit.as_object().if_contains("reactions")) {
+    for (const json::value& r : array(*reactions, where + "/reactions")) {
+      const std::string at = where + "/reactions/" + std::to_string(out.reactions.size());
+      out.reactions.push_back(
+          {text(member(r, "name", at), at + "/name"), number(member(r, "value", at), at + "/value")});
+    }
+  }
+}
+
 }  // namespace
 
 const json::value& member(const json::value& object, const char* key, const std::string& where)
@@ -254,6 +270,11 @@ Scene read_scene(const json::value& scene, const std::string& where)
     const std::string at = where + "/elements/" + std::to_string(k++);
     Element element;
     element.rest = read_place(member(e, "rest", at), at + "/rest");
+    if (const json::value* parameters = e.as_object().if_contains("parameters"); parameters != nullptr) {
+      if (!parameters->is_object()) throw Malformed(at + "/parameters: an object expected");
+      for (const auto& [name, value] : parameters->as_object())
+        element.parameters[std::string(name)] = number(value, at + "/parameters/" + std::string(name));
+    }
     for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
       element.tori.push_back(
           read_torus(p, surfaces, at + "/primitives/" + std::to_string(element.tori.size())));
@@ -301,6 +322,9 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
   } else {
     out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");
   }
+  out.where = where;
+  const json::object& fields = limit.as_object();
+  if (fields.contains("load_case")) out.load_case = text(fields.at("load_case"), where + "/load_case");
   out.sense = text(member(limit, "sense", where), where + "/sense");
   out.measure = text(member(limit, "measure", where), where + "/measure");
   out.status = text(member(limit, "status", where), where + "/status");
@@ -309,6 +333,9 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
   out.line_stretch = optional_number(limit, "line_stretch", where);
   out.min_gap = optional_number(limit, "min_gap", where);
   out.force_balance = optional_number(limit, "force_balance", where);
+  out.infimum = optional_number(limit, "infimum", where);
+  out.z_range = optional_number(limit, "z_range", where);
+  read_held(limit, where, out);
   if (limit.is_object() && limit.get_object().contains("finite_target"))
     out.finite_target = number(member(limit, "finite_target", where), where + "/finite_target");
   const json::value& kept = member(limit, "links_kept", where);
@@ -336,8 +363,8 @@ void check_length(const Scene& scene, double length, const std::string& where)
     for (const Torus& torus : element.tori) radii.push_back(torus.R);
   if (radii.empty()) throw Malformed(where + "/elements: no primitives");
   std::sort(radii.begin(), radii.end());
-  const double lower = radii[(radii.size() - 1) / 2], upper = radii[radii.size() / 2];
-  if (!(length >= lower * (1.0 - unit_tolerance) && length <= upper * (1.0 + unit_tolerance)))
+  const double middle = radii[radii.size() / 2];
+  if (!(std::abs(length - middle) <= unit_tolerance * middle))
     throw Malformed(where + "/length: not the median ring radius of the initial scene");
 }
 
@@ -367,8 +394,7 @@ Setting read_setting(const json::value& experiment)
     return out;
   }
   if (plugin != "in_plane_periodic")
-    throw Malformed("/experiment/load_case/plugin: the load case \"" + plugin +
-                    "\" is not known to this check");
+    throw Unknown("the load case \"" + plugin + "\" is not known to this check");
   const json::value& height = member(load, "out_of_plane", "/experiment/load_case");
   if (height.is_number())
     out.half_height = height.to_number<double>();

@@ -9,10 +9,11 @@ namespace hauberk::verification {
 /// Malformed.
 Scene read_scene(const boost::json::value& scene, const std::string& where);
 Limit read_limit(const boost::json::value& limit, Load load, const std::string& where);
+/// Throws Unknown for a load case that is not known here.
 Setting read_setting(const boost::json::value& experiment);
 
-/// Throws Malformed unless L is a median of the scene's ring radii (for an even number anything between the
-/// two middle ones); tolerances are multiples of L, so it must not be invented.
+/// Throws Malformed unless L is the median of the scene's ring radii (of an even number the upper of the two
+/// middle ones); tolerances are multiples of L, so it must not be invented.
 void check_length(const Scene& scene, double length, const std::string& where);
 
 /// Member `key` of an object; throws Malformed when there is none.

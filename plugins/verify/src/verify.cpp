@@ -18,25 +18,45 @@ using namespace verification;
 
 constexpr const char* known_format = "hauberk-results/1";
 
+/// What all checks of a document share.
+struct Work {
+  const VerifyTolerances& tolerances;
+  Record& record;
+  std::vector<VerifyLine>& lines;
+
+  /// Messages about malformed fields begin with their pointer.
+  void malformed(const std::string& what) const
+  {
+    record.failed(what.substr(0, what.find(':')));
+    lines.push_back({false, what});
+  }
+};
+
 /// Checks the limits of one scene, a line each; those that could be read are returned.
 std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_json, const std::string& prefix,
-                                const Setting& setting, const VerifyTolerances& tolerances,
-                                std::vector<VerifyLine>& lines)
+                                const Setting& setting, const json::value& experiment, const Work& work)
 {
   std::vector<Limit> out;
   std::size_t i = 0;
   for (const json::value& item : array(limits_json, prefix + "/limits")) {
     const std::string where = fmt::format("{}/limits/{}", prefix, i++);
+    Limit limit;
     try {
-      Limit limit = read_limit(item, setting.load, where);
+      limit = read_limit(item, setting.load, where);
       const std::string direction = limit.direction
                                         ? fmt::format("({:.6g})", fmt::join(*limit.direction, ", "))
                                         : fmt::format("{:g} deg", limit.direction_deg);
       limit.label = fmt::format("{} ({}, {})", where, direction, limit.sense);
-      lines.push_back(check_limit(scene, setting, limit, tolerances));
+      work.lines.push_back(
+          check_limit(scene, setting, limit, item, experiment, work.tolerances, work.record));
       out.push_back(std::move(limit));
     } catch (const Malformed& error) {
-      lines.push_back({false, error.what()});
+      work.record.skip(where, "limits that cannot be read");
+      work.malformed(error.what());
+    } catch (const Unknown& error) {
+      work.record.skip(where, error.what());
+      work.lines.push_back({true, limit.label + ": " + error.what(), false});
+      out.push_back(std::move(limit));
     }
   }
   return out;
@@ -49,12 +69,10 @@ Malformed wrong_cell(const std::string& prefix)
       "/scene/cell_vectors: two for in_plane_periodic, three for volumetric_periodic, none for a patch");
 }
 
-/// One document's limits, and profiles where it has any limit; `prefix` is its place in the file.
-void check_scene_and_limits(const json::value& results, const std::string& prefix,
-                            const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
+/// The scene at `prefix`, as the setting has its surfaces.
+Scene read_placed_scene(const json::value& scene_json, const std::string& prefix, const Setting& setting)
 {
-  const Setting setting = read_setting(member(results, "experiment", prefix));
-  Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
+  Scene scene = read_scene(scene_json, prefix + "/scene");
   for (Element& element : scene.elements)
     for (Torus& torus : element.tori) {
       torus.facets = setting.facets;
@@ -63,18 +81,83 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
                         "/experiment/solver/contact: mesh expected, as the scene has triangle meshes");
     }
   if (scene.cell.size() != cell_dimension(setting.load)) throw wrong_cell(prefix);
+  return scene;
+}
+
+/// The line about a scene, to which is added whether limits are those asked for.
+VerifyLine scene_and_asked(const SceneCheck& check, const std::vector<Limit>& limits, const Work& work)
+{
+  VerifyLine line = check_scene(check, work.tolerances, work.record);
+  Sentences problems;
+  check_asked(*check.experiment, check.experiment_where, limits, problems, work.record);
+  if (problems.empty()) {
+    line.text += fmt::format("; {} limits as asked for", limits.size());
+    return line;
+  }
+  return {false, (line.ok ? check.where : line.text) + fmt::format("; {}", fmt::join(problems, "; "))};
+}
+
+/// Scenes can be compared with the experiment whatever their load case is; what depends on it is left out.
+void check_unknown_load(const json::value& results, const std::string& prefix, const std::string& why,
+                        const Work& work)
+{
+  for (const char* part : {"/limits", "/profiles", "/boundary", "/design"})
+    work.record.skip(prefix + part, why);
+  for (const char* part : {"/experiment/load_case", "/experiment/solver", "/experiment/design"})
+    work.record.skip(prefix + part, why);
+  std::size_t i = 0;
+  for (const json::value& limit : array(member(results, "limits", prefix), prefix + "/limits")) {
+    (void)limit;
+    work.lines.push_back({true, fmt::format("{}/limits/{}: {}", prefix, i++, why), false});
+  }
+  const Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
+  SceneCheck check{&member(results, "experiment", prefix),
+                   prefix + "/experiment",
+                   &member(results, "scene", prefix),
+                   prefix + "/scene",
+                   &scene,
+                   {},
+                   {},
+                   false};
+  const json::value* design = results.as_object().if_contains("design");
+  if (design != nullptr && !design->is_null()) return;
+  check_length(scene, scene.length, prefix + "/scene");
+  work.lines.push_back(check_scene(check, work.tolerances, work.record));
+}
+
+/// One document's limits, profiles and scene; `prefix` is its place in the file.
+void check_scene_and_limits(const json::value& results, const std::string& prefix, const Work& work)
+{
+  const json::value& experiment = member(results, "experiment", prefix);
+  Setting setting;
+  try {
+    setting = read_setting(experiment);
+  } catch (const Unknown& unknown) {
+    return check_unknown_load(results, prefix, unknown.what(), work);
+  }
+  setting.where = prefix + "/experiment";
+  const Scene scene = read_placed_scene(member(results, "scene", prefix), prefix, setting);
   check_length(scene, scene.length, prefix + "/scene");
   const auto limits =
-      check_limits(scene, member(results, "limits", prefix), prefix, setting, tolerances, lines);
+      check_limits(scene, member(results, "limits", prefix), prefix, setting, experiment, work);
   const auto add = [&](VerifyLine line) {
     if (!prefix.empty()) line.text = prefix + ": " + line.text;
-    lines.push_back(std::move(line));
+    work.lines.push_back(std::move(line));
   };
-  add(check_profiles(results, setting.load, limits, tolerances));
+  VerifyLine profiles = check_profiles(results, setting.load, limits, work.tolerances);
+  work.record.done(VerifyPart::profiles, prefix + "/profiles", profiles.ok);
+  add(std::move(profiles));
   if (const json::value* boundary = results.as_object().if_contains("boundary")) {
     const bool complete = limits.size() == member(results, "limits", prefix).as_array().size();
-    add(check_boundary(*boundary, limits, complete, tolerances));
+    VerifyLine line = check_boundary(*boundary, limits, complete, work.tolerances);
+    work.record.done(VerifyPart::boundary, prefix + "/boundary", line.ok);
+    add(std::move(line));
   }
+  const SceneCheck check{
+      &experiment, setting.where, &member(results, "scene", prefix), prefix + "/scene", &scene, setting,
+      {},          false};
+  work.lines.push_back(scene_and_asked(check, limits, work));
+  work.record.done(VerifyPart::design, prefix + "/design", true);
 }
 
 /// A swept number stands in the row's experiment, where its pointer leads there (those of a weave do not: it
@@ -110,8 +193,21 @@ void check_measured(const json::value& measures, const json::value& row, const j
   }
 }
 
+/// A row is done exactly when each of its limits has an answer.
+void check_row_status(const std::string& status, const json::value& result, const std::string& where)
+{
+  bool answered = true;
+  for (const json::value& limit : array(member(result, "limits", where), where + "/result/limits")) {
+    const std::string of = text(member(limit, "status", where), where + "/result/limits");
+    answered = answered && (of == "locked" || of == "unbounded" || of == "not_attained");
+  }
+  if (answered != (status == "done"))
+    throw Malformed(fmt::format("{}/status: {}, but {} limits have answers", where, status,
+                                answered ? "all" : "not all"));
+}
+
 /// Every row that has results, each with a scene of its own.
-void check_sweep(const json::value& sweep, const VerifyTolerances& tolerances, std::vector<VerifyLine>& lines)
+void check_sweep(const json::value& sweep, const Work& work)
 {
   const json::array& axes = array(member(sweep, "axes", "/sweep"), "/sweep/axes");
   std::size_t k = 0;
@@ -121,7 +217,8 @@ void check_sweep(const json::value& sweep, const VerifyTolerances& tolerances, s
     const std::string status = text(member(row, "status", where), where);
     if (result.is_null()) {
       // Only a row that is done must have any; whether the status is one at all the table tells.
-      lines.push_back({status != "done", where + ": " + status + ", no results", false});
+      work.record.done(VerifyPart::sweep, where, status != "done");
+      work.lines.push_back({status != "done", where + ": " + status + ", no results", false});
       continue;
     }
     try {
@@ -131,68 +228,99 @@ void check_sweep(const json::value& sweep, const VerifyTolerances& tolerances, s
                      member(result, "experiment", where + "/result"), where);
       }
       check_measured(member(sweep, "measures", "/sweep"), row, result, where);
-      check_scene_and_limits(result, where + "/result", tolerances, lines);
+      check_row_status(status, result, where);
+      check_scene_and_limits(result, where + "/result", work);
     } catch (const Malformed& error) {
-      lines.push_back({false, error.what()});
+      work.malformed(error.what());
     }
   }
 }
 
-void check_document(const json::value& results, const VerifyTolerances& tolerances,
-                    std::vector<VerifyLine>& lines)
+/// The design's final and initial scene, each with limits.
+void check_designed(const json::value& results, const Work& work)
+{
+  const json::value& experiment = member(results, "experiment", "");
+  Setting setting;
+  try {
+    setting = read_setting(experiment);
+  } catch (const Unknown& unknown) {
+    return check_unknown_load(results, "", unknown.what(), work);
+  }
+  setting.where = "/experiment";
+  const json::value& scene_json = member(results, "scene", "");
+  const Scene scene = read_placed_scene(scene_json, "", setting);
+  const json::value& design = member(results, "design", "");
+  const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, experiment, work);
+  VerifyLine profiles = check_profiles(results, setting.load, limits, work.tolerances);
+  work.record.done(VerifyPart::profiles, "/profiles", profiles.ok);
+  work.lines.push_back(std::move(profiles));
+  const json::value& initial = member(design, "initial", "/design");
+  const json::value& initial_json = member(initial, "scene", "/design/initial");
+  const Scene initial_scene = read_placed_scene(initial_json, "/design/initial", setting);
+  check_length(initial_scene, initial_scene.length, "/design/initial/scene");
+  check_length(initial_scene, scene.length, "/scene");  // frozen during the design
+  const auto initial_limits = check_limits(initial_scene, member(initial, "limits", "/design/initial"),
+                                           "/design/initial", setting, experiment, work);
+  DesignedScenes designed;
+  VerifyLine line = check_design(results, initial_limits, limits, designed, work.tolerances, work.record);
+  work.lines.push_back(std::move(line));
+  const SceneCheck last{&experiment, "/experiment", &scene_json,    "/scene",
+                        &scene,      setting,       designed.final, true};
+  const SceneCheck first{&experiment,    "/experiment", &initial_json,    "/design/initial/scene",
+                         &initial_scene, setting,       designed.initial, true};
+  work.lines.push_back(scene_and_asked(last, limits, work));
+  work.lines.push_back(scene_and_asked(first, initial_limits, work));
+}
+
+void check_document(const json::value& results, const Work& work)
 {
   if (!results.is_object() || !results.as_object().contains("format"))
     throw Malformed("/format: missing; these are no results: give the results.json that `hauberk run` wrote");
   if (const std::string format = text(member(results, "format", ""), "/format"); format != known_format)
     throw Malformed(fmt::format("/format: {} expected, found {}", known_format, format));
+  work.record.done(VerifyPart::format, "/format", true);
   const json::value& experiment = member(results, "experiment", "");
-  const json::value* task = experiment.is_object() ? experiment.as_object().if_contains("task") : nullptr;
-  if (task != nullptr && text(*task, "/experiment/task") == "sweep") {
+  const json::value* given = experiment.is_object() ? experiment.as_object().if_contains("task") : nullptr;
+  const std::string task = given != nullptr ? text(*given, "/experiment/task") : "limits";
+  const json::value* design = results.as_object().if_contains("design");
+  if (task == "sweep") {
     const json::value& sweep = member(results, "sweep", "");
-    lines.push_back(check_sweep_table(experiment, sweep));
-    return check_sweep(sweep, tolerances, lines);
+    VerifyLine line = check_sweep_table(experiment, sweep);
+    work.record.done(VerifyPart::sweep, "/sweep", line.ok);
+    work.record.done(VerifyPart::sweep, "/experiment/sweep", line.ok);
+    work.lines.push_back(std::move(line));
+    check_sweep(sweep, work);
+  } else if (task == "chart") {
+    check_chart(experiment, member(results, "chart", ""), work.lines, work.record);
+  } else if (task == "stability") {
+    check_stability(experiment, member(results, "stability", ""), work.lines, work.record);
+  } else if (design != nullptr && !design->is_null()) {
+    if (task != "design") throw Malformed("/experiment/task: design expected, as there is one");
+    check_designed(results, work);
+  } else {
+    if (task != "limits" && task != "transition")
+      throw Malformed("/experiment/task: limits or transition expected, as nothing else is here");
+    member(results, "design", "");
+    check_scene_and_limits(results, "", work);
   }
-  if (task != nullptr && text(*task, "/experiment/task") == "chart")
-    return check_chart(experiment, member(results, "chart", ""), lines);
-  const json::value* none = results.as_object().if_contains("design");
-  if (none != nullptr && none->is_null()) return check_scene_and_limits(results, "", tolerances, lines);
-
-  const Setting setting = read_setting(experiment);
-  const Scene scene = read_scene(member(results, "scene", ""), "/scene");
-  if (scene.cell.size() != cell_dimension(setting.load)) throw wrong_cell("");
-  const json::value& design = member(results, "design", "");
-  const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, tolerances, lines);
-  lines.push_back(check_profiles(results, setting.load, limits, tolerances));
-  const json::value& initial = member(design, "initial", "/design");
-  const Scene initial_scene =
-      read_scene(member(initial, "scene", "/design/initial"), "/design/initial/scene");
-  check_length(initial_scene, initial_scene.length, "/design/initial/scene");
-  check_length(initial_scene, scene.length, "/scene");  // frozen during the design
-  const auto initial_limits = check_limits(initial_scene, member(initial, "limits", "/design/initial"),
-                                           "/design/initial", setting, tolerances, lines);
-  lines.push_back(check_design(results, initial_limits, limits, tolerances));
+  work.record.done(VerifyPart::format, "/experiment/task", true);
 }
 
 }  // namespace
 
-std::string VerifyReport::text() const
-{
-  std::string out;
-  for (const VerifyLine& line : lines)
-    out += (!line.ok ? "FAIL " : line.checked ? "PASS " : "NONE ") + line.text + '\n';
-  return out;
-}
-
 VerifyReport verify(const json::value& results, const VerifyTolerances& tolerances)
 {
   VerifyReport report;
+  Record record;
+  const Work work{tolerances, record, report.lines};
   try {
-    check_document(results, tolerances, report.lines);
+    check_document(results, work);
   } catch (const std::exception& error) {
-    report.lines.push_back({false, error.what()});
+    work.malformed(error.what());
   }
   if (report.lines.empty()) report.lines.push_back({false, "nothing in this file could be checked"});
   for (const VerifyLine& line : report.lines) report.ok = report.ok && line.ok;
+  report.fields = record.outcomes(results);
   return report;
 }
 

@@ -21,7 +21,7 @@ TEST(TrueChain, PassesForAllRadiiGapsAndClearances)
         Chain{.turned_deg = 90.0, .measure = "paper"}}) {
     const VerifyReport report = verify(chain_document(chain));
     EXPECT_TRUE(report.ok) << report.text();
-    ASSERT_EQ(report.lines.size(), 2u);
+    ASSERT_EQ(report.lines.size(), 3u) << "limit, profiles, scene";
     EXPECT_NE(report.lines[0].text.find("2 links kept"), std::string::npos) << report.text();
   }
 }
@@ -49,7 +49,9 @@ TEST(States, WithoutPosesNeedAStatusThatSaysSo)
   EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): locked, but no state is given");
   limit["status"] = "unbounded";
   EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): unbounded, but no state is given");
-  limit["value"] = nullptr;
+  for (const char* key : {"value", "line_stretch", "min_gap", "force_balance"}) limit[key] = nullptr;
+  limit["contacts"].emplace_array();
+  limit["contact"] = "";
   EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): unbounded: no witness is given");
   document = chain_document();
   document.at_pointer("/limits/0/status") = "not_attained";

@@ -6,6 +6,7 @@
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace hauberk::test {
@@ -47,6 +48,20 @@ json::object contact(int image, const Vector3d& a, const Vector3d& b, const Vect
 
 }  // namespace
 
+json::object torus_element(double R, double r0, double r1)
+{
+  return {{"shape", "torus_union"},
+          {"tori", json::array{json::object{{"name", "ring"}}}},
+          {"parameters", {{"ring.R", R}, {"ring.r0", r0}, {"ring.r1", r1}}}};
+}
+
+json::object placed_element(const std::string& type, const json::object& rest)
+{
+  return {{"element", type},
+          {"position", rest.at("position")},
+          {"rotation", {{"quaternion", rest.at("quaternion")}}}};
+}
+
 json::value chain_document(const Chain& chain)
 {
   const double theta = chain.turned_deg * std::numbers::pi / 180.0;
@@ -76,6 +91,7 @@ json::value chain_document(const Chain& chain)
       {"min_gap", chain.gap},
       {"links_kept", true},
       {"contact", "nearest"},
+      {"sensitivity", {{"clearance", -2.0 / rest_period}, {"parameters", json::object()}}},
       {"starts", {{{"value", value}, {"macro", macro}, {"z_range", 0}, {"seed", 1}, {"count", 1}}}},
       {"poses", {pose(Vector3d::Zero(), turn), pose(half * n, upright)}},
       {"contacts",
@@ -85,7 +101,7 @@ json::value chain_document(const Chain& chain)
 
   const Vector3d v1 = rest_period * n, v2 = turn * Vector3d(0.0, 100.0, 0.0);
   json::object scene{{"cell_vectors", {{v1.x(), v1.y()}, {v2.x(), v2.y()}}},
-                     {"length", 0.5 * (chain.R_a + chain.R_b)},
+                     {"length", std::max(chain.R_a, chain.R_b)},
                      {"elements",
                       {{{"type", "a"},
                         {"parameters", {{"ring.R", chain.R_a}}},
@@ -98,9 +114,22 @@ json::value chain_document(const Chain& chain)
 
   return {{"format", "hauberk-results/1"},
           {"experiment",
-           {{"solver", {{"clearance", chain.clearance}}},
-            {"load_case", {{"plugin", "in_plane_periodic"}, {"out_of_plane", 0}}}}},
-          {"scene", std::move(scene)},
+           {{"elements",
+             {{"a", torus_element(chain.R_a, chain.r_a, r1(chain.r_a))},
+              {"b", torus_element(chain.R_b, chain.r_b, r1(chain.r_b))}}},
+            {"cell",
+             {{"vectors", scene.at("cell_vectors")},
+              {"place",
+               {placed_element("a", pose(Vector3d::Zero(), turn)),
+                placed_element("b", pose(0.5 * v1, upright))}}}},
+            {"solver", {{"clearance", chain.clearance}}},
+            {"load_case",
+             {{"plugin", "in_plane_periodic"},
+              {"out_of_plane", 0},
+              {"directions_deg", json::array{chain.turned_deg}},
+              {"senses", json::array{"stretch"}},
+              {"measure", chain.measure}}}}},
+          {"scene", scene},
           {"limits", json::array{std::move(limit)}},
           {"profiles",
            json::array{json::object{

@@ -1,4 +1,5 @@
 #pragma once
+#include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 
 #include <string>
@@ -25,6 +26,11 @@ inline constexpr double rest_period = 12.0;
 
 /// A complete, true results document of one limit.
 boost::json::value chain_document(const Chain& chain = {});
+
+/// An entry of an experiment's `elements`: one torus named ring.
+boost::json::object torus_element(double R, double r0, double r1);
+/// An entry of its `place`, where `rest` says.
+boost::json::object placed_element(const std::string& type, const boost::json::object& rest);
 
 /// The one line about the limit.
 std::string limit_line(const boost::json::value& document);

@@ -1,5 +1,7 @@
 #include "column_document.hpp"
 
+#include "chain_document.hpp"
+
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
@@ -54,6 +56,7 @@ json::value column_document()
       {"min_gap", gap},
       {"links_kept", true},
       {"contact", "nearest"},
+      {"sensitivity", {{"clearance", 2.0 / column_rest_period}, {"parameters", json::object()}}},
       {"starts", {{{"value", strain}, {"macro", macro}, {"z_range", 0}, {"seed", 1}, {"count", 1}}}},
       {"poses", {flat(0.0), flat(apart + gap)}},
       {"contacts", {contact(0, 1.0), contact(-1, -1.0)}},
@@ -63,9 +66,19 @@ json::value column_document()
                      {"elements", {element(0.0), element(0.5 * column_rest_period)}}};
   return {{"format", "hauberk-results/1"},
           {"experiment",
-           {{"solver", {{"clearance", 0}}},
-            {"load_case", {{"plugin", "in_plane_periodic"}, {"out_of_plane", 0}}}}},
-          {"scene", std::move(scene)},
+           {{"elements", {{"ring", torus_element(R, r, r)}}},
+            {"cell",
+             {{"vectors", scene.at("cell_vectors")},
+              {"place",
+               {placed_element("ring", flat(0.0)), placed_element("ring", flat(0.5 * column_rest_period))}}}},
+            {"solver", {{"clearance", 0}}},
+            {"load_case",
+             {{"plugin", "in_plane_periodic"},
+              {"out_of_plane", 0},
+              {"directions_deg", json::array{0}},
+              {"senses", json::array{"compress"}},
+              {"measure", "tensor"}}}}},
+          {"scene", scene},
           {"limits", json::array{std::move(limit)}},
           {"profiles", json::array{json::object{
                            {"direction_deg", 0}, {"e_s", nullptr}, {"e_c", strain}, {"eta", nullptr}}}},

@@ -21,15 +21,33 @@ json::value design_document()
   const double first = before.at_pointer("/limits/0/value").as_double();
   const double last = document.at_pointer("/limits/0/value").as_double();
   const auto objective = [](double value) { return 0.5 * 2.0 * (value - 0.46) * (value - 0.46); };
+  const auto variable = [](const std::string& scope, int element, double final) {
+    return json::value{{"name", scope + "/ring.r0=ring.r1"},
+                       {"initial", 0.7},
+                       {"final", final},
+                       {"lower", 0.5},
+                       {"upper", 0.8},
+                       {"elements", json::array{element}}};
+  };
+  const auto iterate = [&](int k, double value) {
+    return json::value{{"iteration", k}, {"objective", objective(value)}, {"values", json::array{value}}};
+  };
+  json::object& experiment = document.at("experiment").as_object();
+  experiment["task"] = "design";
+  experiment["design"] = {
+      {"quantity", "stretch"},
+      {"variables", json::array{json::value{{"parameters", {"ring.r0", "ring.r1"}},
+                                            {"tied", true},
+                                            {"per", "element"},
+                                            {"lower", 0.5},
+                                            {"upper", 0.8}}}},
+      {"targets", json::array{json::value{{"direction_deg", 180.0}, {"value", 0.46}, {"weight", 2.0}}}}};
+  // The experiment has the initial shape.
+  experiment["elements"] = before.at_pointer("/experiment/elements");
   document.at("design") = {{"quantity", "stretch"},
                            {"objective_initial", objective(first)},
                            {"objective", objective(last)},
-                           {"variables", json::array{json::value{{"name", "1/ring.R"},
-                                                                 {"initial", 5.0},
-                                                                 {"final", 5.0},
-                                                                 {"lower", 4.0},
-                                                                 {"upper", 6.0},
-                                                                 {"elements", json::array{1}}}}},
+                           {"variables", {variable("0", 0, 0.7), variable("1", 1, 0.6)}},
                            {"targets", json::array{json::value{{"direction_deg", 180.0},
                                                                {"target", 0.46},
                                                                {"weight", 2.0},
@@ -38,6 +56,9 @@ json::value design_document()
                                                                {"recomputed", last},
                                                                {"better_state", false},
                                                                {"met", true}}}},
+                           {"start", 0},
+                           {"starts", json::array{json::value{{"start", 0}, {"objective", objective(last)}}}},
+                           {"history", {iterate(0, first), iterate(1, last)}},
                            {"initial", {{"scene", before.at("scene")}, {"limits", before.at("limits")}}}};
   return document;
 }
@@ -48,7 +69,7 @@ TEST(Design, TrueDesignPasses)
 {
   const VerifyReport checked = verify(design_document());
   EXPECT_TRUE(checked.ok) << checked.text();
-  EXPECT_EQ(checked.lines.size(), 4u) << "final limit, profiles, initial limit, design";
+  EXPECT_EQ(checked.lines.size(), 6u) << "final limit, profiles, initial limit, design, both scenes";
 }
 
 TEST(Design, WhatDoesNotFollowIsCaught)
@@ -66,8 +87,16 @@ TEST(Design, WhatDoesNotFollowIsCaught)
       has(tampered("/design/targets/0/initial", nullptr), "initial null reported, 0.4333333333 from"));
   EXPECT_TRUE(has(tampered("/design/targets/0/met", false), "met should be true"));
   EXPECT_TRUE(has(tampered("/design/objective", 0.0), "/design/objective: 0 reported"));
-  EXPECT_TRUE(has(tampered("/design/variables/0/final", 5.5), "ring.R is 5, the variable 1/ring.R is 5.5"));
-  EXPECT_TRUE(has(tampered("/design/variables/0/upper", 4.5), "5 is outside [4, 4.5]"));
+  EXPECT_TRUE(has(tampered("/design/variables/1/final", 0.65),
+                  "FAIL /scene: elements/1: primitives are not what its shape makes of its parameters"));
+  EXPECT_TRUE(has(tampered("/design/variables/1/upper", 0.65), "0.7 is outside [0.5, 0.65]"));
+  EXPECT_TRUE(has(tampered("/design/variables/1/lower", 0.55),
+                  "/design/variables/1: bounds are not the experiment's"));
+  EXPECT_TRUE(
+      has(tampered("/design/variables/0/elements/0", 1), "/elements: not those that the variable is of"));
+  EXPECT_TRUE(
+      has(tampered("/design/history/1/values/0", 0.4501), "/design/history/1/objective: 0.0001 reported"));
+  EXPECT_TRUE(has(tampered("/design/targets/0/target", 0.461), "/design/targets/0: not the experiment's"));
   EXPECT_TRUE(has(tampered("/design/quantity", "colour"), "/design/quantity: \"colour\" is not known here"));
   EXPECT_TRUE(has(tampered("/design/initial/limits/0/value", 0.4), "FAIL /design/initial/limits/0"));
 }
@@ -88,9 +117,11 @@ TEST(Profiles, EtaFollowsFromBothSenses)
   auto& limit = compressed.as_object();
   limit["sense"] = "compress";
   limit["status"] = "unbounded";
-  limit["value"] = nullptr;
-  limit["poses"].emplace_array();
+  for (const char* key : {"value", "line_stretch", "min_gap", "force_balance"}) limit[key] = nullptr;
+  for (const char* key : {"poses", "contacts", "starts"}) limit[key].emplace_array();
+  limit["contact"] = "";
   document.at("limits").as_array().push_back(compressed);
+  document.at_pointer("/experiment/load_case/senses") = {"stretch", "compress"};
   EXPECT_TRUE(verify(document).ok) << report(document);
   document.at_pointer("/profiles/0/eta") = 0.5;
   EXPECT_NE(report(document).find("FAIL profiles: /profiles/0/eta: 0.5 reported, null from the limits"),

@@ -1,6 +1,8 @@
 #pragma once
 /// The independent check of a results file: from the file alone, by brute force, with no code of the solver.
 
+#include <hauberk/verify/fields.hpp>
+
 #include <boost/json/value.hpp>
 
 #include <string>
@@ -22,6 +24,8 @@ struct VerifyTolerances {
   double balance = 1e-4, rounding = 1e-15, most_rounding = 1e-3;
   /// Of the reported imbalance against the one found here: the same sum of the same numbers.
   double balance_agreement = 1e-6;
+  /// Of what is held at zero, strains or curvatures times L; of reactions, beside ten times the imbalance.
+  double held = 1e-9, reaction = 1e-7;
   /// Of the mean translation: one element in a thousand, moved by 1e-3 mm, shows.
   double translation = 1e-8;
   /// Of values that are functions of other values in the file.
@@ -44,15 +48,29 @@ struct VerifyLine {
   bool checked = true;  ///< false: there was nothing to check
 };
 
+enum class VerifyOutcome : unsigned char { passed, failed, not_checked };
+
+/// What the check says about one field: a number, a text, true, false or null, or a list or an object that is
+/// empty.
+struct VerifyField {
+  std::string pointer;
+  VerifyOutcome outcome = VerifyOutcome::not_checked;
+  std::string why;  ///< where it is not checked
+};
+
 struct VerifyReport {
   bool ok = true;
   std::vector<VerifyLine> lines;
-  /// One line each, "PASS ...", "FAIL ..." or "NONE ..." (nothing to check), ended by newlines.
+  std::vector<VerifyField> fields;  ///< all of the document, in its order
+  /// A line each, "PASS ...", "FAIL ..." or "NONE ..." (nothing to check); then a line per reason for which
+  /// fields are not checked, with their patterns; last how many fields passed, failed and are not checked.
+  /// Each ended by a newline.
   std::string text() const;
 };
 
 /// Checks a document of format "hauberk-results/1": a line per limit (also those of a design's initial
-/// scene), one for the profiles, one for the design.
+/// scene), one for the profiles, one for the scene, one for the design. What is done about which field, and
+/// why not, say the rules of fields.hpp.
 ///
 /// For every limit with poses:
 /// - smallest separation of surfaces of different elements and images, by exhaustive search, against min_gap

@@ -1,0 +1,162 @@
+/// The rules of the shapes that come with the program, written down a second time.
+#include "layout.hpp"
+#include "read.hpp"
+
+#include <Eigen/Geometry>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hauberk::verification {
+namespace {
+
+namespace json = boost::json;
+using Parameters = std::map<std::string, double>;
+
+double value_of(const Parameters& parameters, const std::string& name, const std::string& where)
+{
+  const auto found = parameters.find(name);
+  if (found == parameters.end()) throw Malformed(where + "/parameters/" + name + ": missing");
+  return found->second;
+}
+
+Vec3 vector_of(const json::value& v, const std::string& where)
+{
+  const json::array& a = array(v, where);
+  if (a.size() != 3) throw Malformed(where + ": three numbers expected");
+  return {number(a[0], where), number(a[1], where), number(a[2], where)};
+}
+
+/// A position is [x, y, z], or a direction in the plane with a sum of lengths and parameters along it.
+Vec3 position_of(const json::value* v, const Parameters& parameters, Vec3& along, const std::string& where)
+{
+  if (v == nullptr) return Vec3::Zero();
+  if (v->is_array()) return vector_of(*v, where);
+  const double angle =
+      number(member(*v, "direction_deg", where), where + "/direction_deg") * std::numbers::pi / 180.0;
+  along = Vec3(std::cos(angle), std::sin(angle), 0.0);
+  double distance = 0.0;
+  for (const json::value& term : array(member(*v, "distance", where), where + "/distance"))
+    distance += term.is_string() ? value_of(parameters, text(term, where), where) : number(term, where);
+  return distance * along;
+}
+
+std::vector<Torus> torus_union(const json::value& section, const Parameters& parameters,
+                               const std::string& where)
+{
+  std::vector<Torus> out;
+  for (const json::value& item : array(member(section, "tori", where), where + "/tori")) {
+    const std::string at = where + "/tori/" + std::to_string(out.size());
+    const json::object& torus = item.as_object();
+    Torus t;
+    t.name = text(member(item, "name", at), at + "/name");
+    const json::value* group = torus.if_contains("group");
+    const std::string prefix = group != nullptr ? text(*group, at + "/group") : t.name;
+    t.R = value_of(parameters, prefix + ".R", where);
+    t.r0 = value_of(parameters, prefix + ".r0", where);
+    t.r1 = value_of(parameters, prefix + ".r1", where);
+    Vec3 along = Vec3::UnitX(), axis = Vec3::UnitZ();
+    t.place.position = position_of(torus.if_contains("position"), parameters, along, at + "/position");
+    if (const json::value* given = torus.if_contains("axis"))
+      axis = given->is_string() ? Vec3::UnitZ().cross(along) : vector_of(*given, at + "/axis");
+    // A turn about its own axis is none of a torus.
+    t.place.rotation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+    out.push_back(std::move(t));
+  }
+  return out;
+}
+
+/// Coefficients of a core by harmonic, (cosine, sine) of x, y, z.
+class Core {
+ public:
+  void cosine(int k, int axis, double weight) { term(k, 0)[axis] += weight; }
+  void sine(int k, int axis, double weight) { term(k, 1)[axis] += weight; }
+  std::vector<std::array<Vec3, 2>> curve;
+
+ private:
+  Vec3& term(int k, std::size_t which)
+  {
+    const auto n = static_cast<std::size_t>(k);
+    while (curve.size() < n) curve.push_back({Vec3::Zero(), Vec3::Zero()});
+    return curve[n - 1][which];
+  }
+};
+
+double setting(const json::value& section, const char* key, double otherwise, const std::string& where)
+{
+  return optional_number(section, key, where).value_or(otherwise);
+}
+
+/// ((R + a cos q u) cos p u, (R + a cos q u) sin p u, b sin q u) by cos q u cos p u = (cos (q + p) u + cos (q
+/// - p) u)/2.
+void knot(Core& core, int p, int q, double R, double a, double b)
+{
+  core.cosine(p, 0, R);
+  core.sine(p, 1, R);
+  core.cosine(q + p, 0, 0.5 * a);
+  core.cosine(std::abs(q - p), 0, 0.5 * a);
+  core.sine(q + p, 1, 0.5 * a);
+  core.sine(std::abs(q - p), 1, q > p ? -0.5 * a : 0.5 * a);
+  core.sine(q, 2, b);
+}
+
+Torus closed_tube(const json::value& section, const Parameters& parameters, const std::string& where)
+{
+  const std::string family = text(member(section, "curve", where), where + "/curve");
+  const auto p = [&](const std::string& name) { return value_of(parameters, name, where); };
+  Core core;
+  if (family == "oval") {
+    core.cosine(1, 0, p("half_length"));
+    core.sine(1, 1, p("half_width"));
+  } else if (family == "racetrack") {
+    core.cosine(1, 0, p("half_length"));
+    core.sine(1, 1, 9.0 / 8.0 * p("half_width"));
+    core.sine(3, 1, 1.0 / 8.0 * p("half_width"));
+  } else if (family == "polygon") {
+    const int n = static_cast<int>(setting(section, "corners", 3.0, where));
+    core.cosine(1, 0, p("R"));
+    core.sine(1, 1, p("R"));
+    core.cosine(n - 1, 0, p("corner"));
+    core.sine(n - 1, 1, -p("corner"));
+  } else if (family == "knot") {
+    const json::value* turns = section.as_object().if_contains("turns");
+    const auto turn = [&](std::size_t k, int otherwise) {
+      return turns == nullptr ? otherwise : static_cast<int>(number(array(*turns, where).at(k), where));
+    };
+    knot(core, turn(0, 2), turn(1, 3), p("R"), p("a"), p("b"));
+  } else if (family == "fourier") {
+    const int harmonics = static_cast<int>(setting(section, "harmonics", 3.0, where));
+    for (int k = 1; k <= harmonics; ++k)
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::string at = std::to_string(k) + "." + "xyz"[axis];
+        core.cosine(k, axis, p("c" + at));
+        core.sine(k, axis, p("s" + at));
+      }
+  } else {
+    throw Malformed(where + "/curve: \"" + family + "\" is not known to this check");
+  }
+  Torus out;
+  out.name = "tube";
+  out.r0 = out.r1 = p("r");
+  double squares = 0.0;
+  for (const auto& [c, s] : core.curve) squares += c.squaredNorm() + s.squaredNorm();
+  out.R = std::sqrt(0.5 * squares);
+  out.curve = std::move(core.curve);
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::vector<Torus>> primitives_of(const json::value& section, const Parameters& parameters,
+                                                const std::string& where)
+{
+  const std::string shape = text(member(section, "shape", where), where + "/shape");
+  if (shape == "torus_union") return torus_union(section, parameters, where);
+  if (shape == "closed_tube") return std::vector<Torus>{closed_tube(section, parameters, where)};
+  return std::nullopt;
+}
+
+}  // namespace hauberk::verification

@@ -1,0 +1,89 @@
+/// Every field of what the program writes is caught when it is changed, or listed as not checked.
+
+#include "mutations.hpp"
+#include "program.hpp"
+
+#include <hauberk/verify/verify.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+#include <boost/json/object.hpp>
+
+#include <cstdlib>
+
+namespace hauberk::test {
+namespace {
+
+/// Of every pattern; HAUBERK_MUTATIONS sets another number, for a complete count.
+std::size_t fields_per_pattern()
+{
+  constexpr std::size_t few = 3;
+  const char* given = std::getenv("HAUBERK_MUTATIONS");
+  return given != nullptr ? std::strtoul(given, nullptr, 10) : few;
+}
+
+struct Case {
+  const char* name;
+  std::vector<std::string> arguments;  ///< of `run`
+};
+
+std::string share(const char* file) { return std::string(HAUBERK_SOURCE_DIR "/share/experiments/") + file; }
+
+std::vector<Case> cases()
+{
+  return {
+      {"chain", {share("chain.json")}},
+      {"fourfold",
+       {share("fourfold_limits.json"), "--set", "/load_case/directions_deg=[20]", "--set", "/solver/starts=1",
+        "--set", "/solver/neighbours=0", "--set", "/expect=[]"}},
+      {"bent", {share("speed/bending.json"), "--set", "/cell/patch/outline={\"rectangle\": [2, 3]}"}},
+      {"tubes", {share("oval_links.json"), "--set", "/expect=[]"}},
+      {"solid", {HAUBERK_SOURCE_DIR "/loadcases/volumetric_periodic/example.json"}},
+  };
+}
+
+void expect_nothing_missed(const std::string& name, const boost::json::value& results)
+{
+  const VerifyReport whole = verify(results);
+  ASSERT_TRUE(whole.ok) << whole.text();
+  const MutationCounts counts = mutate(results, fields_per_pattern());
+  fmt::print("{}: {} fields, {} changed, {} caught, {} listed, {} missed\n", name, counts.fields,
+             counts.tried, counts.caught, counts.listed, counts.missed.size());
+  EXPECT_TRUE(counts.missed.empty()) << fmt::format("{}", fmt::join(counts.missed, "\n"));
+  EXPECT_TRUE(counts.pretended.empty()) << fmt::format("{}", fmt::join(counts.pretended, "\n"));
+  EXPECT_GT(counts.caught, counts.tried / 3) << "more is listed than a reader would expect";
+}
+
+class Mutation : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Mutation, IsCaughtOrListed)
+{
+  const TemporaryFolder folder;
+  std::vector<std::string> words{"run"};
+  words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+  words.insert(words.end(), {"-o", folder / "out"});
+  const Outcome run = run_program(words);
+  ASSERT_EQ(run.code, 0) << run.err;
+  expect_nothing_missed(GetParam().name, read_results(folder / "out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Results, Mutation, ::testing::ValuesIn(cases()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// Experiments that are texts of the tests.
+void mutate_text(const std::string& name, const std::string& text, int code = 0)
+{
+  const TemporaryFolder folder;
+  const Outcome run = run_program({"run", folder.write("e.json", text), "-o", folder / "out"});
+  ASSERT_EQ(run.code, code) << run.err;
+  expect_nothing_missed(name, read_results(folder / "out"));
+}
+
+TEST(MutationOfTables, Sweep) { mutate_text("sweep", sweep_text()); }
+TEST(MutationOfTables, Chart) { mutate_text("chart", chart_text()); }
+TEST(MutationOfTables, Stability) { mutate_text("stability", map_text()); }
+TEST(MutationOfTables, Design) { mutate_text("design", design_text()); }
+
+}  // namespace
+}  // namespace hauberk::test

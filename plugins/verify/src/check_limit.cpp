@@ -231,7 +231,6 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
   if (limit.poses.empty() || !limit.macro) return check_stateless(limit, record);
   if (limit.poses.size() != scene.elements.size())
     return refused(fmt::format("{} poses for {} elements", limit.poses.size(), scene.elements.size()));
-  if (limit.status == "unbounded" || limit.status == "not_attained")
   if (!known_status(limit.status)) return refused("status \"" + limit.status + "\" is not known");
   Setting setting = of_all;
   setting.hold = limit.hold;

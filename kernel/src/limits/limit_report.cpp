@@ -356,12 +356,14 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   return r;
 }
 
-void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const FoundState& found)
+namespace {
+
+LockedState locked_state(const Model& m, const LimitTask& task, const FoundState& found)
 {
   const Locked& l = found.locked;
   LockedState s;
-  const double scale = power(m.length, m.load->value_length_power());
-  s.value = m.load->value(task.direction, macro_span(m, l.state)) * scale;
+  s.value = m.load->value(task.direction, macro_span(m, l.state)) *
+            power(m.length, m.load->value_length_power());
   for (int k = 0; k < m.macro_count; ++k) {
     s.macro.push_back(l.state.macro[k] *
                       power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));
@@ -370,27 +372,48 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   s.seed = found.seed;
   s.origin = found.origin;
   s.count = 1;
-  const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
-  // Mirror images have the same value and metric norm of the macroscopic state. Heights are those of loose
-  // elements, too, which are no part of what holds.
+  return s;
+}
+
+/// The state of the list that is one with another; null: there is none. Mirror images have the same value and
+/// metric norm of the macroscopic state. Heights are those of loose elements, too, which are no part of what
+/// holds.
+LockedState* equal_state(std::vector<LockedState>& list, const Model& m, const LockedState& s)
+{
+  const double scale = power(m.length, m.load->value_length_power());
   const auto norm = [&m](const std::vector<double>& x) {
     double n = 0.0;
     for (std::size_t k = 0; k < x.size(); ++k) n += m.metric[static_cast<int>(k)] * x[k] * x[k];
     return std::sqrt(n);
   };
-  for (LockedState& o : list) {
-    if (std::abs(o.value - s.value) < same_state * scale &&
-        std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale) {
-      // The furthest of them stands for all: it is the value of the limit where it is the best state.
-      s.count = o.count + 1;
-      if (sign * s.value > sign * o.value)
-        o = s;
-      else
-        o.count = s.count;
-      return;
-    }
-  }
-  list.push_back(s);
+  const auto equal = [&](const LockedState& o) {
+    return std::abs(o.value - s.value) < same_state * scale &&
+           std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale;
+  };
+  const auto at = std::find_if(list.begin(), list.end(), equal);
+  return at == list.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& task, const FoundState& found)
+{
+  LockedState s = locked_state(m, task, found);
+  LockedState* same = equal_state(list, m, s);
+  if (same == nullptr) return list.push_back(std::move(s));
+  const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
+  s.count = ++same->count;
+  if (sign * s.value > sign * same->value) *same = std::move(s);
+}
+
+void stand_for_equals(std::vector<LockedState>& list, const Model& m, const LimitTask& task,
+                      const FoundState& reported)
+{
+  LockedState s = locked_state(m, task, reported);
+  LockedState* same = equal_state(list, m, s);
+  if (same == nullptr) return;
+  s.count = same->count;
+  *same = std::move(s);
 }
 
 }  // namespace hauberk

@@ -97,6 +97,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
     r.evaluations += k == best ? 0 : found[k].locked.evaluations;
     if (sound(m, found[k].locked, settings.schedule)) add_start(r.starts, m, task, found[k]);
   }
+  if (sound_best) stand_for_equals(r.starts, m, task, found[best]);
   r.better_state = sound_best && best != 0;
   if (sound_best) enter_searches(r.confidence, m, task, settings, found, best, r.starts.size());
   return r;

@@ -210,7 +210,7 @@ struct Two {
 
   std::string why(const std::array<double, 3>& macro) const
   {
-    return ParaboloidBending().not_a_sheet({macro, e, X, radius, linked});
+    return ParaboloidBending({}).not_a_sheet({macro, e, X, radius, linked});
   }
 };
 

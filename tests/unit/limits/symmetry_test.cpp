@@ -96,7 +96,7 @@ std::vector<Known> known_groups()
       {"japanese 4-in-1", japanese(false), &flat, 16, 16},
       {"japanese 6-in-1", japanese(true), &flat, 24, 24},
       {"japanese 6-in-1, 2 x 2", repeated(japanese(true), 2, 2), &deep, 24, 96},
-      // The sheet may not turn upside down with the apex of a patch: its load case takes both sides.
+      // About its apex it has what the element in the middle has: the outline has more.
       {"patch of threefold elements", threefold_patch(), &bending, 12, 12},
       {"cubic", cubic(), &solid, 48, 48},
       // The knot is chiral: D3 alone.
@@ -300,6 +300,23 @@ TEST(Symmetry, ImagesOfStatesAreAsGood)
     }
     EXPECT_TRUE(moved);
   }
+}
+
+/// A patch above the plane of its apex turns over about its own height: its image lies there, too.
+TEST(Symmetry, ImagesKeepTheHeightOfAPatch)
+{
+  SceneSpec raised = threefold_patch();
+  for (PlacedElement& e : raised.elements) e.rest.position.z() += 2.0;
+  const Model m = make_model(raised, bending, 0.0);
+  const State rest = rest_state(m);
+  int reversed = 0;
+  for (const SceneSymmetry& g : scene_symmetries(m)) {
+    const std::optional<State> image = transformed(m, g, rest);
+    ASSERT_TRUE(image);
+    EXPECT_LT(difference(m, rest, *image).norm(), 1e-12);
+    reversed += g.O(2, 2) < 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(reversed, 6);
 }
 
 TEST(Symmetry, WallsAreMappedToWalls)

@@ -12,46 +12,74 @@ namespace {
 /// right one in the first.
 constexpr int part_depth = 256, part_rows = 96;
 
-/// Sizes of a tile of c, which stays in registers: eight rows are one vector of AVX-512, two of AVX, four of
-/// SSE2.
-constexpr int tile_rows = 8, tile_columns = 4;
+/// Columns of a tile of c, which stays in registers: two vectors high, eight sums that do not wait for each
+/// other.
+constexpr int tile_columns = 4;
+constexpr int most_tile_rows = 16;
 
-using Row = double __attribute__((vector_size(tile_rows * sizeof(double))));
+using Two = double __attribute__((vector_size(16)));
+using Four = double __attribute__((vector_size(32)));
+using Eight = double __attribute__((vector_size(64)));
 
 /// tile -= left right^T over `depth`; left and right packed, the tile with leading dimension ldc.
+template <class V>
 [[gnu::always_inline]] inline void update(const double* left, const double* right, int depth, double* tile,
                                           std::ptrdiff_t ldc)
 {
-  std::array<Row, tile_columns> sum;
-  for (std::size_t j = 0; j < tile_columns; ++j)
-    std::memcpy(&sum[j], tile + static_cast<std::ptrdiff_t>(j) * ldc, sizeof(Row));
-  for (int k = 0; k < depth; ++k, left += tile_rows, right += tile_columns) {
-    Row column;
-    std::memcpy(&column, left, sizeof(Row));
-    for (std::size_t j = 0; j < tile_columns; ++j) sum[j] -= column * right[j];
+  constexpr int lanes = sizeof(V) / sizeof(double);
+  V upper[tile_columns], lower[tile_columns];
+  for (int j = 0; j < tile_columns; ++j) {
+    std::memcpy(&upper[j], tile + j * ldc, sizeof(V));
+    std::memcpy(&lower[j], tile + j * ldc + lanes, sizeof(V));
   }
-  for (std::size_t j = 0; j < tile_columns; ++j)
-    std::memcpy(tile + static_cast<std::ptrdiff_t>(j) * ldc, &sum[j], sizeof(Row));
+  for (int k = 0; k < depth; ++k, left += 2 * lanes, right += tile_columns) {
+    V first, second;
+    std::memcpy(&first, left, sizeof(V));
+    std::memcpy(&second, left + lanes, sizeof(V));
+    for (int j = 0; j < tile_columns; ++j) {
+      upper[j] -= first * right[j];
+      lower[j] -= second * right[j];
+    }
+  }
+  for (int j = 0; j < tile_columns; ++j) {
+    std::memcpy(tile + j * ldc, &upper[j], sizeof(V));
+    std::memcpy(tile + j * ldc + lanes, &lower[j], sizeof(V));
+  }
 }
 
-// No target has fused multiply-adds: the compiler would contract the products above.
-using Update = void (*)(const double*, const double*, int, double*, std::ptrdiff_t);
+/// What a processor can do: rows of a tile, and how it is updated.
+struct Kernel {
+  int rows;
+  void (*update)(const double* left, const double* right, int depth, double* tile, std::ptrdiff_t ldc);
+};
 
-void update_plain(const double* left, const double* right, int depth, double* tile, std::ptrdiff_t ldc)
+// The flag -ffp-contract=off of this file keeps the compiler from fusing what is rounded one by one.
+void update_2(const double* left, const double* right, int depth, double* tile, std::ptrdiff_t ldc)
 {
-  update(left, right, depth, tile, ldc);
+  update<Two>(left, right, depth, tile, ldc);
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void update_avx2(const double* left, const double* right, int depth, double* tile,
-                                         std::ptrdiff_t ldc)
+[[gnu::target("avx2")]] void update_4(const double* left, const double* right, int depth, double* tile,
+                                      std::ptrdiff_t ldc)
 {
-  update(left, right, depth, tile, ldc);
+  update<Four>(left, right, depth, tile, ldc);
 }
 
-Update widest() { return __builtin_cpu_supports("avx2") ? update_avx2 : update_plain; }
+[[gnu::target("avx512f")]] void update_8(const double* left, const double* right, int depth, double* tile,
+                                         std::ptrdiff_t ldc)
+{
+  update<Eight>(left, right, depth, tile, ldc);
+}
+
+Kernel widest()
+{
+  if (__builtin_cpu_supports("avx512f")) return {16, update_8};
+  if (__builtin_cpu_supports("avx2")) return {8, update_4};
+  return {4, update_2};
+}
 #else
-Update widest() { return update_plain; }
+Kernel widest() { return {4, update_2}; }
 #endif
 
 /// `size` rows of a (from `first` on) and `depth` of its columns in panels of `width`, each column by column;
@@ -59,13 +87,27 @@ Update widest() { return update_plain; }
 void pack(const double* a, int lda, int first, int size, int depth, int width, std::vector<double>& out)
 {
   const auto panels = static_cast<std::size_t>((size + width - 1) / width);
-  out.assign(panels * static_cast<std::size_t>(width) * static_cast<std::size_t>(depth), 0.0);
+  const std::size_t needed = panels * static_cast<std::size_t>(width) * static_cast<std::size_t>(depth);
+  if (out.size() < needed) out.resize(needed);
   double* to = out.data();
   for (int i = 0; i < size; i += width) {
-    const auto count = static_cast<std::size_t>(std::min(width, size - i));
-    for (int k = 0; k < depth; ++k, to += width)
-      std::memcpy(to, a + first + i + static_cast<std::ptrdiff_t>(k) * lda, count * sizeof(double));
+    const int count = std::min(width, size - i);
+    const double* from = a + first + i;
+    for (int k = 0; k < depth; ++k, to += width, from += lda) {
+      for (int r = 0; r < count; ++r) to[r] = from[r];
+      for (int r = count; r < width; ++r) to[r] = 0.0;
+    }
   }
+}
+
+/// Updates a tile of fewer rows or columns than a whole one, in a copy.
+void update_edge(const Kernel& kernel, const double* left, const double* right, int depth, double* tile,
+                 std::ptrdiff_t ldc, int rows, int columns)
+{
+  std::array<double, static_cast<std::size_t>(most_tile_rows) * tile_columns> copy{};
+  for (int j = 0; j < columns; ++j) std::copy_n(tile + j * ldc, rows, copy.begin() + j * kernel.rows);
+  kernel.update(left, right, depth, copy.data(), kernel.rows);
+  for (int j = 0; j < columns; ++j) std::copy_n(copy.begin() + j * kernel.rows, rows, tile + j * ldc);
 }
 
 }  // namespace
@@ -73,35 +115,26 @@ void pack(const double* a, int lda, int first, int size, int depth, int width, s
 void subtract_product(int rows, int columns, int depth, const double* a, int lda, const double* b, int ldb,
                       double* c, int ldc, ProductSpace& space)
 {
-  static const Update run = widest();
-  std::array<double, static_cast<std::size_t>(tile_rows) * tile_columns> edge{};
+  static const Kernel kernel = widest();
   for (int k = 0; k < depth; k += part_depth) {
     const int deep = std::min(part_depth, depth - k);
     pack(b + static_cast<std::ptrdiff_t>(k) * ldb, ldb, 0, columns, deep, tile_columns, space.right);
     for (int first = 0; first < rows; first += part_rows) {
       const int size = std::min(part_rows, rows - first);
-      pack(a + static_cast<std::ptrdiff_t>(k) * lda, lda, first, size, deep, tile_rows, space.left);
+      pack(a + static_cast<std::ptrdiff_t>(k) * lda, lda, first, size, deep, kernel.rows, space.left);
       for (int j = 0; j < std::min(columns, first + size); j += tile_columns) {
         const double* right = space.right.data() + static_cast<std::ptrdiff_t>(j) * deep;
         const int wide = std::min(tile_columns, columns - j);
         // Tiles above the diagonal are left out.
-        const int begin = std::max(0, (j - first) / tile_rows * tile_rows);
-        for (int i = begin; i < size; i += tile_rows) {
+        const int begin = std::max(0, (j - first) / kernel.rows * kernel.rows);
+        for (int i = begin; i < size; i += kernel.rows) {
           const double* left = space.left.data() + static_cast<std::ptrdiff_t>(i) * deep;
           double* tile = c + first + i + static_cast<std::ptrdiff_t>(j) * ldc;
-          const int high = std::min(tile_rows, size - i);
-          if (wide == tile_columns && high == tile_rows) {
-            run(left, right, deep, tile, ldc);
-            continue;
-          }
-          const auto bytes = static_cast<std::size_t>(high) * sizeof(double);
-          for (int s = 0; s < wide; ++s)
-            std::memcpy(&edge[static_cast<std::size_t>(s) * tile_rows],
-                        tile + static_cast<std::ptrdiff_t>(s) * ldc, bytes);
-          run(left, right, deep, edge.data(), tile_rows);
-          for (int s = 0; s < wide; ++s)
-            std::memcpy(tile + static_cast<std::ptrdiff_t>(s) * ldc,
-                        &edge[static_cast<std::size_t>(s) * tile_rows], bytes);
+          const int high = std::min(kernel.rows, size - i);
+          if (wide == tile_columns && high == kernel.rows)
+            kernel.update(left, right, deep, tile, ldc);
+          else
+            update_edge(kernel, left, right, deep, tile, ldc, high, wide);
         }
       }
     }

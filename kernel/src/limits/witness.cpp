@@ -1,31 +1,11 @@
 #include "limit_report.hpp"
 
-#include <hauberk/motion/advancement.hpp>
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace hauberk {
 namespace {
-
-/// Part of every gap that a straight way must leave.
-constexpr double keep_gap = 0.1;
-
-/// The same way in fewer pieces: from each state straight to the farthest one that it certainly reaches.
-std::vector<State> in_few_pieces(const Model& m, const std::vector<State>& path)
-{
-  std::vector<State> out{path.front()};
-  for (std::size_t at = 0; at + 1 < path.size();) {
-    std::size_t span = path.size() - 1 - at;
-    while (span > 1 &&
-           largest_safe_step(m, path[at], difference(m, path[at], path[at + span]), keep_gap).alpha < 1.0)
-      span = (span + 1) / 2;
-    at += span;
-    out.push_back(path[at]);
-  }
-  return out;
-}
 
 WitnessState reported(const Model& m, const State& s)
 {
@@ -52,7 +32,11 @@ void add_witness(LimitResult& r, const Model& m, const LimitTask& task, const Lo
     r.message = "the strain left every bound although links bound this direction";
     return;
   }
-  for (const State& s : in_few_pieces(m, l.path)) r.witness.push_back(reported(m, s));
+  const State* last = nullptr;
+  for (const State& s : l.path) {
+    if (last == nullptr || step_norm(m, difference(m, *last, s)) > 0.0) r.witness.push_back(reported(m, s));
+    last = &s;
+  }
   const auto [lo, hi] =
       m.load->stretch_range({l.state.macro.data(), static_cast<std::size_t>(m.macro_count)});
   r.certificate =

@@ -165,7 +165,7 @@ class Newton {
       if (ratio < 0.25) {
         radius = 0.5 * std::min(radius, alpha * length);
       } else if (ratio > 0.6) {
-        radius = std::min(most_radius_, std::max(radius, 2.5 * alpha * length));
+        radius = std::min(longest_step(next), std::max(radius, 2.5 * alpha * length));
       }
       state_ = std::move(trial);
       now = std::move(next);
@@ -285,6 +285,17 @@ class Newton {
     next = total_energy(m_, trial, load_, stage_, pairs_, 2, &bounds_);
     result_.evaluations += next.contact.evaluations;
     return alpha;
+  }
+
+  /// Where a path may run away its steps grow with the strain, so that decades of it take few; with nothing
+  /// in reach they only need to be certified.
+  double longest_step(const TotalEnergy& e) const
+  {
+    if (!stage_.keep_path) return most_radius_;
+    if (e.contact.energy == 0.0) return std::numeric_limits<double>::infinity();
+    const auto [lo, hi] =
+        m_.load->stretch_range({state_.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    return most_radius_ * std::max({1.0, hi, 1.0 / lo});
   }
 
   bool runaway() const

@@ -17,8 +17,16 @@ std::string to_string(LimitStatus status)
       return "failed";
     case LimitStatus::interrupted:
       return "interrupted";
+    case LimitStatus::not_a_sheet:
+      return "not_a_sheet";
   }
   return "failed";
+}
+
+bool is_answer(LimitStatus status)
+{
+  return status == LimitStatus::locked || status == LimitStatus::unbounded ||
+         status == LimitStatus::not_attained || status == LimitStatus::not_a_sheet;
 }
 
 }  // namespace hauberk

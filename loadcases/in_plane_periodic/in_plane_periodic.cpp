@@ -48,8 +48,8 @@ struct Spectrum {
 
 }  // namespace
 
-InPlanePeriodic::InPlanePeriodic(StrainMeasure measure, OutOfPlane out_of_plane)
-    : macros_{{"exx", 0}, {"eyy", 0}, {"exy", 0}}, measure_(measure), out_of_plane_(out_of_plane)
+InPlanePeriodic::InPlanePeriodic(StrainMeasure measure, OutOfPlane out_of_plane, Hold hold)
+    : macros_{{"exx", 0}, {"eyy", 0}, {"exy", 0}}, measure_(measure), out_of_plane_(out_of_plane), hold_(hold)
 {
 }
 
@@ -120,7 +120,7 @@ double InPlanePeriodic::do_value(double theta, std::span<const double> macro) co
 
 std::string InPlanePeriodic::do_measure() const
 {
-  return measure_ == StrainMeasure::tensor ? "tensor" : "paper";
+  return measure_ == StrainMeasure::tensor ? "tensor" : "equation_12";
 }
 
 std::vector<std::pair<std::string, double>> InPlanePeriodic::do_companions(
@@ -139,6 +139,20 @@ void InPlanePeriodic::do_metric(std::span<double> m) const
 {
   m[exx] = m[eyy] = 1.0;
   m[exy] = 2.0;  // the Frobenius norm counts the shear twice
+}
+
+bool InPlanePeriodic::do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const
+{
+  if (!keeps_plane(O)) return false;
+  // F' = O F O^T.
+  Eigen::Matrix2d eps;
+  eps << macro[exx], macro[exy], macro[exy], macro[eyy];
+  const Eigen::Matrix2d O2 = O.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d turned = O2 * eps * O2.transpose();
+  out[exx] = turned(0, 0);
+  out[eyy] = turned(1, 1);
+  out[exy] = 0.5 * (turned(0, 1) + turned(1, 0));
+  return true;
 }
 
 std::vector<LinearInequality> InPlanePeriodic::do_inequalities(std::span<const Vec3> X) const
@@ -209,6 +223,56 @@ Boundedness InPlanePeriodic::do_boundedness(std::span<const double> load, std::s
   if (across > none) return Boundedness::unbounded;
   if (across < -none) return Boundedness::attained;
   return along > parallel_sine ? Boundedness::attained : Boundedness::not_attained;
+}
+
+std::vector<std::string> InPlanePeriodic::do_hold() const
+{
+  std::vector<std::string> names;
+  if (hold_.shear) names.emplace_back("shear");
+  if (hold_.lateral) names.emplace_back("lateral");
+  return names;
+}
+
+std::vector<MacroCondition> InPlanePeriodic::do_conditions(double theta) const
+{
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  std::vector<MacroCondition> out;
+  if (hold_.shear) out.push_back({"shear", {-c * s, c * s, c * c - s * s}});
+  if (hold_.lateral) out.push_back({"lateral", {s * s, c * c, -2.0 * c * s}});
+  return out;
+}
+
+Boundedness InPlanePeriodic::do_held_boundedness(double theta, std::span<const double> load,
+                                                 std::span<const Vec3> cycles) const
+{
+  // With eps = a n n^T + b m m^T + g (n m^T + m n^T) a link cycle of the translation t, p = n . t and
+  // q = m . t, bounds |F t|, and packing bounds det F from below. The load is ta a + tb b + tg g.
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  const double scale = std::hypot(load[exx], load[eyy], load[exy]);
+  const double ta = (c * c * load[exx] + s * s * load[eyy] + c * s * load[exy]) / scale;
+  const double tb = (s * s * load[exx] + c * c * load[eyy] - c * s * load[exy]) / scale;
+  bool along = false;   // some p is not zero
+  bool across = false;  // some q is not zero
+  for (const Vec3& T : cycles) {
+    const double length = std::hypot(T.x(), T.y());
+    if (length <= zero_translation) continue;
+    along = along || std::abs(c * T.x() + s * T.y()) > parallel_sine * length;
+    across = across || std::abs(c * T.y() - s * T.x()) > parallel_sine * length;
+  }
+  const auto sign = [](double t) { return std::abs(t) <= parallel_sine ? 0 : t > 0.0 ? 1 : -1; };
+  const int on_a = sign(ta);
+  const int on_b = hold_.lateral ? -1 : sign(tb);
+  // b = 0. Where nothing bounds a, a load that pulls a has no end; one that pushes it ends, since det F does
+  // not exceed 1 + a. With g free its share of the load is of lower order: g^2 < 1 + a.
+  if (hold_.lateral) return on_a > 0 && !along ? Boundedness::unbounded : Boundedness::attained;
+  // |F t|^2 = (1 + a)^2 p^2 + (1 + b)^2 q^2 and det F = (1 + a)(1 + b): each strain is bounded from above by
+  // its own cycles, and from below while the other one is bounded.
+  if ((on_a > 0 && !along) || (on_b > 0 && !across)) return Boundedness::unbounded;
+  const bool thins_a = on_a < 0 && !across && on_b == 0;  // a falls for ever, as b grows at no price
+  const bool thins_b = on_b < 0 && !along && on_a == 0;
+  return thins_a || thins_b ? Boundedness::not_attained : Boundedness::attained;
 }
 
 }  // namespace hauberk

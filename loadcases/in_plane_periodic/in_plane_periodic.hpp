@@ -12,13 +12,16 @@ namespace hauberk {
 /// The reported value of a strain eps along n = (c, s).
 enum class StrainMeasure {
   tensor,  ///< n^T eps n = exx c^2 + eyy s^2 + 2 exy c s
-  paper,   ///< (d . eps)/(d . d), d = (c^2, s^2, c s)
+  /// (d . eps)/(d . d), d = (c^2, s^2, c s): what equation (12) of Tang et al. 2025 says when it is read
+  /// literally, a target that only the strain along d counts for
+  equation_12,
 };
 
 /// Elements at x = F (X + T) + u with F = I + [[exx, exy], [exy, eyy]] in the plane (z untouched).
 ///
 /// Macroscopic unknowns are (exx, eyy, exy), coordinates of an element u = (ux, uy), and uz where elements
-/// may leave the plane. Transverse and shear strains are free.
+/// may leave the plane. Along an angle, with n = (c, s) and m = (-s, c), the shear n^T eps m and the lateral
+/// strain m^T eps m may be held; what is not held is free.
 class InPlanePeriodic final : public LoadCase {
  public:
   /// How far elements may leave their height at rest, after removing the mean.
@@ -27,7 +30,13 @@ class InPlanePeriodic final : public LoadCase {
     double half_height = 0.0;  ///< when not free; 0 fixes z; scaled by L
   };
 
-  InPlanePeriodic(StrainMeasure measure, OutOfPlane out_of_plane);
+  /// Which strains are zero at the locked state of an angle.
+  struct Hold {
+    bool shear = true;     ///< n^T eps m: principal axes stay at the load direction
+    bool lateral = false;  ///< m^T eps m: the sheet cannot narrow
+  };
+
+  InPlanePeriodic(StrainMeasure measure, OutOfPlane out_of_plane, Hold hold);
 
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
@@ -45,13 +54,19 @@ class InPlanePeriodic final : public LoadCase {
                                                             std::span<const double> macro) const override;
   std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
   void do_metric(std::span<double> m) const override;
+  bool do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const override;
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override;
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
+  std::vector<std::string> do_hold() const override;
+  std::vector<MacroCondition> do_conditions(double theta) const override;
+  Boundedness do_held_boundedness(double theta, std::span<const double> load,
+                                  std::span<const Vec3> cycles) const override;
 
  private:
   std::vector<MacroInfo> macros_;
   StrainMeasure measure_;
   OutOfPlane out_of_plane_;
+  Hold hold_;
 };
 
 /// The fields of the load case's own settings.

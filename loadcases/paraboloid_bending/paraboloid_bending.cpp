@@ -1,5 +1,7 @@
 #include "paraboloid_bending.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,21 +11,46 @@ namespace {
 enum { A, B, C };     // order of the macroscopic unknowns
 enum { ux = 3, uy };  // columns of an element's coordinates
 
+/// Largest curvature of the paraboloid: at the apex, |eigenvalue| of [[2 A, C], [C, 2 B]]. Anywhere else the
+/// surface curves less, since its slope divides the same second derivatives by more.
+double largest_curvature(std::span<const double> macro)
+{
+  const double mean = macro[A] + macro[B];
+  return std::abs(mean) + std::hypot(macro[A] - macro[B], macro[C]);
+}
+
+/// Length of the curve on the paraboloid above the straight line from (x, y) to (x + dx, y + dy): of a
+/// parabola of slope b at the start and b + 2 a at the end over a length d, in units of d.
+double length_along(std::span<const double> macro, double x, double y, double dx, double dy)
+{
+  const double d = std::hypot(dx, dy);
+  if (!(d > 0.0)) return 0.0;
+  const double a = (macro[A] * dx * dx + macro[B] * dy * dy + macro[C] * dx * dy) / d;
+  const double b = (2.0 * macro[A] * x * dx + 2.0 * macro[B] * y * dy + macro[C] * (x * dy + y * dx)) / d;
+  constexpr double straight = 1e-4;  // where slopes change by less, their mean is exact to nine digits
+  if (std::abs(a) < straight) return d * std::hypot(1.0, b + a);
+  const auto primitive = [](double slope) {
+    return 0.5 * (slope * std::hypot(1.0, slope) + std::asinh(slope));
+  };
+  return d * (primitive(b + 2.0 * a) - primitive(b)) / (2.0 * a);
+}
+
 }  // namespace
 
-ParaboloidBending::ParaboloidBending() : macros_{{"A", -1}, {"B", -1}, {"C", -1}} {}
+ParaboloidBending::ParaboloidBending(Hold hold) : hold_(hold), macros_{{"A", -1}, {"B", -1}, {"C", -1}} {}
 
 void ParaboloidBending::do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X,
                                     const Vec3& T, PositionMap& out) const
 {
-  const double x = X.x() + T.x() + e[0];
-  const double y = X.y() + T.y() + e[1];
+  const double x = X.x() + T.x() + (hold_.places ? 0.0 : e[0]);
+  const double y = X.y() + T.y() + (hold_.places ? 0.0 : e[1]);
   out.x = Vec3(x, y, X.z() + T.z() + macro[A] * x * x + macro[B] * y * y + macro[C] * x * y);
-  out.J(0, ux) = 1.0;
-  out.J(1, uy) = 1.0;
   out.J(2, A) = x * x;
   out.J(2, B) = y * y;
   out.J(2, C) = x * y;
+  if (hold_.places) return;
+  out.J(0, ux) = 1.0;
+  out.J(1, uy) = 1.0;
   out.J(2, ux) = 2.0 * macro[A] * x + macro[C] * y;
   out.J(2, uy) = 2.0 * macro[B] * y + macro[C] * x;
 
@@ -46,6 +73,7 @@ double ParaboloidBending::do_acceleration_bound(std::span<const double> macro, s
                                                 std::span<const double> e, std::span<const double> de,
                                                 const Vec3& X, const Vec3& T) const
 {
+  if (hold_.places) return 0.0;  // z is linear in (A, B, C)
   // z is cubic in s, so z'' is linear: its size is largest at one of the ends. With q the quadratic form,
   // z'' = 4 q_dmacro(x + s dx, dx) + 2 q_(macro + s dmacro)(dx, dx).
   const auto form = [](double a, double b, double c, double x1, double y1, double x2, double y2) {
@@ -97,8 +125,26 @@ void ParaboloidBending::do_metric(std::span<double> m) const
   m[C] = 0.5;
 }
 
+bool ParaboloidBending::do_transform(const Mat3& O, std::span<const double> macro,
+                                     std::span<double> out) const
+{
+  if (!keeps_plane(O)) return false;
+  // z = x . K x with K = [[A, C/2], [C/2, B]]. Moved by O, z' = O_zz z at x' = O x: K' = O_zz O K O^T, so
+  // that what is turned upside down bends down for up. The mean of x' is zero with that of x, and the turn
+  // about z changes its sign at most.
+  Eigen::Matrix2d K;
+  K << macro[A], 0.5 * macro[C], 0.5 * macro[C], macro[B];
+  const Eigen::Matrix2d O2 = O.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d turned = (O(2, 2) > 0.0 ? 1.0 : -1.0) * O2 * K * O2.transpose();
+  out[A] = turned(0, 0);
+  out[B] = turned(1, 1);
+  out[C] = turned(0, 1) + turned(1, 0);
+  return true;
+}
+
 std::vector<LinearEquality> ParaboloidBending::do_equalities(std::span<const Vec3> X) const
 {
+  if (hold_.places) return {};
   LinearEquality mean_x{"mean x", {}};
   LinearEquality mean_y{"mean y", {}};
   LinearEquality turn{"turn about z", {}};
@@ -116,6 +162,55 @@ Boundedness ParaboloidBending::do_boundedness(std::span<const double> /*load*/,
                                               std::span<const Vec3> /*cycles*/) const
 {
   return Boundedness::attained;
+}
+
+std::vector<std::string> ParaboloidBending::do_hold() const
+{
+  std::vector<std::string> names;
+  if (hold_.places) names.emplace_back("places");
+  if (hold_.twist) names.emplace_back("twist");
+  if (hold_.transverse) names.emplace_back("transverse");
+  return names;
+}
+
+std::vector<MacroCondition> ParaboloidBending::do_conditions(double theta) const
+{
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  std::vector<MacroCondition> out;
+  if (hold_.twist) out.push_back({"twist", {-2.0 * c * s, 2.0 * c * s, c * c - s * s}});
+  if (hold_.transverse) out.push_back({"transverse", {2.0 * s * s, 2.0 * c * c, -2.0 * c * s}});
+  return out;
+}
+
+std::string ParaboloidBending::do_not_a_sheet(const SheetState& state) const
+{
+  const auto widest = std::max_element(state.radius.begin(), state.radius.end());
+  if (widest == state.radius.end()) return {};
+  const double curvature = largest_curvature(state.macro) * *widest;
+  if (!(curvature < most_curvature)) {
+    return fmt::format(
+        "no sheet on the scale of its elements: at the apex the radius of curvature is {:.3g} times that of "
+        "element {}, which counts above {:g}",
+        1.0 / curvature, widest - state.radius.begin(), 1.0 / most_curvature);
+  }
+  const std::size_t own = state.e.size() / state.X.size();
+  const auto place = [&](int k, std::size_t axis) {
+    const auto i = static_cast<std::size_t>(k);
+    return state.X[i][static_cast<Eigen::Index>(axis)] + (axis < own ? state.e[i * own + axis] : 0.0);
+  };
+  for (const auto& [i, j] : state.linked) {
+    const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+    const double x = place(i, 0), y = place(i, 1);
+    const double along = length_along(state.macro, x, y, place(j, 0) - x, place(j, 1) - y);
+    const double unit = std::max((state.X[l] - state.X[k]).norm(), 0.5 * (state.radius[k] + state.radius[l]));
+    if (along < most_stretch * unit) continue;
+    return fmt::format(
+        "no sheet on the scale of its elements: along the surface the linked elements {} and {} are {:.3g} "
+        "times as far apart as at rest or as their mean radius, whichever is longer, which counts below {:g}",
+        i, j, along / unit, most_stretch);
+  }
+  return {};
 }
 
 }  // namespace hauberk

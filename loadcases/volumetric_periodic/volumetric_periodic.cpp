@@ -88,6 +88,16 @@ void VolumetricPeriodic::do_metric(std::span<double> m) const
   for (std::size_t k = 0; k < entries.size(); ++k) m[k] = k < 3 ? 1.0 : 2.0;
 }
 
+bool VolumetricPeriodic::do_transform(const Mat3& O, std::span<const double> macro,
+                                      std::span<double> out) const
+{
+  const Mat3 turned = O * symmetric(macro, 1.0) * O.transpose();
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    out[k] = 0.5 * (turned(entries[k].row, entries[k].column) + turned(entries[k].column, entries[k].row));
+  }
+  return true;
+}
+
 Boundedness VolumetricPeriodic::do_boundedness(std::span<const double> load,
                                                std::span<const Vec3> cycles) const
 {

@@ -28,6 +28,7 @@ class VolumetricPeriodic final : public LoadCase {
   int do_value_length_power() const override { return 0; }
   std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
   void do_metric(std::span<double> m) const override;
+  bool do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const override;
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override;
 
  private:

@@ -100,5 +100,48 @@ TEST(Sensitivity, OfChainmailAgreesWithSolvingAgain)
       worst);
 }
 
+/// Equal rings share the load in many ways: growing one leaves it to the contacts that gain least, shrinking
+/// it to those that lose most.
+TEST(Sensitivity, AtAKinkHasTwoSides)
+{
+  SceneSpec scene = test::chainmail(1, 1);
+  scene.length = characteristic_length(scene);
+  std::vector<std::pair<double, Sense>> cases{{0.0, Sense::positive}, {90.0, Sense::positive}};
+  int kinks = 0;
+  double widest = 0.0, worst = 0.0;
+  for (const auto& [direction, sense] : cases) {
+    const LimitResult r = limit(scene, direction, sense);
+    ASSERT_EQ(r.status, LimitStatus::locked) << r.message;
+    if (!r.kink) continue;
+    ++kinks;
+    ASSERT_EQ(r.parameters_one_sided.size(), r.sensitivity_parameters.size());
+    double largest = 0.0;
+    for (const auto& sides : r.parameters_one_sided)
+      largest = std::max({largest, std::abs(sides[0]), std::abs(sides[1])});
+    for (std::size_t k = 0; k < r.parameters_one_sided.size(); ++k) {
+      const auto& [smaller, greater] = r.parameters_one_sided[k];
+      const std::string& name = r.sensitivity_parameters[k].first;
+      const double listed = r.sensitivity_parameters[k].second;
+      EXPECT_GE(listed, std::min(smaller, greater) - 1e-3 * largest) << name;
+      EXPECT_LE(listed, std::max(smaller, greater) + 1e-3 * largest) << name;
+      widest = std::max(widest, std::abs(greater - smaller) / largest);
+      for (const double h : {-2e-4, 2e-4}) {
+        SceneSpec changed = scene;
+        changed.elements[k / 3].parameters[k % 3] += h;
+        const double again = (*limit(changed, direction, sense).value - *r.value) / h;
+        worst = std::max(worst, std::abs(again - (h < 0.0 ? smaller : greater)) / largest);
+        EXPECT_NEAR(again, h < 0.0 ? smaller : greater, 5e-3 * largest)
+            << name << ' ' << direction << ' ' << h;
+      }
+    }
+  }
+  EXPECT_GT(kinks, 0);
+  EXPECT_GT(widest, 0.1) << "no kink to speak of";
+  fmt::print(
+      "{} kinks: sides differ by up to {:.2f} of the largest sensitivity, and from limits solved again by "
+      "{:.1e}\n",
+      kinks, widest, worst);
+}
+
 }  // namespace
 }  // namespace hauberk::brute

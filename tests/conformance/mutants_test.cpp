@@ -84,6 +84,10 @@ const Planted all[] = {
     {"load_case", "bounded_by_first_cycle", "load_case.boundedness",
      "a cycle that closes without a translation changes"},
     {"load_case", "bounded_by_load_size", "load_case.boundedness", "three times the load changes"},
+    {"load_case", "mirrors_no_shear", "load_case.transform", "moves a lattice translation"},
+    {"load_case", "turns_by_any_angle", "load_case.transform", "changes the square of the metric's norm"},
+    {"load_case", "transform_not_linear", "load_case.transform", "its transformation is not linear"},
+    {"load_case", "transform_stretches", "load_case.transform", "changes the square of the metric's norm"},
     {"load_case", "forgets_the_length", "load_case.scaling", "in another unit of length"},
     {"load_case", "crash", "load_case.rest", "ended by signal 11"},
 

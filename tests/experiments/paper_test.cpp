@@ -26,7 +26,7 @@ std::string chain_in(const std::string& unit, double per_mm, const std::string& 
   "cell": {{ "vectors": [[{}, 0], [0, {}]],
     "place": [ {{ "element": "link", "position": [0, 0, 0] }},
       {{ "element": "link", "position": [{}, 0, 0], "rotation": {{ "axis": [1, 0, 0], "degrees": 90 }} }} ] }},
-  "load_case": {{ "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"], "measure": "paper" }},
+  "load_case": {{ "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"], "measure": "equation_12", "hold": [] }},
   "solver": {{ {} }} }})",
       unit, n(5.0), n(0.7), n(0.7), n(12.0), n(100.0), n(6.0), solver);
 }

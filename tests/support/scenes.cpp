@@ -89,6 +89,20 @@ void Sheet::do_metric(std::span<double> m) const
   m[2] = 2.0;
 }
 
+bool Sheet::do_transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const
+{
+  if (!keeps_plane(O)) return false;
+  // F' = O F O^T.
+  Eigen::Matrix2d eps;
+  eps << macro[0], macro[2], macro[2], macro[1];
+  const Eigen::Matrix2d O2 = O.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d turned = O2 * eps * O2.transpose();
+  out[0] = turned(0, 0);
+  out[1] = turned(1, 1);
+  out[2] = 0.5 * (turned(0, 1) + turned(1, 0));
+  return true;
+}
+
 SceneSpec chain(std::array<double, 3> first, std::array<double, 3> second, double period)
 {
   SceneSpec s;

@@ -31,4 +31,11 @@ Mat3 rotation_exp(const Vec3& w);
 /// Shortest rotation that takes e_z to the unit vector `axis`; for axis = -e_z, half a turn about e_x.
 Mat3 rotation_from_z(const Vec3& axis);
 
+/// Whether the orthogonal matrix O maps the plane z = 0 to itself, up to rounding: then O_zz = +1 or -1.
+inline bool keeps_plane(const Mat3& O)
+{
+  constexpr double rounding = 1e-9;
+  return O.topRightCorner<2, 1>().norm() <= rounding && O.bottomLeftCorner<1, 2>().norm() <= rounding;
+}
+
 }  // namespace hauberk

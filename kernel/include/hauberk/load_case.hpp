@@ -54,6 +54,23 @@ struct LinearEquality {
   std::vector<LinearTerm> terms;
 };
 
+/// A condition on the macroscopic unknowns that a limit keeps at its locked state: coefficients . macro = 0.
+/// Its component X = coefficients . macro has the unit of the value, so that the reaction, d value / dX, has
+/// none.
+struct MacroCondition {
+  std::string name;
+  std::array<double, max_macro> coefficients{};  ///< the first macro_count() count
+};
+
+/// A state of a cell or patch as one asks whether it still is a sheet. Scaled lengths.
+struct SheetState {
+  std::span<const double> macro;
+  std::span<const double> e;                   ///< coordinate_count() numbers for each element
+  std::span<const Vec3> X;                     ///< rest positions
+  std::span<const double> radius;              ///< of a sphere about an element's origin that holds it
+  std::span<const std::array<int, 2>> linked;  ///< elements of the patch, each pair once
+};
+
 /// Whether contact can stop the load, decided from the link graph alone.
 enum class Boundedness { attained, unbounded, not_attained };
 
@@ -68,7 +85,7 @@ class LoadCase {
 
   const std::vector<MacroInfo>& macros() const { return do_macros(); }
   int macro_count() const { return static_cast<int>(do_macros().size()); }
-  /// Free coordinates of an element besides its rotation (1 .. 3).
+  /// Free coordinates of an element besides its rotation (0 .. 3).
   int coordinate_count() const { return do_coordinate_count(); }
   /// True if images of the cell exist (lattice vectors are needed).
   bool periodic() const { return do_periodic(); }
@@ -121,6 +138,13 @@ class LoadCase {
   /// Further values reported beside that of an angle, e.g. {"line_stretch", |F n| - 1}; none for components.
   std::vector<std::pair<std::string, double>> companions(const Direction& direction,
                                                          std::span<const double> macro) const;
+  /// Names of all that a limit holds: conditions on macroscopic unknowns, which angles alone have, and what no
+  /// motion changes (the places of elements).
+  std::vector<std::string> hold(const Direction& direction) const;
+  /// The conditions on the macroscopic unknowns among what is held, linearly independent. The path from rest
+  /// may break them, the locked state keeps them. Rest keeps all of them (they are homogeneous). Throws
+  /// PluginError when one is not finite or zero.
+  std::vector<MacroCondition> conditions(const Direction& direction) const;
   /// Names of the senses in experiment files, positive first: {"stretch", "compress"}.
   std::pair<std::string, std::string> sense_names() const { return do_sense_names(); }
   /// Name of a sense of a direction. Components have one of their own, "along"; against them is "against".
@@ -132,6 +156,13 @@ class LoadCase {
   /// multiplies them by the squared displacement that a unit of such an unknown gives to elements: |X|^2 for
   /// a strain, |X|^4 for a curvature.
   void metric(std::span<double> m) const { do_metric(m); }
+
+  /// The macroscopic unknowns of the state that the isometry with orthogonal part O makes of one with
+  /// `macro`: `out` has macro_count() entries and depends linearly on `macro`. It means that position(out,
+  /// e', O X, O T) = O position(macro, e, X, T) has a solution e' for all e, X, T, and that walls and what
+  /// equalities hold are mapped to themselves. False: O is no symmetry of this load case, or none is known;
+  /// `out` is then left undefined. The identity is always one. O may be improper (det O = -1).
+  bool transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const;
 
   /// Walls that act on element coordinates, for elements with rest positions X.
   std::vector<LinearInequality> inequalities(std::span<const Vec3> X) const { return do_inequalities(X); }
@@ -145,8 +176,18 @@ class LoadCase {
   {
     return do_boundedness(load, cycles);
   }
-  /// The same for a direction and sense.
+  /// The same for a load along an angle, in one of its senses, under the conditions held there.
+  Boundedness held_boundedness(double theta, std::span<const double> load, std::span<const Vec3> cycles) const
+  {
+    return do_held_boundedness(theta, load, cycles);
+  }
+  /// The same for a direction and sense, with what is held there.
   Boundedness boundedness(const Direction& direction, Sense sense, std::span<const Vec3> cycles) const;
+
+  /// Why the elements of a state no longer form a sheet on the scale of one element: what is passed, where,
+  /// and what is allowed, for people and without units. Empty where they form one. Such a state is no limit,
+  /// and no path leads through it: a computation ends there.
+  std::string not_a_sheet(const SheetState& state) const { return do_not_a_sheet(state); }
 
  protected:
   virtual const std::vector<MacroInfo>& do_macros() const = 0;
@@ -173,9 +214,19 @@ class LoadCase {
   }
   virtual std::pair<std::string, std::string> do_sense_names() const = 0;
   virtual void do_metric(std::span<double> m) const = 0;
+  virtual bool do_transform(const Mat3&, std::span<const double>, std::span<double>) const { return false; }
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
   virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
   virtual Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const = 0;
+  virtual std::vector<std::string> do_hold() const { return {}; }
+  virtual std::vector<MacroCondition> do_conditions(double) const { return {}; }
+  /// The load is that of the angle theta in one of its senses, and `do_conditions(theta)` hold. Attained is
+  /// the safe answer: the load is tried then.
+  virtual Boundedness do_held_boundedness(double, std::span<const double>, std::span<const Vec3>) const
+  {
+    return Boundedness::attained;
+  }
+  virtual std::string do_not_a_sheet(const SheetState&) const { return {}; }
 };
 
 }  // namespace hauberk

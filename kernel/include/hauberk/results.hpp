@@ -5,6 +5,7 @@
 #include <hauberk/direction.hpp>
 #include <hauberk/scene.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,8 +14,14 @@
 
 namespace hauberk {
 
-enum class LimitStatus { locked, unbounded, not_attained, stalled, failed, interrupted };
+enum class LimitStatus { locked, unbounded, not_attained, stalled, failed, interrupted, not_a_sheet };
+/// All of them, in the order of the enumeration.
+inline constexpr std::array all_limit_statuses = {
+    LimitStatus::locked, LimitStatus::unbounded,   LimitStatus::not_attained, LimitStatus::stalled,
+    LimitStatus::failed, LimitStatus::interrupted, LimitStatus::not_a_sheet};
 std::string to_string(LimitStatus status);
+/// True of what ends a question: there is a limit, or there is none. False: nothing is known.
+bool is_answer(LimitStatus status);
 
 /// One contact force at a locked state. For `arc`, one resultant per pair and side.
 struct ContactForce {
@@ -38,6 +45,34 @@ struct LockedState {
   int count = 0;
 };
 
+/// A search for a limit that ended in no locked state.
+struct FailedSearch {
+  std::string origin;  ///< as LockedState::origin
+  std::uint64_t seed = 0;
+  std::string status;
+  std::optional<double> reached;  ///< value of the state in which it gave up
+};
+
+/// How far a limit may be taken for the furthest: no search proves that it is, so what was done is told.
+///
+/// Words: `confirmed`: independent searches ended here, or a relation that must hold between true limits
+/// does; `single`: one search ended here; `contradicted`: a relation that must hold does not, or a search
+/// that failed came further; `none`: there is no locked state.
+struct Confidence {
+  std::string word = "none";
+  int searches = 0;    ///< all of them
+  int ended_here = 0;  ///< of these, at the value that is reported
+  int distinct = 0;    ///< locked states of the fabric that were found
+  std::vector<std::string> confirmed_by, contradicted_by;
+  std::vector<FailedSearch> failed_searches;
+};
+
+/// A state of the motion that shows that nothing stops a load.
+struct WitnessState {
+  std::vector<std::pair<std::string, double>> macro;
+  std::vector<Pose> poses;
+};
+
 struct LimitResult {
   bool resumed = false;  ///< read from a former run's results, without poses and contacts
   std::string load_case;
@@ -59,12 +94,25 @@ struct LimitResult {
   double z_range = 0.0;
   std::vector<LockedState> starts;
   bool better_state = false;  ///< further than the state that the first start from rest led to
+  Confidence confidence;
   std::optional<double> sensitivity_clearance;
   std::vector<std::pair<std::string, double>>
       sensitivity_parameters;  ///< "k/ring.R" -> d value / d parameter
-  std::vector<Pose> poses;     ///< of the cell's elements at the limit, absolute
+  /// At a kink, where contact forces are not unique: derivatives towards smaller and larger clearances or
+  /// parameters (in the order of sensitivity_parameters).
+  using OneSided = std::array<double, 2>;
+  bool kink = false;
+  OneSided clearance_one_sided{};
+  std::vector<OneSided> parameters_one_sided;
+  std::vector<Pose> poses;  ///< of the cell's elements at the limit, absolute
   std::vector<ContactForce> contacts;
+  /// Of unbounded and not_attained: states from rest until a strain passes its bound. Between two of them
+  /// macroscopic unknowns and displacements change linearly and elements turn about fixed axes.
+  std::vector<WitnessState> witness;
   std::optional<double> force_balance;
+  std::vector<std::string> hold;  ///< what the limit holds
+  /// d value / d(held component) of the conditions among them, in their order.
+  std::vector<std::pair<std::string, double>> reactions;
   std::string contact;                     ///< formulation that finished: "nearest", "arc" or "published"
   std::optional<double> quadrature_error;  ///< of arc: part of the load by which finer panels change forces
   std::optional<double> finite_target;     ///< of the published objective; none: a constant load

@@ -3,6 +3,7 @@
 #include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/separation.hpp>
 #include <hauberk/geometry/triangle_surface.hpp>
+#include <hauberk/mechanics/held_model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -156,7 +157,8 @@ double farthest_relative_motion(const Model& m, const State& from, const State& 
 
 /// Least-squares motion that keeps `gaps` of a point, per unit of the variables.
 Matrix gap_response(const DesignPoint& point, const std::vector<Gap>& gaps,
-                    const std::vector<DesignVariable>& variables, bool strain_moves, double weight)
+                    const std::vector<DesignVariable>& variables, bool strain_moves, double weight,
+                    const Matrix& held = {})
 {
   const Model& m = point.model;
   const int n = m.dofs(), nv = static_cast<int>(variables.size());
@@ -165,11 +167,14 @@ Matrix gap_response(const DesignPoint& point, const std::vector<Gap>& gaps,
   for (const Gap& g : gaps) {
     Vector dy = g.dy;
     if (!strain_moves) dy.head(m.macro_count).setZero();
+    dy.head(m.macro_count) = within(held, dy.head(m.macro_count));
     A.noalias() += dy * dy.transpose();
     B.noalias() += dy * gap_parameter_gradient(g, point, variables).transpose();
   }
   Matrix response = -A.ldlt().solve(B);
   if (!strain_moves) response.topRows(m.macro_count).setZero();
+  for (Eigen::Index k = 0; k < response.cols(); ++k)
+    response.col(k).head(m.macro_count) = within(held, response.col(k).head(m.macro_count));
   return response;
 }
 
@@ -253,7 +258,7 @@ std::optional<Model> intermediate(const DesignPoint& from, const DesignPoint& to
 }
 
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
-                              const std::vector<DesignVariable>& variables)
+                              const std::vector<DesignVariable>& variables, const Matrix& held)
 {
   if (from.x == to.x) return warm.state;
   const Vector change = change_of_variables(from, to);
@@ -266,7 +271,7 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
   for (double part = 1.0; done < 1.0;) {
     // One linear response serves all lengths of this part.
     const Matrix response =
-        gap_response(at, find_gaps(at.model, state, range, true), variables, true, follow_weight);
+        gap_response(at, find_gaps(at.model, state, range, true), variables, true, follow_weight, held);
     std::optional<State> reached;
     std::optional<Model> next;
     for (; !reached; part *= 0.5) {

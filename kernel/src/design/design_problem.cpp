@@ -94,6 +94,8 @@ void DesignProblem::list_constraints()
     }
   };
   for (const Link& l : m.links) {
+    // Nor how wide a loop is that several primitives form.
+    if (std::max(l.a, l.b) >= static_cast<int>(m.bodies.size())) continue;
     add_hole(l.a, l.b);
     add_hole(l.b, l.a);
   }

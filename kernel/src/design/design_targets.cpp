@@ -36,13 +36,22 @@ struct Value {
 };
 
 /// Throws ComputationError where the state does not determine the derivatives.
-Value value_of(const Model& model, const Locked& l, const Vector& load, DesignValue which)
+Value value_of(const Model& model, const Locked& l, const MacroLoad& load, DesignValue which)
 {
-  const double plain = load.dot(l.state.macro);
+  const double plain = load.pull.dot(l.state.macro);
   if (which == DesignValue::plain) {
-    Vector quantity = Vector::Zero(model.dofs());
-    quantity.head(model.macro_count) = load;
-    AdjointGradient g = adjoint_gradient(model, l.state, load, l.stage, quantity);
+    const auto gradient_in = [&l](const Model& m, const State& state, const Vector& pull) {
+      Vector quantity = Vector::Zero(m.dofs());
+      quantity.head(m.macro_count) = pull;
+      return adjoint_gradient(m, state, pull, l.stage, quantity);
+    };
+    AdjointGradient g;
+    if (load.held.cols() > 0) {
+      const HeldModel held(model, load.held);
+      g = gradient_in(held.model(), held.restricted(l.state), held.pull(load.pull));
+    } else {
+      g = gradient_in(model, l.state, load.pull);
+    }
     if (!(g.residual <= free_part)) {
       throw ComputationError(
           fmt::format("{:.2g} of the value depends on motions that no contact resists: it has no gradient "
@@ -63,7 +72,7 @@ Value value_of(const Model& model, const Locked& l, const Vector& load, DesignVa
 }  // namespace
 
 DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, const DesignPoint& from,
-                                                       const Vector& load,
+                                                       const MacroLoad& load,
                                                        const std::vector<WarmStart>& warm) const
 {
   LockedTarget out;
@@ -72,7 +81,7 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     out.evaluations += l.evaluations;
     return l;
   };
-  const auto value = [&load](const State& s) { return load.dot(s.macro); };
+  const auto value = [&load](const State& s) { return load.pull.dot(s.macro); };
   const auto from_rest = [&](int attempt) {
     const std::uint64_t seed = limits_.seed + static_cast<std::uint64_t>(attempt);
     return run(perturbed(p.model, p.rest, limits_.perturbation, seed, Copies::apart), schedule_);
@@ -98,7 +107,7 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
   }
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
-    const std::optional<State> start = followed(from, warm[j], p, design_.variables);
+    const std::optional<State> start = followed(from, warm[j], p, design_.variables, load.held);
     if (!start) continue;
     Schedule schedule = schedule_;
     schedule.first = warm[j].g_hat;
@@ -106,7 +115,7 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     if (tight.status != LockStatus::locked) continue;
     // Looser stages of the same state: the next change of parameters may be too large for the tightest.
     for (std::size_t i = 0; i < j; ++i) {
-      std::optional<State> s = followed(from, warm[i], p, design_.variables);
+      std::optional<State> s = followed(from, warm[i], p, design_.variables, load.held);
       if (s) out.trail.push_back({warm[i].g_hat, std::move(*s)});
     }
     enter(tight, out.trail);
@@ -117,7 +126,7 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
   // The state has no continuation that could be found.
   Locked found;
   if (!warm.empty()) {
-    const std::optional<State> start = followed(from, warm.front(), p, design_.variables);
+    const std::optional<State> start = followed(from, warm.front(), p, design_.variables, load.held);
     if (start) found = run(*start, schedule_);
     out.followed = true;
     out.changed = !start || found.status != LockStatus::locked;
@@ -129,13 +138,13 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
   return out;
 }
 
-void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads,
+void DesignProblem::learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
                           std::vector<LockedTarget>& targets) const
 {
   Lessons rounds(targets.size(), targets.size(), std::max(1e-8, schedule_.last));
   const auto given = [&](std::size_t donor, std::size_t k) -> std::optional<double> {
     const Locked& l = targets[donor].locked;
-    return l.status == LockStatus::locked ? std::optional(loads[k].dot(l.state.macro)) : std::nullopt;
+    return l.status == LockStatus::locked ? std::optional(loads[k].pull.dot(l.state.macro)) : std::nullopt;
   };
   const auto own = [&](std::size_t k) { return given(k, k); };
   for (;;) {
@@ -154,7 +163,7 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<Vector>& loads
     for (std::size_t i = 0; i < lessons.size(); ++i) {
       LockedTarget& t = targets[lessons[i].learner];
       t.evaluations += found[i].evaluations;
-      const Vector& load = loads[lessons[i].learner];
+      const Vector& load = loads[lessons[i].learner].pull;
       if (found[i].status != LockStatus::locked ||
           !(load.dot(found[i].state.macro) > load.dot(t.locked.state.macro) + same_value))
         continue;
@@ -174,8 +183,9 @@ void DesignProblem::solve_targets(DesignPoint& p, const DesignPoint& from)
   p.warm.assign(tasks_.size(), {});
   std::vector<LockedTarget> targets(tasks_.size());
   std::vector<double> estimate(tasks_.size());
-  std::vector<Vector> loads, gradient(tasks_.size());
-  for (const LimitTask& task : tasks_) loads.push_back(load_vector(p.model, task.direction, task.sense));
+  std::vector<MacroLoad> loads;
+  std::vector<Vector> gradient(tasks_.size());
+  for (const LimitTask& task : tasks_) loads.push_back(macro_load(p.model, task.direction, task.sense));
   const auto nv = static_cast<int>(design_.variables.size());
   const auto each = [&](const auto& compute) {
     parallel_for(tasks_.size(), threads_, [&](std::size_t k) {
@@ -195,7 +205,7 @@ void DesignProblem::solve_targets(DesignPoint& p, const DesignPoint& from)
     const Locked& l = targets[k].locked;
     if (l.status != LockStatus::locked) return;
     p.warm[k] = targets[k].trail;
-    const Vector& load = loads[k];
+    const MacroLoad& load = loads[k];
     const double sign = tasks_[k].sense == Sense::positive ? 1.0 : -1.0;
     const double scale = sign * std::pow(p.model.length, load_.value_length_power());
     const Value v = value_of(p.model, l, load, design_.value);

@@ -3,6 +3,7 @@
 #include <hauberk/geometry/facets.hpp>
 #include <hauberk/geometry/panel_field.hpp>
 #include <hauberk/geometry/separation.hpp>
+#include <hauberk/geometry/spine.hpp>
 
 #include <algorithm>
 #include <array>
@@ -102,22 +103,6 @@ std::vector<Vec3> core_polygon(const Body& body, const Pose& pose, double near)
 
 /// Cores closer than this part of their sizes are counted as if they were not: tubes are thicker.
 constexpr double closest_cores = 2e-5;
-
-/// Gauss's integral over two closed polygons that do not meet: the differences of two sides are a
-/// parallelogram, and what it covers of the sphere, seen from inside, is its part of 4 pi times the linking
-/// number.
-int linking_of_polygons(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
-{
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Vec3 &p = a[i], &pn = a[(i + 1) % a.size()];
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const Vec3 &q = b[j], &qn = b[(j + 1) % b.size()];
-      sum += solid_angle(p - q, pn - q, pn - qn) + solid_angle(p - q, pn - qn, p - qn);
-    }
-  }
-  return static_cast<int>(-std::lround(sum / (4.0 * pi)));
-}
 
 /// That of two polygons to which the cores may be pulled without crossing each other, as both together go
 /// less far than the cores are apart.

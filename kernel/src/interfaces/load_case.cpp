@@ -13,10 +13,10 @@ void LoadCase::position(std::span<const double> macro, std::span<const double> e
   // This call is in the innermost loops, so the checks are comparisons of sizes and one sum.
   const auto macros = static_cast<std::size_t>(macro_count());
   const auto coordinates = static_cast<std::size_t>(coordinate_count());
-  if (macros > max_macro || coordinates < 1 || coordinates > max_coordinates) {
+  if (macros > max_macro || coordinates > max_coordinates) {
     throw PluginError("load case: declares " + std::to_string(macros) + " macroscopic unknowns (at most " +
                       std::to_string(max_macro) + ") and " + std::to_string(coordinates) +
-                      " coordinates of an element (1 to " + std::to_string(max_coordinates) + ")");
+                      " coordinates of an element (at most " + std::to_string(max_coordinates) + ")");
   }
   if (macro.size() != macros || e.size() != coordinates) {
     throw PluginError("load case: expected " + std::to_string(macros) + " macroscopic unknowns and " +
@@ -63,6 +63,23 @@ double LoadCase::value(const Direction& direction, std::span<const double> macro
   return sum;
 }
 
+bool LoadCase::transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const
+{
+  const auto macros = static_cast<std::size_t>(macro_count());
+  if (macro.size() != macros || out.size() != macros) {
+    throw PluginError("load case: expected " + std::to_string(macros) + " macroscopic unknowns, found " +
+                      std::to_string(macro.size()) + " and " + std::to_string(out.size()));
+  }
+  if (O == Mat3::Identity()) {
+    std::copy(macro.begin(), macro.end(), out.begin());
+    return true;
+  }
+  if (!do_transform(O, macro, out)) return false;
+  if (!std::all_of(out.begin(), out.end(), [](double x) { return std::isfinite(x); }))
+    throw PluginError("load case: a transformed macroscopic unknown is not finite");
+  return true;
+}
+
 std::vector<std::pair<std::string, double>> LoadCase::companions(const Direction& direction,
                                                                  std::span<const double> macro) const
 {
@@ -92,7 +109,34 @@ Boundedness LoadCase::boundedness(const Direction& direction, Sense sense, std::
   if (sense == Sense::negative) {
     for (double& x : pull) x = -x;
   }
-  return do_boundedness(pull, cycles);
+  return direction.is_angle() && !do_conditions(direction.theta()).empty()
+             ? do_held_boundedness(direction.theta(), pull, cycles)
+             : do_boundedness(pull, cycles);
+}
+
+std::vector<std::string> LoadCase::hold(const Direction& direction) const
+{
+  std::vector<std::string> out = do_hold();
+  if (direction.is_angle()) return out;
+  for (const MacroCondition& c : do_conditions(0.0)) std::erase(out, c.name);
+  return out;
+}
+
+std::vector<MacroCondition> LoadCase::conditions(const Direction& direction) const
+{
+  if (!direction.is_angle()) return {};
+  std::vector<MacroCondition> out = do_conditions(direction.theta());
+  for (const MacroCondition& c : out) {
+    double squares = 0.0;
+    for (int k = 0; k < macro_count(); ++k) {
+      const double x = c.coefficients[static_cast<std::size_t>(k)];
+      squares += x * x;
+    }
+    if (!(squares > 0.0) || !std::isfinite(squares))
+      throw PluginError("load case: the condition '" + c.name + "' at " + direction.text() +
+                        " has no finite coefficients, or none that is not zero");
+  }
+  return out;
 }
 
 }  // namespace hauberk

@@ -1,6 +1,7 @@
+#include "confidence.hpp"
+#include "donors.hpp"
 #include "limit_report.hpp"
 
-#include <hauberk/limits/lessons.hpp>
 #include <hauberk/parallel.hpp>
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ class Computation {
               const LimitSettings& settings, const LimitsObserver& observer)
       : model_(model),
         spec_(spec),
-        tasks_(with_neighbours(model, tasks, settings.neighbours)),
+        tasks_(with_neighbours(model, tasks, settings.lessons ? settings.neighbours : 0.0)),
         asked_(tasks.size()),
         settings_(settings),
         observer_(observer),
@@ -49,7 +50,9 @@ class Computation {
         states_(tasks_.size())
   {
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
-      states_[k].starts.resize(k < asked_ ? starts_ : 1);
+      // A fabric with room folds one way under the widest stage and another way without it.
+      const bool twice = settings.lessons && k < asked_ && may_fold(model, tasks_[k]);
+      states_[k].starts.resize((k < asked_ ? starts_ : 1) + (twice ? 1 : 0));
       states_[k].missing = states_[k].starts.size();
       results_.push_back(limit_header(model, tasks_[k]));
       results_.back().status = LimitStatus::interrupted;
@@ -65,10 +68,7 @@ class Computation {
       // What was learnt from other limits is learnt again unless all is known: then nothing depends on
       // where a run was interrupted.
       std::optional<LimitResult> there;
-      if (k < known.size() && known[k] && (complete || !learnt(*known[k])))
-        there = known[k];
-      else
-        there = decided_by_links(model_, tasks_[k]);
+      if (k < known.size() && known[k] && (complete || !learnt(*known[k]))) there = known[k];
       if (there || (complete && k >= asked_)) {
         if (there) results_[k] = std::move(*there);
         states_[k].known = true;
@@ -89,7 +89,11 @@ class Computation {
     parallel_for(items.size(), threads, [&](std::size_t i) {
       if (going()) solve(items[i].first, items[i].second);
     });
-    if (unfinished_ == 0 && !complete) learn(threads);
+    if (unfinished_ == 0 && !complete) {
+      const Donors donors(model_, tasks_);
+      if (settings_.lessons) learn(donors, threads);
+      enter_relations(results_, model_, settings_, tasks_, donors);
+    }
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
     if (observer_.on_unreported)
@@ -118,9 +122,15 @@ class Computation {
   {
     Attempt out;
     const auto t0 = std::chrono::steady_clock::now();
+    const KeepGoing keep_going = [this] { return going(); };
     try {
-      out.locked = limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start),
-                                    [this] { return going(); });
+      out.locked = start < starts_ ? limit_from_start(model_, tasks_[task], settings_,
+                                                      static_cast<int>(start), keep_going)
+                                   : limit_from_state(model_, tasks_[task], settings_,
+                                                      perturbed(model_, start_state(model_, settings_),
+                                                                settings_.perturbation, settings_.seed,
+                                                                Copies::alike),
+                                                      keep_going);
     } catch (const std::exception& error) {
       out.error = error.what();
     }
@@ -165,19 +175,19 @@ class Computation {
     const LimitTask& limit = tasks_[task];
     const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
-    const Vector load = load_vector(model_, limit.direction, limit.sense);
+    const MacroLoad load = macro_load(model_, limit.direction, limit.sense);
     try {
       for (int k = 0; k < settings_.tilts; ++k) {
         const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
         const State from =
             perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
-        Locked found = lock(model_, from, tilted(model_, load, settings_, seed), settings_.contact,
+        Locked found = lock(model_, from, tilted(model_, load.pull, settings_, seed), settings_.contact,
                             settings_.schedule, keep_going);
         if (found.status == LockStatus::interrupted) return false;
         const std::vector<FoundState> known = found_of(task);
         const std::optional<std::size_t> best = furthest(model_, limit, settings_, known);
         if (found.status != LockStatus::locked ||
-            (best && reached(model_, limit, found.state) <
+            (load.held.cols() == 0 && best && reached(model_, limit, found.state) <
                          reached(model_, limit, known[*best].locked.state) + further_than(settings_))) {
           t.iterations += found.iterations;
           t.evaluations += found.evaluations;
@@ -201,7 +211,9 @@ class Computation {
     std::vector<FoundState> found;
     const TaskState& t = states_[task];
     for (std::size_t s = 0; s < t.starts.size(); ++s) {
-      if (t.starts[s].locked) found.push_back({*t.starts[s].locked, "start", settings_.seed + s});
+      if (!t.starts[s].locked) continue;
+      found.push_back(s < starts_ ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
+                                  : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
     }
     found.insert(found.end(), t.further.begin(), t.further.end());
     return found;
@@ -236,86 +248,121 @@ class Computation {
     return result;
   }
 
-  /// How far the state of a result is along a task; null: it has none.
-  std::optional<double> reached_by(std::size_t donor, const LimitTask& task) const
+  /// The macroscopic unknowns of a result, scaled; null: it has no state.
+  std::optional<Vector> macro_of(std::size_t task) const
   {
-    const LimitResult& r = results_[donor];
+    const LimitResult& r = results_[task];
     if (static_cast<int>(r.macro.size()) != model_.macro_count) return std::nullopt;
-    std::vector<double> macro;
+    Vector macro(model_.macro_count);
     for (int k = 0; k < model_.macro_count; ++k) {
       const int power = model_.load->macros()[static_cast<std::size_t>(k)].length_power;
-      macro.push_back(r.macro[static_cast<std::size_t>(k)].second / std::pow(model_.length, power));
+      macro[k] = r.macro[static_cast<std::size_t>(k)].second / std::pow(model_.length, power);
     }
-    const double v = model_.load->value(task.direction, macro);
-    return task.sense == Sense::positive ? v : -v;
+    return macro;
   }
 
-  /// Locked state of a task from where another one's best state is; null: there is none, or it threw, which
-  /// the task remarks, and what was known before stands.
-  std::optional<FoundState> taught(std::size_t task, std::size_t donor)
+  std::optional<double> reached_by(const Donors& donors, std::size_t donor, std::size_t task) const
   {
-    const std::vector<FoundState> states = found_of(donor);
-    const auto best = furthest(model_, tasks_[donor], settings_, states);
+    const std::optional<Vector> macro = macro_of(donors.task(donor));
+    return macro ? donors.reached(donor, *macro, tasks_[task]) : std::nullopt;
+  }
+
+  std::string learnt_from(const Donors& donors, std::size_t donor) const
+  {
+    const LimitResult& r = results_[donors.task(donor)];
+    return fmt::format("{}, {}{}", r.direction.text(), r.sense,
+                       donors.is_own(donor) ? "" : ", by a symmetry of the scene");
+  }
+
+  /// Locked state of a task from where a donor's best state is; null: there is none, or it threw, which the
+  /// task remarks, and what was known before stands.
+  std::optional<FoundState> taught(const Donors& donors, std::size_t task, std::size_t donor)
+  {
+    const std::size_t from = donors.task(donor);
+    const std::vector<FoundState> states = found_of(from);
+    const auto best = furthest(model_, tasks_[from], settings_, states);
     if (!best) return std::nullopt;
     const auto t0 = std::chrono::steady_clock::now();
     std::optional<FoundState> out;
+    std::string problem;
     try {
-      out = FoundState{
-          limit_from_state(model_, tasks_[task], settings_, states[*best].locked.state,
-                           [this] { return going(); }),
-          fmt::format("{}{}, {}", learnt_origin, results_[donor].direction.text(), results_[donor].sense),
-          states[*best].seed};
+      const std::optional<State> start = donors.state(donor, states[*best].locked.state);
+      if (start) {
+        out = FoundState{
+            limit_from_state(model_, tasks_[task], settings_, *start, [this] { return going(); }),
+            learnt_origin + learnt_from(donors, donor), states[*best].seed};
+      }
     } catch (const std::exception& failure) {
-      states_[task].remark = fmt::format("from the state at {}, {}: {}", results_[donor].direction.text(),
-                                         results_[donor].sense, failure.what());
+      problem = fmt::format("from the state at {}: {}", learnt_from(donors, donor), failure.what());
     }
-    states_[task].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    const std::lock_guard lock(mutex_);  // a task may have two lessons at a time
+    if (!problem.empty()) states_[task].remark = std::move(problem);
+    states_[task].seconds += seconds;
     return out;
   }
 
-  /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
-  /// other has found for it, until none is further.
-  void learn(unsigned threads)
+  /// Solves again what is needed of tasks whose results came with the call.
+  void find_states(const Donors& donors, const std::vector<Lesson>& lessons, unsigned threads)
   {
-    Lessons rounds(asked_, tasks_.size(), further_than(settings_));
+    std::vector<std::size_t> unknown;
+    for (const auto& [task, donor] : lessons) {
+      for (const std::size_t k : {task, donors.task(donor)}) {
+        if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
+          unknown.push_back(k);
+      }
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> again;
+    for (const std::size_t k : unknown)
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) again.emplace_back(k, s);
+    parallel_for(again.size(), threads, [&](std::size_t i) {
+      const auto& [k, start] = again[i];
+      states_[k].starts[start] = attempt(k, start);
+    });
+    parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
+    for (const std::size_t k : unknown) states_[k].known = false;
+  }
+
+  /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
+  /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
+  /// loads beside its own, as long as these come to new ones.
+  void learn(const Donors& donors, unsigned threads)
+  {
+    Lessons rounds(asked_, donors.count(), further_than(settings_));
+    Walks walks(donors.beside());
     const auto own = [&](std::size_t k) -> std::optional<double> {
       const LimitStatus status = results_[k].status;
-      if (status == LimitStatus::locked) return reached_by(k, tasks_[k]);
+      const std::size_t self = k * (donors.count() / tasks_.size());
+      if (status == LimitStatus::locked) return reached_by(donors, self, k);
       // One that stalled learns also from a state that is only as far as its own.
-      const auto there = status == LimitStatus::stalled ? reached_by(k, tasks_[k]) : std::nullopt;
+      const auto there = status == LimitStatus::stalled ? reached_by(donors, self, k) : std::nullopt;
       return there ? std::optional(*there - 2.0 * further_than(settings_)) : std::nullopt;
     };
     const auto given = [&](std::size_t donor, std::size_t k) {
-      return results_[donor].status == LimitStatus::locked ? reached_by(donor, tasks_[k]) : std::nullopt;
+      return results_[donors.task(donor)].status == LimitStatus::locked ? reached_by(donors, donor, k)
+                                                                        : std::nullopt;
     };
     for (;;) {
-      const std::vector<Lesson> lessons = rounds.next(own, given);
-      if (lessons.empty()) return;
-      std::vector<std::size_t> unknown;  // tasks whose states are needed but came as results
-      for (const auto& [task, donor] : lessons) {
-        for (const std::size_t k : {task, donor}) {
-          if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
-            unknown.push_back(k);
-        }
+      std::vector<Lesson> lessons = rounds.next(own, given);
+      if (lessons.empty()) {
+        lessons = walks.next(
+            [&](std::size_t donor) {
+              const std::size_t k = donors.task(donor);
+              return given(k * (donors.count() / tasks_.size()), k);
+            },
+            further_than(settings_));
       }
-      std::vector<std::pair<std::size_t, std::size_t>> again;
-      for (const std::size_t k : unknown)
-        for (std::size_t s = 0; s < states_[k].starts.size(); ++s) again.emplace_back(k, s);
-      parallel_for(again.size(), threads, [&](std::size_t i) {
-        const auto& [k, start] = again[i];
-        states_[k].starts[start] = attempt(k, start);
-      });
-      parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
-      for (const std::size_t k : unknown) states_[k].known = false;
+      if (lessons.empty()) return;
+      find_states(donors, lessons, threads);
       std::vector<std::optional<FoundState>> found(lessons.size());
       parallel_for(lessons.size(), threads, [&](std::size_t i) {
-        if (going()) found[i] = taught(lessons[i].learner, lessons[i].donor);
+        if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor);
       });
       if (!going()) {
         for (const auto& [task, donor] : lessons) {
           results_[task].status = LimitStatus::interrupted;
-          results_[task].message = fmt::format("a further state was known from {}, {}",
-                                               results_[donor].direction.text(), results_[donor].sense);
+          results_[task].message =
+              fmt::format("what the state at {} leads to was not found", learnt_from(donors, donor));
         }
         return;
       }
@@ -337,7 +384,7 @@ class Computation {
     if (done == 0) return;
     LimitResult result = result_of(task);
     result.status = LimitStatus::interrupted;
-    result.message = fmt::format("{} of {} starts were done", done, starts_);
+    result.message = fmt::format("{} of {} starts were done", done, t.starts.size());
     results_[task] = std::move(result);
   }
 
@@ -368,14 +415,14 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
       const double to = std::abs(o.direction.degrees() - task.direction.degrees());
       return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
     });
-    if (!lone || decided_by_links(model, task)) continue;
+    if (!lone || bounded_by_links(model, task) != Boundedness::attained) continue;
     for (const double by : {-apart, apart}) {
       const LimitTask beside{Direction::at_degrees(task.direction.degrees() + by), task.sense};
       const bool there = std::any_of(all.begin(), all.end(), [&](const LimitTask& o) {
         return o.direction.is_angle() && o.sense == task.sense &&
                std::abs(o.direction.degrees() - beside.direction.degrees()) < 1e-9;
       });
-      if (!there && !decided_by_links(model, beside)) all.push_back(beside);
+      if (!there && bounded_by_links(model, beside) == Boundedness::attained) all.push_back(beside);
     }
   }
   return all;

@@ -19,7 +19,6 @@ std::vector<Lesson> Lessons::next(const Own& own, const Reached& reached)
     double most = std::max(*there, begun_[k]) + margin_;
     std::optional<std::size_t> donor;
     for (std::size_t j = 0; j < donors_; ++j) {
-      if (j == k) continue;
       const std::optional<double> further = reached(j, k);
       if (!further || *further <= most) continue;
       most = *further;
@@ -28,6 +27,18 @@ std::vector<Lesson> Lessons::next(const Own& own, const Reached& reached)
     if (!donor) continue;
     begun_[k] = most;
     lessons.push_back({k, *donor});
+  }
+  return lessons;
+}
+
+std::vector<Lesson> Walks::next(const State& state, double margin)
+{
+  std::vector<Lesson> lessons;
+  for (std::size_t i = 0; i < beside_.size(); ++i) {
+    const std::optional<double> there = state(beside_[i].donor);
+    if (!there || (taught_[i] && !(*there > *taught_[i] + margin))) continue;
+    taught_[i] = there;
+    lessons.push_back(beside_[i]);
   }
   return lessons;
 }

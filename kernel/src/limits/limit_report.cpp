@@ -1,8 +1,12 @@
 #include "limit_report.hpp"
 
+#include "kinks.hpp"
+
 #include <hauberk/mechanics/gaps.hpp>
 
 #include <fmt/format.h>
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -62,12 +66,20 @@ double allowed_imbalance(const LimitResult& r, double length)
          (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
 }
 
+/// The part of forces on all unknowns that neither the model's equalities nor conditions take up.
+Vector unheld(const Model& m, const Matrix& held, const Vector& forces)
+{
+  Vector out = free_part(m, forces);
+  out.head(m.macro_count) = within(held, out.head(m.macro_count));
+  return out;
+}
+
 /// Largest component of the energy's gradient, by the load that is not subtracted yet.
-double energy_imbalance(const Model& m, const Vector& load, const ContactEnergy& e, double mu)
+double energy_imbalance(const Model& m, const MacroLoad& load, const ContactEnergy& e, double mu)
 {
   Vector rest = mu * e.gradient;
-  rest.head(m.macro_count) -= load;
-  return free_part(m, rest).cwiseAbs().maxCoeff();
+  rest.head(m.macro_count) -= load.pull;
+  return unheld(m, load.held, rest).cwiseAbs().maxCoeff();
 }
 
 /// Contacts of the last stage, with what forces and sensitivities need.
@@ -94,14 +106,14 @@ const char* certificate_of_path(const Locked& l)
 /// Largest component by which the gradient of arc's energy changes with panels half as long, whose quadrature
 /// is better by orders of magnitude; times the stiffness. At the last stages rounding of the gap is part of
 /// it.
-double quadrature_error(const Model& m, const Locked& l, const ContactEnergy& e)
+double quadrature_error(const Model& m, const Matrix& held, const Locked& l, const ContactEnergy& e)
 {
   ContactSettings finer = l.stage.contact;
   finer.panel_ratio *= 0.5;
   Request request;
   request.order = 1;
   const ContactEnergy better = contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), finer, request);
-  return l.stage.mu * free_part(m, better.gradient - e.gradient).cwiseAbs().maxCoeff();
+  return l.stage.mu * unheld(m, held, better.gradient - e.gradient).cwiseAbs().maxCoeff();
 }
 
 /// Poses in file units; where a translation is free, their mean position is that of the rest state.
@@ -138,6 +150,54 @@ ContactForce reported_contact(const Model& m, const ContactEnergy::Point& p, dou
   return c;
 }
 
+/// The state itself: macroscopic unknowns, poses, gaps and links.
+Vec3 fill_state(LimitResult& r, const Model& m, const State& s)
+{
+  for (int k = 0; k < m.macro_count; ++k) {
+    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
+    r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
+  }
+  r.min_gap = smallest_gap(m, s, gap_range) * m.length;
+  r.links_kept = links_kept(m, s);
+  r.z_range = z_range(m, s) * m.length;
+  Vec3 shift;
+  r.poses = reported_poses(m, s, shift);
+  return shift;
+}
+
+void fill_kink(LimitResult& r, const Model& m, const LimitTask& task, const Locked& l)
+{
+  const std::optional<OneSidedSensitivities> sides = one_sided_sensitivities(m, task, l);
+  if (!sides) return;
+  const double scale = power(m.length, m.load->value_length_power());
+  const auto times = [](const std::array<double, 2>& x, double by) {
+    return std::array{x[0] * by, x[1] * by};
+  };
+  r.kink = true;
+  r.clearance_one_sided = times(sides->clearance, scale / m.length);
+  for (const auto& p : sides->parameters) r.parameters_one_sided.push_back(times(p, scale));
+}
+
+std::string certificate_of(const Model& m, const Locked& l, double gap)
+{
+  int links = 0;
+  for (const ElementLink& link : element_links(m)) links += link.primitives + link.together;
+  return fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l), links, gap);
+}
+
+/// Where no contact stops a patch while it is a sheet there is no limit, and the state shows why.
+void fill_without_limit(LimitResult& r, const Model& m, const Locked& l)
+{
+  fill_state(r, m, l.state);
+  r.message = l.message +
+              "; contact does not stop this patch before: it needs thicker tubes, smaller rings or shorter "
+              "distances between linked elements";
+  r.certificate = certificate_of(m, l, *r.min_gap);
+  if (r.links_kept && *r.min_gap > 0.0) return;
+  r.status = LimitStatus::failed;
+  r.message = "a link was lost or surfaces overlap: the collision check failed";
+}
+
 }  // namespace
 
 LimitResult limit_header(const Model& m, const LimitTask& task)
@@ -146,6 +206,7 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   r.direction = task.direction;
   r.sense = m.load->sense_name(task.direction, task.sense);
   r.measure = m.load->measure(task.direction);
+  r.hold = m.load->hold(task.direction);
   // Their names only: there is no state yet.
   const State rest = rest_state(m);
   r.companions = m.load->companions(task.direction, macro_span(m, rest));
@@ -153,12 +214,12 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   return r;
 }
 
-double force_imbalance(const Model& m, const State& s, const Vector& load,
-                       const std::vector<ContactEnergy::Point>& points, double mu)
+ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load,
+                           const std::vector<ContactEnergy::Point>& points, double mu)
 {
   // load + sum f dg/dy = 0: a gap opens when B's point moves along the normal and A's against it.
   Vector rest = Vector::Zero(m.dofs());
-  rest.head(m.macro_count) = load;
+  rest.head(m.macro_count) = load.pull;
   const int nm = m.macro_count, nc = m.coordinate_count;
   const auto push = [&](int element, const Image& image, const Vec3& point, const Vec3& force) {
     PositionMap map;
@@ -180,7 +241,11 @@ double force_imbalance(const Model& m, const State& s, const Vector& load,
     push(m.bodies[static_cast<std::size_t>(p.a)].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
     push(m.bodies[static_cast<std::size_t>(p.b)].element, p.image, p.contact.on_f, f * p.contact.normal);
   }
-  return free_part(m, rest).cwiseAbs().maxCoeff();
+  ForceBalance out;
+  if (load.held.cols() > 0)
+    out.reactions = Eigen::ColPivHouseholderQR<Matrix>(load.held).solve(rest.head(m.macro_count));
+  out.imbalance = unheld(m, load.held, rest).cwiseAbs().maxCoeff();
+  return out;
 }
 
 LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task,
@@ -190,47 +255,54 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   r.status = l.status == LockStatus::locked        ? LimitStatus::locked
              : l.status == LockStatus::interrupted ? LimitStatus::interrupted
              : l.status == LockStatus::unbounded   ? LimitStatus::failed
+             : l.status == LockStatus::not_a_sheet ? LimitStatus::not_a_sheet
                                                    : LimitStatus::stalled;
   r.message = l.message;
+  if (l.status == LockStatus::unbounded && !l.path.empty()) {
+    add_witness(r, m, task, l);
+    return r;
+  }
   if (l.status == LockStatus::unbounded) {
     r.message = m.load->periodic()
-                    ? "the strain left every bound although links bound this direction"
+                    ? "the strain left every bound, but not on a certified way from rest"
                     : "the macroscopic unknowns left every bound: nothing stops this patch in this direction";
   }
   r.iterations = l.iterations;
   r.evaluations = l.evaluations;
+  if (l.status == LockStatus::not_a_sheet) {
+    fill_without_limit(r, m, l);
+    return r;
+  }
   if (l.stages.empty()) return r;
 
   const double scale = power(m.length, m.load->value_length_power());
   const State& s = l.state;
   r.value = m.load->value(task.direction, macro_span(m, s)) * scale;
   r.companions = m.load->companions(task.direction, macro_span(m, s));
-  for (int k = 0; k < m.macro_count; ++k) {
-    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
-    r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
-  }
   if (l.error_estimate) r.error_estimate = *l.error_estimate * scale;
-  r.min_gap = smallest_gap(m, s, gap_range) * m.length;
-  r.links_kept = links_kept(m, s);
-  r.z_range = z_range(m, s) * m.length;
-  Vec3 shift;
-  r.poses = reported_poses(m, s, shift);
+  const Vec3 shift = fill_state(r, m, s);
 
   const ContactEnergy e = l.pressed ? *l.pressed : contacts_of(m, l);
   for (const ContactEnergy::Point& p : e.points)
     r.contacts.push_back(reported_contact(m, p, l.stage.mu, shift));
   // A finite target drives the strain less the nearer it is; imbalance is a part of the full load.
-  const Vector full_load = load_vector(m, task.direction, task.sense),
-               load = driving_load(s, full_load, l.stage);
+  const MacroLoad full_load = macro_load(m, task.direction, task.sense),
+                  load(driving_load(m, s, full_load.pull, l.stage), full_load.held);
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
-  const double full = full_load.norm(), driving = load.norm() / full;
-  r.force_balance = force_imbalance(m, s, load, e.points, l.stage.mu) / full;
+  const double full = full_load.pull.norm(), driving = load.pull.norm() / full;
+  const ForceBalance forces = force_balance(m, s, load, e.points, l.stage.mu);
+  r.force_balance = forces.imbalance / full;
+  const std::vector<MacroCondition> conditions = m.load->conditions(task.direction);
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    const double rise = forces.reactions[static_cast<Eigen::Index>(k)];
+    r.reactions.emplace_back(conditions[k].name, task.sense == Sense::positive ? rise : -rise);
+  }
   if (l.status == LockStatus::locked && *r.force_balance > unbalanced) {
     r.message = fmt::format(
         "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   }
   r.contact = l.pressed ? "constrained" : name_of(l.stage.contact.formulation);
-  if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, l, e) / full;
+  if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, load.held, l, e) / full;
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
   r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;
@@ -242,8 +314,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
                                             sign * l.stage.mu * e.parameters(static_cast<int>(c), k) * scale);
     }
   }
-  r.certificate = fmt::format("{}; {} links kept; smallest gap {:.3g}", certificate_of_path(l),
-                              m.links.size(), *r.min_gap);
+  if (l.status == LockStatus::locked) fill_kink(r, m, task, l);
+  r.certificate = certificate_of(m, l, *r.min_gap);
   if (r.status == LimitStatus::locked && !(driving > least_drive)) {
     r.status = LimitStatus::failed;
     r.message = fmt::format(
@@ -299,7 +371,8 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   s.origin = found.origin;
   s.count = 1;
   const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
-  // Mirror images have the same value, height and metric norm of the macroscopic state.
+  // Mirror images have the same value and metric norm of the macroscopic state. Heights are those of loose
+  // elements, too, which are no part of what holds.
   const auto norm = [&m](const std::vector<double>& x) {
     double n = 0.0;
     for (std::size_t k = 0; k < x.size(); ++k) n += m.metric[static_cast<int>(k)] * x[k] * x[k];
@@ -307,8 +380,7 @@ void add_start(std::vector<LockedState>& list, const Model& m, const LimitTask& 
   };
   for (LockedState& o : list) {
     if (std::abs(o.value - s.value) < same_state * scale &&
-        std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale &&
-        std::abs(o.z_range - s.z_range) < 100 * same_state * m.length) {
+        std::abs(norm(o.macro) - norm(s.macro)) < same_state * 100 * scale) {
       // The furthest of them stands for all: it is the value of the limit where it is the best state.
       s.count = o.count + 1;
       if (sign * s.value > sign * o.value)

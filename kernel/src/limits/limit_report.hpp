@@ -17,6 +17,10 @@ LimitResult limit_header(const Model& model, const LimitTask& task);
 LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTask& task,
                        const LimitSettings& settings, const Locked& locked);
 
+/// What is reported of a path past the bound of strains: unbounded where links do not stop the load, not
+/// attained where they let only another strain grow; failed where they say that it cannot be.
+void add_witness(LimitResult& result, const Model& model, const LimitTask& task, const Locked& locked);
+
 /// Adds a start's state to the list of distinct locked states; mirror images count once.
 void add_start(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
                const FoundState& found);

@@ -1,7 +1,10 @@
+#include "confidence.hpp"
 #include "limit_report.hpp"
 
 #include <hauberk/limits/limits.hpp>
 #include <hauberk/mechanics/gaps.hpp>
+
+#include <algorithm>
 
 namespace hauberk {
 namespace {
@@ -19,23 +22,24 @@ bool sound(const Model& m, const Locked& l, const Schedule& schedule)
          (links_kept(m, l.state) && smallest_gap(m, l.state, schedule.last) > 0.0);
 }
 
+/// A start whose path goes past the bound of strains, and further than the locked state `best`.
+std::optional<std::size_t> witness(const Model& m, const LimitTask& task,
+                                   const std::vector<FoundState>& found, std::optional<std::size_t> best)
+{
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Locked& l = found[k].locked;
+    if (l.status != LockStatus::unbounded || l.path.empty()) continue;
+    if (!best || reached(m, task, l.state) > reached(m, task, found[*best].locked.state)) return k;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::optional<LimitResult> decided_by_links(const Model& m, const LimitTask& task)
+Boundedness bounded_by_links(const Model& m, const LimitTask& task)
 {
   const std::vector<Vec3> cycles = cycle_translations(m);
-  const Boundedness b = m.load->boundedness(task.direction, task.sense, cycles);
-  if (b == Boundedness::attained) return std::nullopt;
-  LimitResult r = limit_header(m, task);
-  r.links_kept = true;
-  if (b == Boundedness::unbounded) {
-    r.status = LimitStatus::unbounded;
-    r.message = "no chain of links holds this direction";
-  } else {
-    r.status = LimitStatus::not_attained;
-    r.message = "approached only as another strain grows without bound";
-  }
-  return r;
+  return m.load->boundedness(task.direction, task.sense, cycles);
 }
 
 std::optional<std::size_t> furthest(const Model& m, const LimitTask& task, const LimitSettings& settings,
@@ -61,9 +65,18 @@ double reached(const Model& m, const LimitTask& task, const State& state)
 LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task,
                       const LimitSettings& settings, const std::vector<FoundState>& found)
 {
-  // The furthest sound locked state; if there is none, the first start tells what happened.
-  const std::optional<std::size_t> sound_best = furthest(m, task, settings, found);
-  std::size_t best = sound_best.value_or(0);
+  // A motion past every bound, if there is one; else the furthest sound locked state; if there is none, a
+  // search that came to an end for a reason tells it, else the first start what happened.
+  std::optional<std::size_t> sound_best = furthest(m, task, settings, found);
+  const auto ended = std::find_if(found.begin(), found.end(), [](const FoundState& f) {
+    return f.locked.status == LockStatus::not_a_sheet;
+  });
+  std::size_t best =
+      sound_best.value_or(ended == found.end() ? 0 : static_cast<std::size_t>(ended - found.begin()));
+  if (const std::optional<std::size_t> away = witness(m, task, found, sound_best)) {
+    best = *away;
+    sound_best.reset();
+  }
   LimitResult r = fill_limit(m, spec, task, settings, found[best].locked);
   if (sound_best && r.status == LimitStatus::stalled) {
     // Its forces do not balance. Another search may have ended at the same state with forces that do.
@@ -84,7 +97,8 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
     r.evaluations += k == best ? 0 : found[k].locked.evaluations;
     if (sound(m, found[k].locked, settings.schedule)) add_start(r.starts, m, task, found[k]);
   }
-  r.better_state = best != 0;
+  r.better_state = sound_best && best != 0;
+  if (sound_best) enter_searches(r.confidence, m, task, settings, found, best, r.starts.size());
   return r;
 }
 

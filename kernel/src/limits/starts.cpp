@@ -78,7 +78,7 @@ Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings,
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going)
 {
-  return lock(m, from, load_vector(m, task.direction, task.sense), settings.contact,
+  return lock(m, from, macro_load(m, task.direction, task.sense), settings.contact,
               without_widest(settings.schedule), keep_going);
 }
 
@@ -91,8 +91,19 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
   const State from = perturbed(
       m, start_state(m, settings), small ? settings.perturbation : settings.further_perturbation,
       settings.seed + static_cast<std::uint64_t>(start), start == 0 ? Copies::alike : Copies::apart);
-  return lock(m, from, load_vector(m, task.direction, task.sense), settings.contact, settings.schedule,
-              keep_going);
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  Schedule schedule = settings.schedule;
+  // Where links do not stop a load, the way from rest shows whether anything does.
+  schedule.keep_path = !settings.start && bounded_by_links(m, task) != Boundedness::attained;
+  Locked out = lock(m, from, load, settings.contact, schedule, keep_going);
+  // Steps of `constrained` are not certified: what runs away under it does so once more under barriers.
+  if (schedule.keep_path && settings.contact == ContactChoice::constrained &&
+      out.status == LockStatus::unbounded)
+    out = lock(m, from, load, ContactChoice::automatic, schedule, keep_going);
+  if (out.status != LockStatus::unbounded) out.path.clear();
+  // A perturbed start lies straight ahead of rest.
+  if (!out.path.empty()) out.path.insert(out.path.begin(), rest_state(m));
+  return out;
 }
 
 }  // namespace hauberk

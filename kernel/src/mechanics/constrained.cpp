@@ -90,6 +90,8 @@ class Search {
     for (;; ++out_.iterations) {
       if (!keep_going_()) return finish(LockStatus::interrupted, "interrupted");
       if (runaway()) return finish(LockStatus::unbounded, "the strain leaves every bound");
+      if (std::string why = not_a_sheet(m_, now_.state); !why.empty())
+        return finish(LockStatus::not_a_sheet, std::move(why));
       QuadraticSolution step = direction();
       if (step.status != QuadraticSolution::Status::solved)
         return finish(LockStatus::stalled, "no step keeps the linearised gaps");
@@ -141,11 +143,11 @@ class Search {
       p.worst = std::max(p.worst, margin_ - r.gap);
     }
     Vector slope = Vector::Zero(m_.dofs());
-    slope.head(m_.macro_count) = -driving_load(state, load_, out_.stage) / size_;
+    slope.head(m_.macro_count) = -driving_load(m_, state, load_, out_.stage) / size_;
     p.gradient = scaled(slope);
     p.objective = -load_.dot(state.macro) / size_;
     if (std::isfinite(out_.stage.target))
-      p.objective += state.macro.squaredNorm() / (2.0 * out_.stage.target * size_);
+      p.objective += 0.5 * (load_ - driving_load(m_, state, load_, out_.stage)).dot(state.macro) / size_;
     p.state = std::move(state);
     return p;
   }

@@ -169,8 +169,11 @@ class Newton {
       }
       state_ = std::move(trial);
       now = std::move(next);
+      if (stage_.keep_path) result_.path.push_back(state_);
       curvature_ = curvature_of(m_, now, order_);
       if (runaway()) return finish(now, StageStatus::unbounded, "the strain leaves every bound");
+      if (std::string why = not_a_sheet(m_, state_); !why.empty())
+        return finish(now, StageStatus::not_a_sheet, std::move(why));
     }
   }
 
@@ -320,9 +323,28 @@ std::vector<ElementPair> stage_pairs(const Model& m, const State& s, const Stage
   return near_pairs(m, s, stage.contact.g_hat + stage.contact.clearance);
 }
 
-Vector driving_load(const State& s, const Vector& load, const Stage& stage)
+namespace {
+
+/// K of what the objective adds to -load . macro, 1/2 macro . K macro; empty: nothing.
+Matrix macro_stiffness(const Model& m, const Stage& stage)
 {
-  return std::isfinite(stage.target) ? Vector(load - s.macro / stage.target) : load;
+  const bool finite = std::isfinite(stage.target);
+  if (!finite && stage.tether.cols() == 0) return {};
+  Matrix K = Matrix::Zero(m.macro_count, m.macro_count);
+  if (finite && m.macro_square.size() > 0)
+    K = m.macro_square / stage.target;
+  else if (finite)
+    K.diagonal().setConstant(1.0 / stage.target);
+  if (stage.tether.cols() > 0) K += stage.tether_stiffness * stage.tether * stage.tether.transpose();
+  return K;
+}
+
+}  // namespace
+
+Vector driving_load(const Model& m, const State& s, const Vector& load, const Stage& stage)
+{
+  const Matrix K = macro_stiffness(m, stage);
+  return K.size() > 0 ? Vector(load - K * s.macro) : load;
 }
 
 TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, const Stage& stage,
@@ -336,16 +358,18 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
   t.energy = stage.mu * t.contact.energy - load.dot(s.macro);
   if (order >= 1) {
     t.gradient = stage.mu * t.contact.gradient;
-    t.gradient.head(m.macro_count) -= driving_load(s, load, stage);
+    t.gradient.head(m.macro_count) -= driving_load(m, s, load, stage);
   }
   if (order >= 2) {
     t.hessian = stage.mu * t.contact.hessian;
     t.sparse_hessian = stage.mu * t.contact.sparse_hessian;
   }
-  if (std::isfinite(stage.target)) {
-    t.energy += s.macro.squaredNorm() / (2.0 * stage.target);
-    for (int k = 0; order >= 2 && k < m.macro_count; ++k)
-      (m.sparse() ? t.sparse_hessian.coeffRef(k, k) : t.hessian(k, k)) += 1.0 / stage.target;
+  if (const Matrix K = macro_stiffness(m, stage); K.size() > 0) {
+    t.energy += 0.5 * s.macro.dot(K * s.macro);
+    for (int k = 0; order >= 2 && k < m.macro_count; ++k) {
+      for (int l = 0; l < (m.sparse() ? k + 1 : m.macro_count); ++l)
+        (m.sparse() ? t.sparse_hessian.coeffRef(k, l) : t.hessian(k, l)) += K(k, l);
+    }
   }
   if (m.held.cols() > 0) {
     if (order >= 1) t.gradient = free_part(m, t.gradient);

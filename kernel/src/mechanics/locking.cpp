@@ -1,4 +1,4 @@
-#include "constrained.hpp"
+#include "barrier_path.hpp"
 
 #include <fmt/format.h>
 
@@ -13,11 +13,6 @@ constexpr double unbalanced = 5e-5;
 constexpr double rounding = 1e-15, smallest_gap_of_stage = 0.01;
 constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
-
-double load_size(const Model& m, const Vector& load)
-{
-  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
-}
 
 /// Distance to the value at g_hat = 0 from the last three stages of one formulation, when the differences
 /// shrink in proportion to g_hat.
@@ -47,6 +42,7 @@ class Path {
         size_(load_size(m, load))
   {
     out_.state = start;
+    if (schedule.keep_path) out_.path.push_back(start);
     arc_to_the_end_ = choice == ContactChoice::arc;
   }
 
@@ -64,23 +60,7 @@ class Path {
  private:
   Stage make_stage(double g_hat, bool last, Formulation f) const
   {
-    Stage s;
-    s.contact = {f, g_hat, m_.clearance, schedule_.search};
-    // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
-    s.contact.quadrature = g_hat > schedule_.change ? Quadrature::rough
-                           : last                   ? schedule_.last_quadrature
-                                                    : Quadrature::fine;
-    if (!last && g_hat > schedule_.change) s.contact.sides = Sides::one;
-    s.contact.threads = schedule_.threads;
-    s.ccd = schedule_.ccd;
-    s.target = schedule_.target;
-    s.mu = schedule_.stiffness * g_hat * size_;
-    s.balance = last;
-    s.tolerance = last ? schedule_.last_tolerance : schedule_.tolerance;
-    s.most_iterations = schedule_.most_iterations;
-    if (choice_ == ContactChoice::automatic && f == Formulation::nearest)
-      s.least_curvature = least_regular_curvature(g_hat);
-    return s;
+    return barrier_stage(m_, size_, choice_, schedule_, g_hat, last, f);
   }
 
   Formulation formulation(double g_hat) const
@@ -104,6 +84,7 @@ class Path {
         r.status == StageStatus::minimum && r.residual > unbalanced) {
       // Contacts that merge can leave forces on points that do not balance; spread forces do.
       const State points = out_.state;
+      const std::vector<State> path = path_;
       const StageResult spread = attempt(before, g_hat, last, Formulation::arc);
       if (spread.status == StageStatus::interrupted ||
           (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
@@ -111,8 +92,10 @@ class Path {
         r = spread;
       } else {
         out_.state = points;
+        path_ = path;
       }
     }
+    if (schedule_.keep_path) out_.path.insert(out_.path.end(), path_.begin(), path_.end());
     switch (r.status) {
       case StageStatus::minimum:
         break;
@@ -121,6 +104,9 @@ class Path {
         break;
       case StageStatus::unbounded:
         out_.status = LockStatus::unbounded;
+        break;
+      case StageStatus::not_a_sheet:
+        out_.status = LockStatus::not_a_sheet;
         break;
       default:
         out_.status = LockStatus::stalled;
@@ -184,9 +170,14 @@ class Path {
   {
     State s = before;
     extrapolate(s, g_hat, f);
+    const State from = schedule_.keep_path ? s : State();
     StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_, &bounds_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
+    if (schedule_.keep_path) {
+      path_.assign(1, from);
+      path_.insert(path_.end(), r.path.begin(), r.path.end());
+    }
     out_.state = std::move(s);
     return r;
   }
@@ -214,11 +205,40 @@ class Path {
   GapBounds bounds_;
   bool arc_to_the_end_ = false;
   bool before_valid_ = false;
+  std::vector<State> path_;        ///< of the last attempt, from where its stage began
   std::optional<State> previous_;  ///< end of the stage before the last finished one
   Locked out_;
 };
 
 }  // namespace
+
+double load_size(const Model& m, const Vector& load)
+{
+  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
+}
+
+Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Schedule& schedule, double g_hat,
+                    bool last, Formulation f)
+{
+  Stage s;
+  s.contact = {f, g_hat, m.clearance, schedule.search};
+  // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
+  s.contact.quadrature = g_hat > schedule.change ? Quadrature::rough
+                         : last                  ? schedule.last_quadrature
+                                                 : Quadrature::fine;
+  if (!last && g_hat > schedule.change) s.contact.sides = Sides::one;
+  s.contact.threads = schedule.threads;
+  s.ccd = schedule.ccd;
+  s.target = schedule.target;
+  s.mu = schedule.stiffness * g_hat * size;
+  s.keep_path = schedule.keep_path;
+  s.balance = last;
+  s.tolerance = last ? schedule.last_tolerance : schedule.tolerance;
+  s.most_iterations = schedule.most_iterations;
+  if (choice == ContactChoice::automatic && f == Formulation::nearest)
+    s.least_curvature = least_regular_curvature(g_hat);
+  return s;
+}
 
 ContactChoice contact_named(std::string_view name)
 {
@@ -280,10 +300,9 @@ Vector load_vector(const Model& m, const Direction& direction, Sense sense)
   return sense == Sense::positive ? t : Vector(-t);
 }
 
-Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
-            const Schedule& schedule, const KeepGoing& keep_going)
+Locked barrier_lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+                    const Schedule& schedule, const KeepGoing& keep_going)
 {
-  if (choice == ContactChoice::constrained) return constrained_lock(model, start, load, schedule, keep_going);
   return Path(model, start, load, choice, schedule, keep_going).run();
 }
 

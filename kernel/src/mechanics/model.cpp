@@ -16,19 +16,42 @@
 namespace hauberk {
 namespace {
 
+/// Orthonormal columns that span the translations of link cycles.
+Eigen::Matrix<double, 3, Eigen::Dynamic> linked_space(const Model& m)
+{
+  constexpr double independent = 1e-9;  // of the longest translation
+  const std::vector<Vec3> cycles = cycle_translations(m);
+  Eigen::Matrix<double, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(cycles.size()));
+  for (std::size_t k = 0; k < cycles.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = cycles[k];
+  if (cycles.empty()) return columns;
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  qr.setThreshold(independent);
+  return qr.householderQ() * Matrix::Identity(3, qr.rank());
+}
+
+/// How far, along each lattice vector, elements that hold each other may be apart: half the vector where
+/// chains of links run along it. An idle vector keeps copies apart that nothing joins, and its length says
+/// nothing: no more than the longest reach of an element counts.
+std::vector<double> lattice_distances(const Model& m)
+{
+  constexpr double aside = 1e-9;  // part of a vector outside of the span
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> space = linked_space(m);
+  const double reach = m.reach.empty() ? 0.0 : *std::max_element(m.reach.begin(), m.reach.end());
+  std::vector<double> out;
+  for (const Vec3& t : m.lattice) {
+    const bool idle = (t - space * (space.transpose() * t)).norm() > aside * t.norm();
+    out.push_back(idle ? std::min(0.5 * t.norm(), reach) : 0.5 * t.norm());
+  }
+  return out;
+}
+
 /// Mean squared displacement of elements against each other for a unit of a macroscopic unknown: |X|^2 for a
 /// strain, |X|^4 for a curvature.
-double squared_displacement(const Model& m, const MacroInfo& macro)
+double squared_displacement(const std::vector<double>& distances, const MacroInfo& macro)
 {
-  const double half_power = 1.0 - macro.length_power;
-  const auto of = [half_power](const Vec3& X) { return std::pow(X.squaredNorm(), half_power); };
   double sum = 0.0;
-  if (!m.lattice.empty()) {
-    for (const Vec3& t : m.lattice) sum += of(0.5 * t);
-    return std::max(1.0, sum / static_cast<double>(m.lattice.size()));
-  }
-  for (const Pose& p : m.rest) sum += of(p.position);
-  return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, m.rest.size())));
+  for (const double d : distances) sum += std::pow(d, 2.0 * (1.0 - macro.length_power));
+  return std::max(1.0, sum / static_cast<double>(std::max<std::size_t>(1, distances.size())));
 }
 
 /// Images of one pair that are looked at at rest. More are no fabric but a slip in a length.
@@ -89,9 +112,13 @@ void set_metric(Model& m)
   m.metric = Vector::Ones(m.dofs());
   std::vector<double> weights(static_cast<std::size_t>(m.macro_count));
   m.load->metric(weights);
+  std::vector<double> distances = lattice_distances(m);
+  if (m.lattice.empty()) {
+    for (const Pose& p : m.rest) distances.push_back(p.position.norm());
+  }
   for (int k = 0; k < m.macro_count; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    m.metric[k] = squared_displacement(m, m.load->macros()[i]) * weights[i];
+    m.metric[k] = squared_displacement(distances, m.load->macros()[i]) * weights[i];
   }
   for (int i = 0; i < m.element_count(); ++i) {
     const double r = m.reach[static_cast<std::size_t>(i)];
@@ -120,6 +147,18 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 }  // namespace
 
 namespace {
+
+std::vector<std::array<int, 2>> linked_elements(const Model& m)
+{
+  std::vector<std::array<int, 2>> out;
+  for (const ElementLink& link : element_links(m)) {
+    const auto [a, b] = std::minmax(link.pair.i, link.pair.j);
+    if (a != b) out.push_back({a, b});
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
 
 std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 {
@@ -150,6 +189,44 @@ void set_facets(Model& m, int count)
     if (!facets) facets = facets_of(b, count);
     b.facets = facets;
   }
+}
+
+/// Finds the spines of elements; equal elements share one. Where none has a loop beyond its primitives' cores
+/// and meshes, cores are all there is and spines are not kept.
+void set_spines(Model& m)
+{
+  std::map<std::vector<double>, std::shared_ptr<const Spine>> made;
+  bool together = false;
+  std::vector<std::shared_ptr<const Spine>> spines;
+  const auto several = [](const SpineLoop& l) { return l.primitives.size() > 1; };
+  if (m.bodies.size() == m.rest.size()) return;  // one primitive each
+  for (std::size_t e = 0; e < m.rest.size(); ++e) {
+    const auto first = static_cast<std::size_t>(m.first_body[e]),
+               end = static_cast<std::size_t>(m.first_body[e + 1]);
+    std::vector<double> key;
+    bool meshes = false;
+    for (std::size_t k = first; k < end; ++k) {
+      const Body& b = m.bodies[k];
+      const std::vector<double> size = mesh_key(b);
+      key.insert(key.end(), b.center.begin(), b.center.end());
+      key.insert(key.end(), b.axes.reshaped().begin(), b.axes.reshaped().end());
+      key.insert(key.end(), size.begin(), size.end());
+      meshes = meshes || b.surface;
+    }
+    std::shared_ptr<const Spine> spine;
+    if (const auto known = made.find(key); known != made.end() && !meshes) spine = known->second;
+    if (!spine) {
+      spine = std::make_shared<const Spine>(make_spine(std::span(m.bodies).subspan(first, end - first)));
+      if (!meshes) made[key] = spine;
+    }
+    together = together || std::any_of(spine->loops.begin(), spine->loops.end(), several);
+    spines.push_back(std::move(spine));
+  }
+  if (!together) return;
+  m.spines = std::move(spines);
+  m.first_loop.assign(1, 0);
+  for (const auto& s : m.spines)
+    m.first_loop.push_back(m.first_loop.back() + static_cast<int>(s->loops.size()));
 }
 
 /// Nothing but contact of meshes knows where the surface of a triangle mesh is.
@@ -198,9 +275,11 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   }
   check_images(m);
   m.walls = load.inequalities(positions);
+  set_spines(m);
+  m.links = find_links(m, rest_state(m));
   set_metric(m);
   m.held = held_directions(m, load.equalities(positions));
-  m.links = find_links(m, rest_state(m));
+  if (!load.periodic()) m.linked = linked_elements(m);
   return m;
 }
 
@@ -283,6 +362,19 @@ Vector difference(const Model& m, const State& from, const State& to)
     dy.segment<3>(o + m.coordinate_count) = s > 1e-150 ? Vec3(a * (angle / s)) : Vec3(a);
   }
   return dy;
+}
+
+std::string not_a_sheet(const Model& m, const State& s)
+{
+  if (m.load->periodic()) return {};
+  std::vector<Vec3> X;
+  X.reserve(m.rest.size());
+  for (const Pose& p : m.rest) X.push_back(p.position);
+  return m.load->not_a_sheet({{s.macro.data(), static_cast<std::size_t>(s.macro.size())},
+                              {s.e.data(), static_cast<std::size_t>(s.e.size())},
+                              X,
+                              m.reach,
+                              m.linked});
 }
 
 Vector free_part(const Model& m, const Vector& x)

@@ -1,5 +1,7 @@
 #include "sparse_ldlt.hpp"
 
+#include "dense_product.hpp"
+
 #include <cholmod.h>
 
 #include <algorithm>
@@ -7,35 +9,19 @@
 #include <mutex>
 #include <new>
 
-/// C := alpha A B^T + beta C and the like, of the BLAS; column-major.
-extern "C" void dgemm_(const char* op_a, const char* op_b, const int* m, const int* n, const int* k,
-                       const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
-                       const double* beta, double* c, const int* ldc);
-
 namespace hauberk {
 namespace {
 
 using Eigen::MatrixXd;
 
-/// Columns that are eliminated one by one, and columns of a product's part: what stays in the nearest caches.
-constexpr int panel = 32, strip = 96;
-
-/// c -= a b^T below and on the diagonal of c; above it entries of the strips may change.
-void subtract_product(int rows, int columns, int depth, const double* a, int lda, const double* b, int ldb,
-                      double* c, int ldc)
-{
-  const double minus = -1.0, one = 1.0;
-  for (int j = 0; j < columns; j += strip) {
-    const int m = rows - j, n = std::min(strip, columns - j);
-    dgemm_("N", "T", &m, &n, &depth, &minus, a + j, &lda, b + j, &ldb, &one,
-           c + j + static_cast<std::ptrdiff_t>(j) * ldc, &ldc);
-  }
-}
+/// Columns that are eliminated one by one.
+constexpr int panel = 32;
 
 /// Eliminates the first `columns` of a dense symmetric matrix (lower triangle): L and D take their place,
 /// what is left of the others theirs. Returns false where a pivot is zero; counts negative ones, to no more
 /// than one too many.
-bool eliminate(Eigen::Map<MatrixXd>& front, int columns, int most_negative, int& negative, MatrixXd& scaled)
+bool eliminate(Eigen::Map<MatrixXd>& front, int columns, int most_negative, int& negative, MatrixXd& scaled,
+               ProductSpace& space)
 {
   const int rows = static_cast<int>(front.rows());
   scaled.resize(rows, columns);
@@ -53,12 +39,12 @@ bool eliminate(Eigen::Map<MatrixXd>& front, int columns, int most_negative, int&
     }
     if (end < columns) {
       subtract_product(rows - end, columns - end, end - begin, &front(end, begin), rows, &scaled(end, begin),
-                       rows, &front(end, end), rows);
+                       rows, &front(end, end), rows, space);
     }
   }
   if (columns < rows) {
     subtract_product(rows - columns, rows - columns, columns, &front(columns, 0), rows, &scaled(columns, 0),
-                     rows, &front(columns, columns), rows);
+                     rows, &front(columns, columns), rows, space);
   }
   return true;
 }
@@ -168,6 +154,7 @@ bool SparseLdlt::factor(double shift, int most_negative)
   std::vector<int> to;                    // of a child's rows
   std::vector<double> storage;
   MatrixXd scaled;
+  ProductSpace space;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const Block& b = blocks_[k];
     const auto rows = static_cast<Eigen::Index>(b.rows.size());
@@ -194,7 +181,7 @@ bool SparseLdlt::factor(double shift, int most_negative)
       }
       part.resize(0, 0);
     }
-    if (!eliminate(front, b.columns, most_negative, negative_, scaled)) return false;
+    if (!eliminate(front, b.columns, most_negative, negative_, scaled, space)) return false;
     Eigen::Map<MatrixXd>(values_.data() + b.at, rows, b.columns) = front.leftCols(b.columns);
     if (b.parent >= 0) {
       const Eigen::Index rest = rows - b.columns;

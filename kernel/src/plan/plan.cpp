@@ -45,9 +45,30 @@ bool spins(const Model& m, std::size_t element)
   return true;
 }
 
+/// Whether loops that several primitives form link these two, of elements that their primitives' links alone
+/// do not account for.
+bool linked_together(const Model& m, const std::vector<ElementLink>& links, const Gap& g)
+{
+  const Body &A = m.bodies[static_cast<std::size_t>(g.a)], &B = m.bodies[static_cast<std::size_t>(g.b)];
+  const auto same = [&](const ElementPair& p) {
+    return p.i == A.element && p.j == B.element && p.image == g.image;
+  };
+  if (std::none_of(links.begin(), links.end(),
+                   [&](const ElementLink& l) { return l.together > 0 && same(l.pair); }))
+    return false;
+  const auto follows = [&m](int cycle, const Body& b) {
+    const std::vector<int> primitives = primitives_of_cycle(m, cycle);
+    return element_of_cycle(m, cycle) == b.element &&
+           std::find(primitives.begin(), primitives.end(), b.index) != primitives.end();
+  };
+  return std::any_of(m.links.begin(), m.links.end(),
+                     [&](const Link& l) { return l.image == g.image && follows(l.a, A) && follows(l.b, B); });
+}
+
 /// The closest pairs of bodies at rest, each once.
 void list_tightest(Plan& p, const Model& m, const State& rest)
 {
+  const std::vector<ElementLink> links = element_links(m);
   std::map<std::tuple<int, int, Image>, std::size_t> seen;  // bodies and image: where in the list
   for (const Gap& g : find_gaps(m, rest, tight_range, false)) {
     const Body& A = m.bodies[static_cast<std::size_t>(g.a)];
@@ -58,7 +79,8 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
     t.image = g.image;
     t.distance = (g.gap + m.clearance) * m.length;
     t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B,
-                              image_pose(m, rest, B.element, g.image)) != 0;
+                              image_pose(m, rest, B.element, g.image)) != 0 ||
+               linked_together(m, links, g);
     const auto [at, added] = seen.try_emplace({g.a, g.b, g.image}, p.tightest.size());
     if (added) {
       p.tightest.push_back(t);
@@ -162,9 +184,9 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   p.linear_solver = m.sparse() ? "sparse Cholesky (CHOLMOD, supernodal)" : "dense Cholesky";
   for (std::size_t i = 0; i < m.rest.size(); ++i) p.inert += spins(m, i) ? 1 : 0;
   p.links_per_element.assign(m.rest.size(), 0);
-  for (const Link& l : m.links) {
-    ++p.links_per_element[static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(l.a)].element)];
-    ++p.links_per_element[static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(l.b)].element)];
+  for (const ElementLink& l : element_links(m)) {
+    for (const int element : {l.pair.i, l.pair.j})
+      p.links_per_element[static_cast<std::size_t>(element)] += l.primitives + l.together;
   }
 
   const State rest = rest_state(m);
@@ -193,10 +215,10 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   for (auto& [name, k] : kinds) p.pairs.push_back(k);
   decide(p, m, tasks, settings);
   for (const LimitTask& t : tasks) {
-    const auto decided = decided_by_links(m, t);
-    p.bounded.emplace_back(t, !decided                                    ? "attained"
-                              : decided->status == LimitStatus::unbounded ? "unbounded"
-                                                                          : "not attained");
+    const Boundedness b = bounded_by_links(m, t);
+    p.bounded.emplace_back(t, b == Boundedness::attained    ? "attained"
+                              : b == Boundedness::unbounded ? "unbounded"
+                                                            : "not attained");
   }
   return p;
 }

@@ -1,3 +1,5 @@
+#include "hulls.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/geometry/closed_curve.hpp>
 #include <hauberk/geometry/facets.hpp>
@@ -101,6 +103,16 @@ std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& sta
                      coarse ? "use more facets, or give them more room" : "move them apart");
 }
 
+/// Of elements without links. They can hold each other all the same, but not where planes lie between them;
+/// where they overlap there is nothing to try.
+bool nothing_entangled(const Model& m)
+{
+  const std::vector<Gap> gaps = find_gaps(m, rest_state(m), 0.0, false);
+  return std::any_of(gaps.begin(), gaps.end(),
+                     [&m](const Gap& g) { return g.gap + m.clearance < -touching; }) ||
+         hulls_apart(m, rest_state(m));
+}
+
 }  // namespace
 
 std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bool relax_allowed)
@@ -108,7 +120,7 @@ std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bo
   std::vector<std::string> out;
   // Meshes that meet have no links, or wrong ones.
   const std::string meeting = spec.facets > 0 ? mesh_problem(spec, m, rest_state(m)) : std::string();
-  if (m.links.empty() && meeting.empty()) {
+  if (m.links.empty() && meeting.empty() && nothing_entangled(m)) {
     out.emplace_back(
         "nothing is linked: no ring passes through another, so no direction has a limit; check positions, "
         "rotations and the cell's vectors");

@@ -9,10 +9,14 @@
 namespace hauberk {
 namespace {
 
-const InPlanePeriodic flat(StrainMeasure::tensor, {});
-const InPlanePeriodic paper(StrainMeasure::paper, {});
-const InPlanePeriodic layer(StrainMeasure::tensor, {false, 0.3});
-const InPlanePeriodic spatial(StrainMeasure::tensor, {true, 0.0});
+constexpr InPlanePeriodic::Hold nothing{false, false};
+const InPlanePeriodic flat(StrainMeasure::tensor, {}, nothing);
+const InPlanePeriodic equation_12(StrainMeasure::equation_12, {}, nothing);
+const InPlanePeriodic layer(StrainMeasure::tensor, {false, 0.3}, nothing);
+const InPlanePeriodic spatial(StrainMeasure::tensor, {true, 0.0}, nothing);
+const InPlanePeriodic axial(StrainMeasure::tensor, {}, {true, false});
+const InPlanePeriodic clamped(StrainMeasure::tensor, {}, {true, true});
+const InPlanePeriodic sliding(StrainMeasure::tensor, {}, {false, true});
 
 const std::vector<double> strain = {0.21, -0.13, 0.17};
 
@@ -40,7 +44,7 @@ TEST(InPlanePeriodic, Unknowns)
   EXPECT_EQ(flat.value_length_power(), 0);
   EXPECT_EQ(flat.sense_names(), (std::pair<std::string, std::string>("stretch", "compress")));
   EXPECT_EQ(flat.measure(), "tensor");
-  EXPECT_EQ(paper.measure(), "paper");
+  EXPECT_EQ(equation_12.measure(), "equation_12");
   double metric[3];
   flat.metric(metric);
   EXPECT_EQ(metric[0], 1.0);
@@ -149,17 +153,17 @@ TEST(InPlanePeriodic, PaperValueIsTheLeastSquaresMultiple)
     const double c = std::cos(theta);
     const double s = std::sin(theta);
     const Vec3 d(c * c, s * s, c * s);
-    EXPECT_NEAR(paper.value(Direction::at_radians(theta), strain),
+    EXPECT_NEAR(equation_12.value(Direction::at_radians(theta), strain),
                 d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
     // The published strain of size e along theta is e d: its value is e.
     const Vec3 e = 0.37 * d;
-    EXPECT_NEAR(paper.value(Direction::at_radians(theta), std::span<const double>(e.data(), 3)), 0.37, 1e-15);
+    EXPECT_NEAR(equation_12.value(Direction::at_radians(theta), std::span<const double>(e.data(), 3)), 0.37, 1e-15);
   }
 }
 
 TEST(InPlanePeriodic, LoadIsTheDerivativeOfTheValue)
 {
-  for (const InPlanePeriodic* load_case : {&flat, &paper}) {
+  for (const InPlanePeriodic* load_case : {&flat, &equation_12}) {
     for (const double theta : {0.0, 0.4, 1.5, 2.9}) {
       double t[3];
       load_case->load(Direction::at_radians(theta), t);
@@ -190,6 +194,26 @@ TEST(InPlanePeriodic, LineStretch)
   // No digits are lost for small strains.
   const std::vector<double> tiny = {1e-14, 0.0, 0.0};
   EXPECT_NEAR(flat.companions(Direction::at_radians(0.0), tiny)[0].second, 1e-14, 1e-28);
+}
+
+TEST(InPlanePeriodic, TransformsWithTheSheet)
+{
+  Mat3 mirror = Mat3::Identity(), over = Mat3::Identity();
+  mirror(0, 0) = over(2, 2) = -1.0;
+  const Mat3 turn = rotation_exp(Vec3(0.0, 0.0, 0.7));
+  const Vec3 X(1.5, -2.5, 0.75), T(3, 4, 0);
+  std::vector<double> out(3);
+  for (const Mat3& O : {turn, Mat3(turn * mirror), Mat3(turn * over), Mat3(-turn)}) {
+    ASSERT_TRUE(flat.transform(O, strain, out));
+    PositionMap before, after;
+    flat.position(strain, std::vector<double>(2, 0.0), X, T, before);
+    flat.position(out, std::vector<double>(2, 0.0), O * X, O * T, after);
+    EXPECT_LT((after.x - O * before.x).norm(), 1e-14);
+  }
+  EXPECT_FALSE(flat.transform(rotation_exp(Vec3(0.1, 0.0, 0.0)), strain, out));
+  EXPECT_TRUE(flat.transform(Mat3::Identity(), strain, out));
+  EXPECT_EQ(out, strain);
+  EXPECT_THROW(flat.transform(turn, std::vector<double>(2, 0.0), out), PluginError);
 }
 
 TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
@@ -227,7 +251,7 @@ Boundedness bounded(const InPlanePeriodic& load_case, double deg, Sense sense, s
 TEST(InPlanePeriodic, BoundedWhereCyclesSpanThePlane)
 {
   const std::vector<Vec3> square = {Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(5, 1, 0)};
-  for (const InPlanePeriodic* load_case : {&flat, &paper}) {
+  for (const InPlanePeriodic* load_case : {&flat, &equation_12}) {
     for (const double deg : {0.0, 30.0, 90.0}) {
       for (const Sense sense : {Sense::positive, Sense::negative}) {
         EXPECT_EQ(bounded(*load_case, deg, sense, square), Boundedness::attained);
@@ -253,12 +277,12 @@ TEST(InPlanePeriodic, ChainsBoundStretchOnlyAlongThemselves)
 
 TEST(InPlanePeriodic, ObliqueChainsInThePaperMeasure)
 {
-  // The paper's measure counts the strain across an oblique chain, so spreading raises it.
+  // Equation (12) read literally counts the strain across an oblique chain, so spreading raises it.
   const std::vector<Vec3> oblique = {Vec3(1, 1, 0)};
-  EXPECT_EQ(bounded(paper, 45, Sense::positive, oblique), Boundedness::unbounded);
-  EXPECT_EQ(bounded(paper, 45, Sense::negative, oblique), Boundedness::attained);
-  EXPECT_EQ(bounded(paper, 90, Sense::positive, {Vec3(0, 6, 0)}), Boundedness::attained);
-  EXPECT_EQ(bounded(paper, 90, Sense::negative, {Vec3(0, 6, 0)}), Boundedness::not_attained);
+  EXPECT_EQ(bounded(equation_12, 45, Sense::positive, oblique), Boundedness::unbounded);
+  EXPECT_EQ(bounded(equation_12, 45, Sense::negative, oblique), Boundedness::attained);
+  EXPECT_EQ(bounded(equation_12, 90, Sense::positive, {Vec3(0, 6, 0)}), Boundedness::attained);
+  EXPECT_EQ(bounded(equation_12, 90, Sense::negative, {Vec3(0, 6, 0)}), Boundedness::not_attained);
 }
 
 TEST(InPlanePeriodic, NothingLinkedIsUnbounded)
@@ -266,7 +290,7 @@ TEST(InPlanePeriodic, NothingLinkedIsUnbounded)
   for (const double deg : {0.0, 30.0, 90.0}) {
     EXPECT_EQ(bounded(flat, deg, Sense::positive, {}), Boundedness::unbounded);
     EXPECT_EQ(bounded(flat, deg, Sense::negative, {}), Boundedness::not_attained);
-    EXPECT_EQ(bounded(paper, deg, Sense::positive, {Vec3::Zero()}), Boundedness::unbounded);
+    EXPECT_EQ(bounded(equation_12, deg, Sense::positive, {Vec3::Zero()}), Boundedness::unbounded);
   }
 }
 
@@ -378,20 +402,81 @@ TEST(InPlanePeriodic, ChainsTurnTowardsTheirBestState)
   for (const double phi : {0.0, 0.9, 1.2, 1.57}) EXPECT_LT(value({1.0, 0.0, 2.0}, phi), best);
 }
 
+/// Conditions are zero for strains with principal axes along the load, and are what they are called.
+TEST(InPlanePeriodic, ConditionsAreTheStrainsThatTheyName)
+{
+  const double theta = 0.4;
+  const Eigen::Vector2d n(std::cos(theta), std::sin(theta));
+  const Eigen::Vector2d m(-n.y(), n.x());
+  Eigen::Matrix2d eps;
+  eps << strain[0], strain[2], strain[2], strain[1];
+  const auto component = [](const MacroCondition& c) {
+    return c.coefficients[0] * strain[0] + c.coefficients[1] * strain[1] + c.coefficients[2] * strain[2];
+  };
+  const auto both = clamped.conditions(Direction::at_radians(theta));
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].name, "shear");
+  EXPECT_EQ(both[1].name, "lateral");
+  EXPECT_NEAR(component(both[0]), n.dot(eps * m), 1e-16);
+  EXPECT_NEAR(component(both[1]), m.dot(eps * m), 1e-16);
+  EXPECT_EQ(axial.conditions(Direction::at_radians(theta)).size(), 1U);
+  EXPECT_TRUE(clamped.conditions(Direction::along(strain)).empty()) << "components hold nothing";
+  EXPECT_TRUE(clamped.hold(Direction::along(strain)).empty());
+}
+
+/// What links prove depends on what is held; p and q are the parts of a cycle along and across the load.
+TEST(InPlanePeriodic, BoundednessOfHeldLoads)
+{
+  const Vec3 x(12, 0, 0);
+  const Vec3 y(0, 6, 0);
+  const Vec3 oblique(12, 6, 0);
+  const auto stretch = [](const InPlanePeriodic& load, const std::vector<Vec3>& cycles) {
+    return load.boundedness(Direction(), Sense::positive, cycles);
+  };
+  const auto compress = [](const InPlanePeriodic& load, const std::vector<Vec3>& cycles) {
+    return load.boundedness(Direction(), Sense::negative, cycles);
+  };
+  for (const InPlanePeriodic* load : {&axial, &clamped, &sliding}) {
+    EXPECT_EQ(stretch(*load, {x, y}), Boundedness::attained);
+    EXPECT_EQ(compress(*load, {x, y}), Boundedness::attained);
+    EXPECT_EQ(stretch(*load, {x}), Boundedness::attained);
+    EXPECT_EQ(stretch(*load, {y}), Boundedness::unbounded) << "rows part";
+    EXPECT_EQ(stretch(*load, {}), Boundedness::unbounded);
+    EXPECT_EQ(compress(*load, {y}), Boundedness::attained);
+  }
+  EXPECT_EQ(stretch(axial, {oblique}), Boundedness::attained);
+  EXPECT_EQ(compress(axial, {oblique}), Boundedness::attained);
+  EXPECT_EQ(stretch(flat, {oblique}), Boundedness::unbounded) << "free shear lets the chain turn";
+  // Rows of chains along the load move apart for ever and let them shorten; a sheet that keeps its width does
+  // not.
+  EXPECT_EQ(compress(axial, {x}), Boundedness::not_attained);
+  EXPECT_EQ(compress(axial, {}), Boundedness::not_attained);
+  EXPECT_EQ(compress(clamped, {x}), Boundedness::attained);
+  EXPECT_EQ(compress(sliding, {}), Boundedness::attained);
+}
+
 TEST(InPlanePeriodic, SettingsAreRead)
 {
   std::vector<Field> fields;
   in_plane_periodic_fields(fields);
-  ASSERT_EQ(fields.size(), 2U);
+  ASSERT_EQ(fields.size(), 3U);
   EXPECT_EQ(fields[0].default_json, "\"tensor\"");
-  EXPECT_EQ(fields[1].default_json, "0");
-  const auto make = [](const char* measure, Node height) {
+  EXPECT_EQ(fields[1].default_json, "[\"shear\"]");
+  EXPECT_EQ(fields[2].default_json, "0");
+  const auto make = [](const char* measure, Node height, const std::vector<std::string>& held = {}) {
     Node section;
     section.type = Node::Type::object;
     Node text;
     text.type = Node::Type::string;
     text.string = measure;
-    section.members = {{"measure", text}, {"out_of_plane", std::move(height)}};
+    Node hold;
+    hold.type = Node::Type::array;
+    for (const std::string& name : held) {
+      hold.items.emplace_back();
+      hold.items.back().type = Node::Type::string;
+      hold.items.back().string = name;
+    }
+    section.members = {{"measure", text}, {"hold", hold}, {"out_of_plane", std::move(height)}};
     Problems problems;
     return make_in_plane_periodic(section, 5.0, problems);
   };
@@ -401,8 +486,10 @@ TEST(InPlanePeriodic, SettingsAreRead)
   text.type = Node::Type::string;
   text.string = "free";
   EXPECT_EQ(make("tensor", number)->coordinate_count(), 2);
-  EXPECT_EQ(make("paper", text)->measure(), "paper");
-  EXPECT_EQ(make("paper", text)->coordinate_count(), 3);
+  EXPECT_EQ(make("equation_12", text)->measure(), "equation_12");
+  EXPECT_EQ(make("equation_12", text)->coordinate_count(), 3);
+  EXPECT_TRUE(make("tensor", number)->hold(Direction()).empty());
+  EXPECT_EQ(make("tensor", number, {"lateral"})->hold(Direction()), std::vector<std::string>{"lateral"});
   number.number = 2.0;
   const std::vector<Vec3> X(2, Vec3::Zero());
   const auto walls = make("tensor", number)->inequalities(X);

@@ -42,14 +42,14 @@ std::array<double, all> along(const Draw& d, double s)
 
 TEST(ParaboloidBending, RestIsThePlace)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const Vec3 X(1.0, -2.0, 0.3);
   EXPECT_EQ(position(load, {}, X).x, X);
 }
 
 TEST(ParaboloidBending, ElementsAreOnTheParaboloid)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const Vec3 x = position(load, {0.1, -0.2, 0.3, 0.5, -1.0}, {1.5, 3.0, 0.25}).x;
   EXPECT_NEAR((x - Vec3(2.0, 2.0, 0.25 + 0.4 - 0.8 + 1.2)).norm(), 0.0, 1e-15);
 }
@@ -58,7 +58,7 @@ TEST(ParaboloidBending, ElementsAreOnTheParaboloid)
 /// first differences have exactly one error term, and second ones none).
 TEST(ParaboloidBending, DerivativesAreExact)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::mt19937_64 rng(1);
   for (int repeat = 0; repeat < 50; ++repeat) {
     const Draw d = draw(rng);
@@ -87,7 +87,7 @@ TEST(ParaboloidBending, DerivativesAreExact)
 /// Never below what is sampled, and reached at one of the ends.
 TEST(ParaboloidBending, AccelerationIsBoundedTightly)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::mt19937_64 rng(2);
   for (int repeat = 0; repeat < 200; ++repeat) {
     const Draw d = draw(rng);
@@ -110,7 +110,7 @@ TEST(ParaboloidBending, AccelerationIsBoundedTightly)
 /// The value is the curvature of the section along n at the apex, and the load its derivative.
 TEST(ParaboloidBending, ValueIsTheCurvatureOfTheSection)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const std::array<double, 3> macro{0.3, -0.1, 0.25};
   for (const double degrees : {0.0, 17.0, 45.0, 90.0, 135.0}) {
     const double theta = degrees * std::numbers::pi / 180.0, h = 1e-3;
@@ -130,7 +130,7 @@ TEST(ParaboloidBending, ValueIsTheCurvatureOfTheSection)
 /// The norm of macroscopic unknowns does not depend on the frame.
 TEST(ParaboloidBending, MetricIsFrameIndependent)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   std::array<double, 3> m{};
   load.metric(m);
   const auto norm = [&](const Eigen::Matrix2d& Q) {
@@ -146,7 +146,7 @@ TEST(ParaboloidBending, MetricIsFrameIndependent)
 /// Translations and turns, and nothing that keeps the mean and the net turn, violate what is held.
 TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   const std::vector<Vec3> X{{1, 0, 0}, {-1, 0.5, 0}, {0, -0.5, 0}};
   const auto equalities = load.equalities(X);
   ASSERT_EQ(equalities.size(), 3U);
@@ -169,14 +169,101 @@ TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(violation(k, scaled), 0.0, 1e-15);
 }
 
+/// What moves the patch moves the paraboloid: turned over, it bends down for up.
+TEST(ParaboloidBending, TransformsWithTheSheet)
+{
+  const ParaboloidBending load({});
+  std::mt19937_64 rng(5);
+  Mat3 mirror = Mat3::Identity(), over = Mat3::Identity();
+  mirror(0, 0) = over(2, 2) = -1.0;
+  const Mat3 turn = rotation_exp(Vec3(0.0, 0.0, 0.7));
+  for (const Mat3& O : {turn, Mat3(turn * mirror), Mat3(turn * over), Mat3(-turn)}) {
+    const Draw d = draw(rng);
+    const std::span<const double> macro = std::span(d.y).first(macros);
+    std::array<double, all> y{};
+    ASSERT_TRUE(load.transform(O, macro, std::span(y).first(macros)));
+    const Vec3 u = O * Vec3(d.y[3], d.y[4], 0.0);
+    y[3] = u.x();
+    y[4] = u.y();
+    EXPECT_LT((position(load, y, O * d.X).x - O * position(load, d.y, d.X).x).norm(), 1e-13);
+  }
+  std::array<double, macros> out{};
+  EXPECT_FALSE(load.transform(rotation_exp(Vec3(0.1, 0.0, 0.0)), std::array{1.0, 2.0, 3.0}, out));
+}
+
 TEST(ParaboloidBending, UnitsAndNames)
 {
-  const ParaboloidBending load;
+  const ParaboloidBending load({});
   EXPECT_FALSE(load.periodic());
   EXPECT_EQ(load.value_length_power(), -1);
   EXPECT_EQ(load.measure(), "normal_curvature");
   EXPECT_EQ(load.sense_names(), (std::pair<std::string, std::string>{"up", "down"}));
   for (const MacroInfo& macro : load.macros()) EXPECT_EQ(macro.length_power, -1);
+}
+
+/// Two linked elements 4 apart along x about the apex, of radius 2 and 1.5.
+struct Two {
+  std::array<Vec3, 2> X{Vec3(-2, 0, 0), Vec3(2, 0, 0)};
+  std::array<double, 4> e{};
+  std::array<double, 2> radius{2.0, 1.5};
+  std::array<std::array<int, 2>, 1> linked{{{0, 1}}};
+
+  std::string why(const std::array<double, 3>& macro) const
+  {
+    return ParaboloidBending().not_a_sheet({macro, e, X, radius, linked});
+  }
+};
+
+/// Curvatures turn with the frame: A = k/2 along x is A = B = k/4, C = k/2 along the diagonal.
+TEST(ParaboloidBending, NoSheetIsLeftWhereItCurvesTwiceInARadius)
+{
+  const Two two;
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_EQ(two.why({0.0, sign * 0.4999, 0.0}), "");
+    EXPECT_EQ(two.why({sign * 0.2499, sign * 0.2499, 0.4999}), "");
+    for (const std::array<double, 3>& macro :
+         {std::array{0.0, sign * 0.5001, 0.0}, {sign * 0.25005, sign * 0.25005, 0.5001}}) {
+      EXPECT_EQ(
+          two.why(macro),
+          "no sheet on the scale of its elements: at the apex the radius of curvature is 0.5 times that "
+          "of element 0, which counts above 0.5");
+    }
+  }
+}
+
+TEST(ParaboloidBending, NoSheetIsLeftWhereLinkedElementsAreFarApartAlongIt)
+{
+  Two two;
+  // z = A x^2 between -x and x is x sqrt(1 + s^2) + asinh(s) / (2 A) long, with the slope s = 2 A x.
+  const auto length = [](double a, double x) {
+    const double s = 2.0 * a * x;
+    return x * std::hypot(1.0, s) + std::asinh(s) / (2.0 * a);
+  };
+  const double a = 0.49;
+  double x = 0.0;  // where it is 3 times 4
+  for (double step = 4.0; step > 1e-12; step *= 0.5) x += length(a, x + step) < 12.0 ? step : 0.0;
+  ASSERT_GT(x, 2.0);
+  two.e = {2.0 - (x - 1e-6), 0.0, x - 1e-6 - 2.0, 0.0};
+  EXPECT_EQ(two.why({a, 0.0, 0.0}), "");
+  two.e = {2.0 - (x + 1e-6), 0.0, x + 1e-6 - 2.0, 0.0};
+  EXPECT_EQ(
+      two.why({a, 0.0, 0.0}),
+      "no sheet on the scale of its elements: along the surface the linked elements 0 and 1 are 3 times "
+      "as far apart as at rest or as their mean radius, whichever is longer, which counts below 3");
+  two.linked = {};
+  two.linked[0] = {0, 0};
+  EXPECT_EQ(two.why({a, 0.0, 0.0}), "") << "not linked";
+}
+
+/// Two rings about one place have no distance at rest.
+TEST(ParaboloidBending, ElementsAboutOnePlaceMayPartByThreeRadii)
+{
+  Two two;
+  two.X = {Vec3::Zero(), Vec3::Zero()};
+  two.e = {-2.62, 0.0, 2.62, 0.0};  // 5.24 apart, of the mean radius 1.75
+  EXPECT_EQ(two.why({0.0, 0.0, 0.0}), "");
+  two.e = {-2.63, 0.0, 2.63, 0.0};
+  EXPECT_NE(two.why({0.0, 0.0, 0.0}), "");
 }
 
 }  // namespace

@@ -36,6 +36,23 @@ TEST(VolumetricPeriodic, PositionsAreThoseOfASymmetricMatrix)
   EXPECT_NEAR(most, longest, 1e-3);
 }
 
+/// Whatever moves states, turns them as it turns the positions of their elements.
+TEST(VolumetricPeriodic, TransformsWithEveryIsometry)
+{
+  const VolumetricPeriodic load;
+  const std::vector<double> macro{0.1, -0.2, 0.3, 0.04, 0.05, -0.06}, none(3, 0.0);
+  std::vector<double> out(6);
+  const Vec3 X(1.0, -2.0, 0.5), T(3.0, 0.0, 1.0);
+  const Mat3 turn = rotation_exp(Vec3(0.3, -1.1, 0.7));
+  for (const Mat3& O : {turn, Mat3(-turn)}) {
+    ASSERT_TRUE(load.transform(O, macro, out));
+    PositionMap before, after;
+    load.position(macro, none, X, T, before);
+    load.position(out, none, O * X, O * T, after);
+    EXPECT_LT((after.x - O * before.x).norm(), 1e-14);
+  }
+}
+
 TEST(VolumetricPeriodic, LinksThatSpanLessThanSpaceBoundLess)
 {
   const VolumetricPeriodic load;

@@ -185,6 +185,7 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
   if (solver.max_iterations) schedule.most_iterations = *solver.max_iterations;
   settings.starts = solver.starts;
   settings.perturbation = solver.perturbation;
+  settings.lessons = solver.lessons;
   settings.neighbours = solver.neighbours;
   settings.tilts = solver.tilts;
   settings.tilt = solver.tilt;

@@ -56,6 +56,8 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   r.links_kept = entry.at("links_kept").as_bool();
   r.z_range = number(entry.at("z_range"));
   r.better_state = entry.at("better_state").as_bool();
+  if (const json::value* confidence = entry.if_contains("confidence"))
+    r.confidence.word = text(confidence->at("word"));
   r.force_balance = optional_number(entry.at("force_balance"));
   // Where states came from: what was learnt from other limits is learnt again.
   for (const json::value& start : entry.at("starts").as_array()) {

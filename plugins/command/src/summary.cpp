@@ -9,13 +9,17 @@
 namespace hauberk::command {
 namespace {
 
-bool answered(const LimitResult& limit)
-{
-  return limit.status == LimitStatus::locked || limit.status == LimitStatus::unbounded ||
-         limit.status == LimitStatus::not_attained;
-}
+bool answered(const LimitResult& limit) { return is_answer(limit.status); }
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6f}", *value) : "-"; }
+
+/// Stretched fabrics are taut: one search is enough for them. Of others it is said that it was only one.
+std::string mark(const LimitResult& l)
+{
+  if (l.confidence.word == "contradicted") return "!";
+  if (l.confidence.word == "single" && l.sense == "compress") return "?";
+  return l.better_state ? "*" : "";
+}
 
 /// The value, or why there is none; what is not an answer is marked.
 std::string limit_cell(const std::vector<LimitResult>& limits, double direction, const std::string& sense)
@@ -23,7 +27,7 @@ std::string limit_cell(const std::vector<LimitResult>& limits, double direction,
   for (const LimitResult& l : limits) {
     if (!l.direction.is_angle() || l.direction.degrees() != direction || l.sense != sense) continue;
     if (l.status == LimitStatus::locked && l.value)
-      return fmt::format("{:.8f}", *l.value) + (l.better_state ? "*" : "");
+      return fmt::format("{:.8f}", *l.value) + mark(l);
     return to_string(l.status);
   }
   return "-";
@@ -35,15 +39,25 @@ std::string limits_table(const Loaded& loaded, const RunResult& run)
   const bool strain = loaded.experiment.load_case->value_length_power() == 0;
   std::string text = fmt::format("{:>10} {:>15} {:>15}", "direction", names.first, names.second);
   text += strain ? fmt::format(" {:>10}\n", "eta") : "\n";
-  bool better = false;
   for (const ProfilePoint& p : run.profiles) {
     text += fmt::format("{:>10g} {:>15} {:>15}", p.direction_deg,
                         limit_cell(run.limits, p.direction_deg, names.first),
                         limit_cell(run.limits, p.direction_deg, names.second));
     text += strain ? fmt::format(" {:>10}\n", cell(p.eta)) : "\n";
   }
-  for (const LimitResult& l : run.limits) better = better || l.better_state;
-  if (better) text += "* further than where the first start from rest led\n";
+  const auto marked = [&run](const char* which) {
+    return std::any_of(run.limits.begin(), run.limits.end(),
+                       [which](const LimitResult& l) { return l.value && mark(l) == which; });
+  };
+  if (marked("*")) text += "* further than where the first start from rest led\n";
+  if (marked("?")) text += "? one search alone ended there; more starts tell more\n";
+  if (marked("!")) {
+    text += "! contradicted:\n";
+    for (const LimitResult& l : run.limits) {
+      for (const std::string& by : l.confidence.contradicted_by)
+        text += fmt::format("  {}: {}\n", limit_name(l.sense, l.direction), by);
+    }
+  }
   return text;
 }
 
@@ -118,12 +132,13 @@ std::string variables_table(const DesignResult& d, const std::string& unit)
   return text;
 }
 
-/// A line for each limit that is not an answer, or that has a reservation.
+/// A line for each limit that is not an answer, that has a reservation, or whose state tells why there is none.
 std::string remarks(const RunResult& run)
 {
   std::string text;
   for (const LimitResult& l : run.limits) {
-    if (answered(l) && (l.status != LimitStatus::locked || l.message.empty())) continue;
+    const bool plain = l.status == LimitStatus::unbounded || l.status == LimitStatus::not_attained;
+    if (plain || (l.status == LimitStatus::locked && l.message.empty())) continue;
     text += fmt::format("{}: {}{}{}\n", limit_name(l.sense, l.direction), to_string(l.status),
                         l.message.empty() ? "" : ": ", l.message);
   }

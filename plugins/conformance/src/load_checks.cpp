@@ -4,6 +4,7 @@
 #include "differences.hpp"
 
 #include <fmt/ranges.h>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -159,6 +160,89 @@ void boundedness(Trial& trial)
   }
 }
 
+/// Turns and mirrors about the axes, some of any angle in the plane, and any turn in space.
+std::vector<Mat3> isometries(Random& random)
+{
+  std::vector<Mat3> out;
+  for (const double x : {1.0, -1.0}) {
+    for (const double y : {1.0, -1.0}) {
+      for (const double z : {1.0, -1.0}) {
+        const Mat3 signs = Vec3(x, y, z).asDiagonal();
+        Mat3 swapped = signs;
+        swapped.col(0).swap(swapped.col(1));
+        out.push_back(signs);
+        out.push_back(swapped);
+        out.emplace_back(rotation_exp(Vec3(0.0, 0.0, random.between(-3.0, 3.0))) * signs);
+      }
+    }
+  }
+  out.push_back(rotation_exp(random.vector(1.5)));
+  return out;
+}
+
+/// How far an element at X in the image at T stays from x when its coordinates are chosen best.
+double distance_from(const LoadCase& load_case, const Values& macro, const Vec3& X, const Vec3& T,
+                     const Vec3& x)
+{
+  const auto count = static_cast<Eigen::Index>(load_case.coordinate_count());
+  Eigen::VectorXd e = Eigen::VectorXd::Zero(count);
+  PositionMap map;
+  constexpr int steps = 20;  // of Gauss-Newton; one would do for affine load cases
+  for (int k = 0; k < steps; ++k) {
+    load_case.position(macro, {e.data(), static_cast<std::size_t>(count)}, X, T, map);
+    const Eigen::Matrix<double, 3, Eigen::Dynamic> J = map.J.middleCols(load_case.macro_count(), count);
+    e += J.colPivHouseholderQr().solve(x - map.x);
+  }
+  load_case.position(macro, {e.data(), static_cast<std::size_t>(count)}, X, T, map);
+  return (map.x - x).norm();
+}
+
+/// Isometries that a load case claims move all its states.
+void transform(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  Values metric(count);
+  load_case.metric(metric);
+  const auto squared = [&metric](const Values& macro) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < macro.size(); ++k) sum += metric[k] * macro[k] * macro[k];
+    return sum;
+  };
+  constexpr double exact = 1e-9;
+  for (const Mat3& O : isometries(trial.random)) {
+    const Values macro = draw_macro(load_case, trial.random, 0.3);
+    Values moved(count), twice(count), doubled = macro;
+    for (double& x : doubled) x *= 2.0;
+    if (!load_case.transform(O, macro, moved)) continue;
+    require(load_case.transform(O, doubled, twice), "it transforms some macroscopic states and not others");
+    for (std::size_t k = 0; k < count; ++k)
+      require(std::abs(twice[k] - 2.0 * moved[k]) <= rounding, "its transformation is not linear");
+    require(std::abs(squared(moved) - squared(macro)) <= exact * (1.0 + squared(macro)),
+            "an isometry changes the square of the metric's norm from {:.9g} to {:.9g}", squared(macro),
+            squared(moved));
+    const Values e = trial.random.values(static_cast<std::size_t>(load_case.coordinate_count()), 0.2);
+    const Vec3 X = trial.random.vector(2.0), T = draw_translation(load_case, trial.random);
+    PositionMap before;
+    load_case.position(macro, e, X, T, before);
+    const double off = distance_from(load_case, moved, O * X, O * T, O * before.x);
+    require(off <= exact * (1.0 + before.x.norm()),
+            "an isometry that it claims leaves an element {:.3g} from where it belongs", off);
+    // Both images of an element have its coordinates.
+    PositionMap itself;
+    load_case.position(macro, e, X, Vec3::Zero(), itself);
+    PositionMap image, base;
+    const Values none(e.size(), 0.0);
+    load_case.position(moved, none, O * X, O * T, image);
+    load_case.position(moved, none, O * X, Vec3::Zero(), base);
+    if (!load_case.periodic()) continue;
+    const double slip = ((image.x - base.x) - O * (before.x - itself.x)).norm();
+    require(slip <= exact * (1.0 + before.x.norm()),
+            "an isometry that it claims moves a lattice translation {:.3g} away", slip);
+  }
+}
+
 }  // namespace
 
 void add_load_case_load_checks(std::vector<Check>& out)
@@ -173,6 +257,8 @@ void add_load_case_load_checks(std::vector<Check>& out)
       stretch_range);
   add("load_case.boundedness", "boundedness depends on the direction of the load and the span of cycles only",
       boundedness);
+  add("load_case.transform", "isometries that it claims turn its states as they turn the places of elements",
+      transform);
 }
 
 }  // namespace hauberk::conformance

@@ -95,6 +95,7 @@ ExperimentSolver read_solver(Node& section, std::uint64_t seed)
   solver.finite_target = optional_number(section, "finite_target");
   solver.starts = int_or(section, "starts", 1);
   solver.perturbation = number_or(section, "perturbation", 0.0);
+  solver.lessons = boolean_or(section, "lessons", true);
   solver.neighbours = number_or(section, "neighbours", 0.0);
   solver.tilts = int_or(section, "tilts", 0);
   solver.tilt = number_or(section, "tilt", 0.0);

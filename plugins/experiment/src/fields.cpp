@@ -171,6 +171,10 @@ Field solver_field()
                                "1"),
                         0.0),
                "0.01"),
+           with_default(boolean("lessons",
+                                "Whether limits learn from each other, from symmetric images and from the loads "
+                                "beside their own; false: each stands alone."),
+                        "true"),
            with_default(
                at_least(number("neighbours",
                                "A limit at an angle without another of its sense within this many degrees "

@@ -70,6 +70,10 @@ class GuardedLoadCase final : public LoadCase {
   {
     guard_("metric", [&] { inner_->metric(m); });
   }
+  bool do_transform(const Mat3& O, Values macro, std::span<double> out) const override
+  {
+    return guard_("transform", [&] { return inner_->transform(O, macro, out); });
+  }
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override
   {
     return guard_("inequalities", [&] { return inner_->inequalities(X); });
@@ -81,6 +85,22 @@ class GuardedLoadCase final : public LoadCase {
   Boundedness do_boundedness(Values load, std::span<const Vec3> cycles) const override
   {
     return guard_("boundedness", [&] { return inner_->boundedness(load, cycles); });
+  }
+  std::vector<std::string> do_hold() const override
+  {
+    return guard_("hold", [&] { return inner_->hold(Direction()); });
+  }
+  std::vector<MacroCondition> do_conditions(double theta) const override
+  {
+    return guard_("conditions", [&] { return inner_->conditions(Direction::at_radians(theta)); });
+  }
+  Boundedness do_held_boundedness(double theta, Values load, std::span<const Vec3> cycles) const override
+  {
+    return guard_("held_boundedness", [&] { return inner_->held_boundedness(theta, load, cycles); });
+  }
+  std::string do_not_a_sheet(const SheetState& state) const override
+  {
+    return guard_("not_a_sheet", [&] { return inner_->not_a_sheet(state); });
   }
 
  private:

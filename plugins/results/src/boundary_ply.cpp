@@ -16,7 +16,9 @@ std::string header(const detail::BoundaryPoints& surface, const std::string& uni
 {
   std::string out = "ply\nformat ascii 1.0\n";
   out += fmt::format("comment limits of hauberk: x y z are {}, unit {}\n", fmt::join(names, " "), unit);
-  out += "comment status: 0 locked, 1 unbounded, 2 not attained, 3 stalled, 4 failed, 5 interrupted\n";
+  out +=
+      "comment status: 0 locked, 1 unbounded, 2 not attained, 3 stalled, 4 failed, 5 interrupted, 6 not a "
+      "sheet\n";
   out += "comment dx dy dz: direction of the load; limit: index in results.json\n";
   out += fmt::format("element vertex {}\n", surface.points.size());
   for (const char* name : {"x", "y", "z", "value"}) out += fmt::format("property double {}\n", name);

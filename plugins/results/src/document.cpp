@@ -137,8 +137,7 @@ json::object design_json(const DesignResult& design, const std::vector<std::stri
 
 std::optional<LimitStatus> limit_status(const std::string& name)
 {
-  for (const LimitStatus status : {LimitStatus::locked, LimitStatus::unbounded, LimitStatus::not_attained,
-                                   LimitStatus::stalled, LimitStatus::failed, LimitStatus::interrupted}) {
+  for (const LimitStatus status : all_limit_statuses) {
     if (to_string(status) == name) return status;
   }
   return std::nullopt;

@@ -30,6 +30,24 @@ json::object start_json(const LockedState& state, const std::vector<std::string>
   return out;
 }
 
+json::object confidence_json(const Confidence& confidence)
+{
+  json::object out;
+  out["word"] = confidence.word;
+  out["searches"] = confidence.searches;
+  out["ended_here"] = confidence.ended_here;
+  out["distinct"] = confidence.distinct;
+  out["confirmed_by"] = json::value_from(confidence.confirmed_by);
+  out["contradicted_by"] = json::value_from(confidence.contradicted_by);
+  json::array& failed = out["failed_searches"].emplace_array();
+  for (const FailedSearch& search : confidence.failed_searches)
+    failed.push_back(json::object{{"origin", search.origin},
+                                  {"seed", search.seed},
+                                  {"status", search.status},
+                                  {"reached", number(search.reached)}});
+  return out;
+}
+
 json::object contact_json(const ContactForce& contact)
 {
   json::object out;
@@ -41,6 +59,32 @@ json::object contact_json(const ContactForce& contact)
   out["normal"] = vector_json(contact.normal);
   out["gap"] = number(contact.gap);
   out["force"] = number(contact.force);
+  return out;
+}
+
+/// [towards smaller, towards larger]; null where there is no room that way.
+json::array pair_json(const LimitResult::OneSided& sides) { return {number(sides[0]), number(sides[1])}; }
+
+json::object one_sided_json(const LimitResult& limit)
+{
+  json::object out;
+  out["clearance"] = pair_json(limit.clearance_one_sided);
+  json::object& parameters = out["parameters"].emplace_object();
+  for (std::size_t k = 0; k < limit.parameters_one_sided.size(); ++k)
+    parameters[limit.sensitivity_parameters[k].first] = pair_json(limit.parameters_one_sided[k]);
+  return out;
+}
+
+json::array witness_json(const std::vector<WitnessState>& witness)
+{
+  json::array out;
+  for (const WitnessState& state : witness) {
+    json::object entry;
+    entry["macro"] = macro_json(state.macro);
+    json::array& poses = entry["poses"].emplace_array();
+    for (const Pose& pose : state.poses) poses.push_back(pose_json(pose));
+    out.push_back(std::move(entry));
+  }
   return out;
 }
 
@@ -77,16 +121,25 @@ json::object limit_json(const LimitResult& limit, const std::vector<std::string>
   for (const LockedState& state : limit.starts)
     starts.push_back(start_json(state, names.empty() ? macro_names : names));
   out["better_state"] = limit.better_state;
+  out["confidence"] = confidence_json(limit.confidence);
 
   json::object& sensitivity = out["sensitivity"].emplace_object();
   sensitivity["clearance"] = number(limit.sensitivity_clearance);
   sensitivity["parameters"] = named_numbers(limit.sensitivity_parameters);
+
+  out["kink"] = limit.kink;
+  if (limit.kink) out["sensitivity_one_sided"] = one_sided_json(limit);
 
   json::array& poses = out["poses"].emplace_array();
   for (const Pose& pose : limit.poses) poses.push_back(pose_json(pose));
   json::array& contacts = out["contacts"].emplace_array();
   for (const ContactForce& contact : limit.contacts) contacts.push_back(contact_json(contact));
   out["force_balance"] = number(limit.force_balance);
+  out["hold"] = json::value_from(limit.hold);
+  json::array& reactions = out["reactions"].emplace_array();
+  for (const auto& [name, value] : limit.reactions)
+    reactions.push_back(json::object{{"name", name}, {"value", number(value)}});
+  if (!limit.witness.empty()) out["witness"] = witness_json(limit.witness);
   return out;
 }
 

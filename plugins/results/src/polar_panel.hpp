@@ -21,6 +21,7 @@ struct Curve {
   std::vector<double> holes;
   /// Those of the holes where there is no limit at all: marked at the rim.
   std::vector<double> endless;
+  std::vector<double> hollow;  ///< directions whose markers are hollow: values that are in doubt
 };
 
 struct Panel {

@@ -64,6 +64,25 @@ std::vector<double> endless(const std::vector<LimitResult>& limits, Quantity qua
   return out;
 }
 
+/// Directions in which a limit that makes up `quantity` is contradicted, or is a compression that one search
+/// alone ended at.
+std::vector<double> doubtful(const std::vector<LimitResult>& limits, Quantity quantity,
+                             const PlotLabels& labels)
+{
+  std::vector<double> out;
+  for (const LimitResult& limit : limits) {
+    const bool part = quantity == &ProfilePoint::eta ||
+                      limit.sense == (quantity == &ProfilePoint::e_s ? labels.positive : labels.negative);
+    const bool doubt = limit.confidence.word == "contradicted" ||
+                       (limit.confidence.word == "single" && limit.sense == "compress");
+    const double degrees = reduced(limit.direction.degrees());
+    if (limit.direction.is_angle() && part && doubt &&
+        std::find(out.begin(), out.end(), degrees) == out.end())
+      out.push_back(degrees);
+  }
+  return out;
+}
+
 /// Adds the curve of one quantity, before and after; nothing when there are no values.
 void add(Panel& panel, const RunResult& run, const PlotLabels& labels, Quantity quantity,
          const std::string& name, Curve style)
@@ -80,6 +99,7 @@ void add(Panel& panel, const RunResult& run, const PlotLabels& labels, Quantity 
   style.label = run.design ? name + ", " + labels.after : name;
   fill(style, run.profiles.empty() ? profile_of(run.limits) : run.profiles, quantity);
   style.endless = endless(run.limits, quantity, labels);
+  style.hollow = doubtful(run.limits, quantity, labels);
   if (!style.points.empty()) panel.curves.push_back(std::move(style));
 }
 
@@ -99,7 +119,8 @@ Curve style(const char* colour, double width, const char* dash, Curve::Marker ma
           .joined = true,
           .points = {},
           .holes = {},
-          .endless = {}};
+          .endless = {},
+          .hollow = {}};
 }
 
 }  // namespace
@@ -113,7 +134,8 @@ void add_marks(Panel& panel, const std::string& label, Curve::Marker marker, con
               .joined = false,
               .points = {},
               .holes = {},
-              .endless = {}};
+              .endless = {},
+              .hollow = {}};
   for (const auto& [degrees, value] : values) marks.points.emplace_back(reduced(degrees), std::abs(value));
   if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
 }

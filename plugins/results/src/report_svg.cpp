@@ -49,7 +49,8 @@ void add_published(Panel& panel, const ReportDesign& design)
                .joined = true,
                .points = {},
                .holes = {},
-               .endless = {}};
+               .endless = {},
+               .hollow = {}};
     for (int degrees = 0; degrees < 180; degrees += 5) ring.points.emplace_back(degrees, std::abs(*end));
     panel.curves.push_back(std::move(ring));
   }

@@ -75,7 +75,7 @@ void judge(StabilityCase& c, double tolerance)
     c.reason.clear();
   } else if (c.status == "locked") {
     judge_state(c, tolerance);
-  } else if (c.status == "unbounded" || c.status == "not_attained") {
+  } else if (c.status == "unbounded" || c.status == "not_attained" || c.status == "not_a_sheet") {
     c.outcome = c.solvable ? Outcome::silent_wrong : Outcome::verified;
     c.reason = c.solvable ? "claims that there is no locked state (" + with_message(c) + ")" : "";
   } else {

@@ -5,6 +5,8 @@
 #include "neighbours.hpp"
 #include "read.hpp"
 #include "saddle.hpp"
+#include "sheet.hpp"
+#include "witness.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -85,6 +87,41 @@ double check_balance(const Scene& scene, const Setting& setting, const Limit& li
   return found;
 }
 
+/// How far a bent state is from being no sheet.
+Sheet sheet_of_limit(const Scene& scene, const Limit& limit)
+{
+  std::vector<std::array<int, 2>> linked;
+  for (const Link& link : links(scene, rest_places(scene), Mat3::Identity())) linked.push_back(link.elements);
+  return sheet_of(scene, *limit.macro, limit.poses, linked);
+}
+
+/// A state that is kept because it is no sheet: admissible, free of intersections, and beyond the criterion.
+VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const Limit& limit,
+                             const VerifyTolerances& tolerances, Record& record)
+{
+  Sentences problems;
+  if (limit.value) problems.push_back(fmt::format("value {} reported, null expected", show(limit.value)));
+  if (!limit.contacts.empty()) problems.push_back("contacts listed, though nothing is at rest here");
+  for (std::string& p : misplaced(scene, {*limit.macro, limit.poses}, tolerances.translation))
+    problems.push_back(std::move(p));
+  const std::string gap = check_gap(scene, setting, limit, tolerances, problems);
+  const std::string kept = check_links(scene, limit, problems);
+  std::string how = "no patch on a paraboloid";
+  if (setting.load == Load::paraboloid) {
+    const Sheet sheet = sheet_of_limit(scene, limit);
+    how = sheet.text();
+    if (sheet.holds()) problems.push_back("a sheet: " + how);
+  } else {
+    problems.push_back(how);
+  }
+  for (const VerifyPart part : {VerifyPart::values, VerifyPart::gap, VerifyPart::links, VerifyPart::contacts,
+                                VerifyPart::balance, VerifyPart::held})
+    record.done(part, limit.where, problems.empty());
+  return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
+                                        problems.empty() ? fmt::format("{}, {}, {}", gap, kept, how)
+                                                         : fmt::format("{}", fmt::join(problems, "; ")))};
+}
+
 /// Reactions are those of what is held, and as large as what the forces leave of the load.
 void check_held(const Scene& scene, const Setting& setting, const Limit& limit, double imbalance,
                 const VerifyTolerances& tolerances, Sentences& problems)
@@ -118,8 +155,21 @@ bool known_status(const std::string& status)
   return std::find(statuses.begin(), statuses.end(), status) != statuses.end();
 }
 
-/// A limit without a state: nothing that a state would have is given. A witness of what it claims would be
-/// checked here.
+/// A limit that nothing stops, and the motion that shows it.
+VerifyLine check_witnessed(const Scene& scene, const Limit& limit, Record& record)
+{
+  Sentences problems, found;
+  if (limit.value || !limit.contacts.empty()) problems.push_back("a value or contacts, though nothing stops it");
+  check_witness(scene, limit, problems, found);
+  for (const VerifyPart part :
+       {VerifyPart::values, VerifyPart::witness, VerifyPart::gap, VerifyPart::balance, VerifyPart::held})
+    record.done(part, limit.where, problems.empty());
+  record.skip(limit.where + "/links_kept", "what says nothing without a state");
+  return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
+                                        fmt::join(problems.empty() ? found : problems, "; "))};
+}
+
+/// A limit without a state: nothing that a state would have is given.
 VerifyLine check_stateless(const Limit& limit, Record& record)
 {
   const bool bare = !limit.value && !limit.line_stretch && !limit.min_gap && !limit.force_balance &&
@@ -170,19 +220,23 @@ class StateCheck {
 VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& limit, const json::value& json,
                        const json::value& experiment, const VerifyTolerances& tolerances, Record& record)
 {
-  if (limit.poses.empty() || !limit.macro) return check_stateless(limit, record);
   const auto refused = [&](const std::string& why) {
     record.done(VerifyPart::values, limit.where, false);
     return VerifyLine{false, limit.label + ": " + why};
   };
+  if (limit.status == "unbounded" || limit.status == "not_attained") {
+    if (!limit.poses.empty()) return refused(limit.status + " limits have no locked state");
+    return check_witnessed(scene, limit, record);
+  }
+  if (limit.poses.empty() || !limit.macro) return check_stateless(limit, record);
   if (limit.poses.size() != scene.elements.size())
     return refused(fmt::format("{} poses for {} elements", limit.poses.size(), scene.elements.size()));
-  if (limit.status == "unbounded" || limit.status == "not_attained")
-    return refused(limit.status + " limits have no locked state");
   if (!known_status(limit.status)) return refused("status \"" + limit.status + "\" is not known");
   Setting setting = of_all;
   setting.hold = limit.hold;
   setting.direction_deg = limit.direction_deg;
+
+  if (limit.status == "not_a_sheet") return check_not_a_sheet(scene, setting, limit, tolerances, record);
 
   StateCheck check(limit, record, of_all.where);
   Sentences &problems = check.problems, &found = check.found;
@@ -205,6 +259,12 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
       }
     });
     check.part(VerifyPart::held, [&] { check_held(scene, setting, limit, imbalance, tolerances, problems); });
+    if (setting.load == Load::paraboloid && limit.status == "locked") {
+      check.part(VerifyPart::values, [&] {
+        if (const Sheet sheet = sheet_of_limit(scene, limit); !sheet.holds())
+          problems.push_back("no sheet: " + sheet.text());
+      });
+    }
     if (problems.empty()) {
       const std::string at = limit.where + "/sensitivity";
       check_sensitivity(scene, setting, limit, member(json, "sensitivity", limit.where), experiment, at,

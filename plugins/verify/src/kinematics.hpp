@@ -28,12 +28,6 @@ inline Eigen::Index first_of(const Scene& scene, int element)
 }
 Eigen::Index unknowns(const Scene& scene);
 
-/// A state of all elements.
-struct MovedState {
-  Macro macro;
-  std::vector<Place> places;
-};
-
 /// Components of the macroscopic unknowns that a limit holds at zero, in the order of `hold`: a column of
 /// coefficients each. With n = (c, s) along the load and m = (-s, c) across it they are n^T eps m (shear),
 /// m^T eps m (lateral), and of H = [[2A, C], [C, 2B]] n^T H m (twist), m^T H m (transverse); `places` is none

@@ -87,6 +87,59 @@ std::vector<std::vector<Vec3>> loops_of(const Torus& torus)
   return out;
 }
 
+Vec3 in_space(const Place& place, const Vec3& x) { return place.position + place.rotation * x; }
+
+/// Polygons of all cycles of an element that has a place: of each primitive those of its core, or of its
+/// surface's loops, then the loops of several. With the number that a link gives each.
+std::vector<std::pair<int, std::vector<Vec3>>> cycles(const Element& element, const Place& place)
+{
+  std::vector<std::pair<int, std::vector<Vec3>>> out;
+  int k = 0;
+  for (const Torus& torus : element.tori) {
+    if (torus.surface) {
+      for (std::vector<Vec3>& loop : loops_of(placed(torus, place))) out.emplace_back(k, std::move(loop));
+    } else {
+      // Chords of a circle keep to its tube: their middles are R h^2/8 from it.
+      const double bend =
+          torus.curve.empty() ? torus.R : core_speed(torus) * static_cast<double>(torus.curve.size());
+      const int count = std::max(16, static_cast<int>(4.5 * std::sqrt(bend / std::min(torus.r0, torus.r1))));
+      std::vector<Vec3>& corners = out.emplace_back(k, std::vector<Vec3>()).second;
+      for (int i = 0; i < count; ++i)
+        corners.push_back(in_space(place, core_point(torus, 2.0 * std::numbers::pi * i / count)));
+    }
+    ++k;
+  }
+  for (const Loop& loop : element.loops) {
+    std::vector<Vec3>& corners = out.emplace_back(k++, std::vector<Vec3>()).second;
+    for (const Vec3& x : loop.corners) corners.push_back(in_space(place, x));
+  }
+  return out;
+}
+
+/// Links in which at least one side is a loop of several primitives.
+void add_loops(std::vector<Link>& out, const Neighbour& pair, const Element& first, const Place& place,
+               const Element& second, const Place& image)
+{
+  if (first.loops.empty() && second.loops.empty()) return;
+  const auto a = cycles(first, place), b = cycles(second, image);
+  for (const auto& [p, x] : a)
+    for (const auto& [q, y] : b) {
+      if (p < static_cast<int>(first.tori.size()) && q < static_cast<int>(second.tori.size())) continue;
+      const std::optional<int> number = crossing_number(x, y);
+      if (!number)
+        throw Malformed(
+            fmt::format("elements {} and {}: a linking number is not decided", pair.first, pair.second));
+      if (*number == 0) continue;
+      // Of a surface's loops each counts, whatever its sign.
+      Link link{{pair.first, pair.second}, {p, q}, pair.image, *number};
+      if (!out.empty() && same_pair(out.back(), link)) {
+        out.back().number = std::gcd(out.back().number, *number);
+      } else {
+        out.push_back(link);
+      }
+    }
+}
+
 int mesh_number(const Torus& a, const Torus& b)
 {
   int divisor = 0;
@@ -138,6 +191,7 @@ std::vector<Link> links(const Scene& scene, const std::vector<Place>& places, co
           out.push_back(
               {{pair.first, pair.second}, {static_cast<int>(p), static_cast<int>(q)}, pair.image, number});
       }
+    add_loops(out, pair, scene.elements[k], places[k], scene.elements[l], image);
   }
   return out;
 }

@@ -11,15 +11,17 @@ namespace hauberk::verification {
 /// of loops that generate the homology of both.
 int linking_number(const Torus& a, const Torus& b);
 
-/// A pair of core circles that are linked.
+/// A pair of cycles that are linked.
 struct Link {
-  std::array<int, 2> elements{}, primitives{};
+  std::array<int, 2> elements{};
+  std::array<int, 2> primitives{};  ///< from the number of an element's primitives on, its loops
   Image image{};
   int number = 0;
   bool operator==(const Link&) const = default;
 };
 
-/// All links between different elements and images, in a fixed order.
+/// All links between different elements and images, in a fixed order: of cores, and of the loops that several
+/// primitives form together. Throws Malformed where a loop meets another element, so that no number is.
 std::vector<Link> links(const Scene& scene, const std::vector<Place>& places, const Mat3& F);
 
 /// What differs between the links at rest and those at the limit; empty when nothing does.

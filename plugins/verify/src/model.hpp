@@ -61,10 +61,17 @@ struct Torus {
   int facets = 0;  ///< its surface is a mesh of facets x facets quadrilaterals; 0: the surface itself
 };
 
+/// A closed polygon inside of an element that follows several of its primitives.
+struct Loop {
+  std::vector<Vec3> corners;    ///< in its element's frame
+  std::vector<int> primitives;  ///< ascending
+};
+
 struct Element {
   Place rest;
   std::map<std::string, double> parameters;
   std::vector<Torus> tori;
+  std::vector<Loop> loops;  ///< see loops_together
   /// Of a sphere about the element's origin that holds the element.
   double reach = 0.0;
 };
@@ -124,6 +131,12 @@ struct Start {
   Macro macro;
 };
 
+/// A state of all elements.
+struct MovedState {
+  Macro macro;
+  std::vector<Place> places;
+};
+
 /// What a component that is held at zero takes: d value / d component.
 struct Reaction {
   std::string name;
@@ -149,6 +162,7 @@ struct Limit {
   std::vector<Start> starts;
   std::vector<Place> poses;
   std::vector<Contact> contacts;
+  std::vector<MovedState> witness;
 };
 
 /// Settings of the experiment that the checks depend on.

@@ -2,6 +2,7 @@
 
 #include "loops.hpp"
 #include "surface.hpp"
+#include "together.hpp"
 
 #include <Eigen/Geometry>
 #include <boost/json/array.hpp>
@@ -282,9 +283,27 @@ Scene read_scene(const json::value& scene, const std::string& where)
     }
     out.elements.push_back(std::move(element));
   }
+  find_loops(out);
   out.length = number(member(scene, "length", where), where + "/length");
   return out;
 }
+
+namespace {
+
+std::vector<MovedState> read_witness(const json::value& limit, Load load, const std::string& where)
+{
+  std::vector<MovedState> out;
+  for (const json::value& s : array(member(limit, "witness", where), where + "/witness")) {
+    const std::string at = where + "/witness/" + std::to_string(out.size());
+    MovedState& state = out.emplace_back();
+    state.macro = read_macro(member(s, "macro", at), load, at + "/macro");
+    for (const json::value& p : array(member(s, "poses", at), at + "/poses"))
+      state.places.push_back(read_place(p, at + "/poses/" + std::to_string(state.places.size())));
+  }
+  return out;
+}
+
+}  // namespace
 
 Limit read_limit(const json::value& limit, Load load, const std::string& where)
 {
@@ -337,6 +356,7 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
     out.poses.push_back(read_place(p, where + "/poses/" + std::to_string(out.poses.size())));
   for (const json::value& c : array(member(limit, "contacts", where), where + "/contacts"))
     out.contacts.push_back(read_contact(c, where + "/contacts/" + std::to_string(out.contacts.size())));
+  if (limit.as_object().contains("witness")) out.witness = read_witness(limit, load, where);
   return out;
 }
 

@@ -128,6 +128,7 @@ constexpr std::array rules{
     VerifyRule{"/limits/*/starts/**", {}, cost},
     VerifyRule{"/limits/*/starts", {}, cost},
     VerifyRule{"/limits/*/better_state", {}, cost},
+    VerifyRule{"/limits/*/confidence/**", {}, cost},
     VerifyRule{"/limits/*/hold/*", {asked}, "the experiment's; what is named is zero in the state"},
     VerifyRule{"/limits/*/hold", {asked}, "the experiment's"},
     VerifyRule{"/limits/*/reactions/**",

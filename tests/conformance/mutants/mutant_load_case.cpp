@@ -84,6 +84,18 @@ class Mutant final : public LoadCase {
     m[g] = is("zero_metric") ? 0.0 : 2.0;
   }
 
+  /// Whatever maps the axes to each other keeps F what it is; a single mirror turns the shear round.
+  bool do_transform(const Mat3& O, Values macro, std::span<double> out) const override
+  {
+    const double whole = O(0, 0) * O(1, 1) + O(0, 1) * O(1, 0);
+    const bool axes = keeps_plane(O) && std::abs(std::abs(whole) - 1.0) < 1e-9;
+    if (!axes && !is("turns_by_any_angle")) return false;
+    out[e] = macro[e];
+    out[g] = is("mirrors_no_shear") ? macro[g] : whole * macro[g];
+    if (is("transform_not_linear")) out[g] += out[g] * out[g];
+    if (is("transform_stretches")) out[e] *= 1.5;
+    return true;
+  }
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override
   {
     std::vector<LinearInequality> walls;

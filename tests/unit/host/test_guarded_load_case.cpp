@@ -88,10 +88,21 @@ class Odd final : public LoadCase {
     maybe_fail();
     return {{"held", {{0, 1, static_cast<double>(X.size())}}}};
   }
+  bool do_transform(const Mat3& O, Values macro, std::span<double> out) const override
+  {
+    maybe_fail();
+    out[0] = O(0, 1) * macro[0];
+    return O(2, 2) > 0.0;
+  }
   Boundedness do_boundedness(Values load, std::span<const Vec3> cycles) const override
   {
     maybe_fail();
     return load[0] < 0 && cycles.size() == 2 ? Boundedness::not_attained : Boundedness::attained;
+  }
+  std::string do_not_a_sheet(const SheetState& state) const override
+  {
+    maybe_fail();
+    return state.X.size() == 2 && state.linked.size() == 1 ? "torn" : "";
   }
 
  private:
@@ -136,6 +147,10 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   load_case->load(turned, out);
   EXPECT_EQ(out[0], 0.75);
   EXPECT_EQ(load_case->value(turned, macro), 5.75);
+  const Mat3 turn = rotation_exp(Vec3(0, 0, -0.5 * std::numbers::pi));
+  EXPECT_TRUE(load_case->transform(turn, macro, out));
+  EXPECT_NEAR(out[0], 0.5, 1e-15);
+  EXPECT_FALSE(load_case->transform(-turn, macro, out));
   EXPECT_EQ(load_case->measure(), "odd");
   EXPECT_EQ(load_case->value_length_power(), -3);
   EXPECT_EQ(load_case->companions(turned, macro), (std::vector<std::pair<std::string, double>>{{"c", 0.25}}));
@@ -151,6 +166,9 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   EXPECT_EQ(held[0].terms[0].coefficient, 2.0);
   EXPECT_EQ(load_case->boundedness(turned, Sense::negative, both), Boundedness::not_attained);
   EXPECT_EQ(load_case->boundedness(turned, Sense::positive, both), Boundedness::attained);
+  const std::array<std::array<int, 2>, 1> linked{{{0, 1}}};
+  EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, linked}), "torn");
+  EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, {}}), "");
 }
 
 TEST(GuardedLoadCase, EveryCallIsGuarded)
@@ -172,6 +190,7 @@ TEST(GuardedLoadCase, EveryCallIsGuarded)
   expect("companions", [&] { load_case->companions(Direction(), macro); });
   expect("sense_names", [&] { load_case->sense_names(); });
   expect("metric", [&] { load_case->metric(out); });
+  expect("not_a_sheet", [&] { load_case->not_a_sheet({}); });
   expect("inequalities", [&] { load_case->inequalities(both); });
   expect("equalities", [&] { load_case->equalities(both); });
   expect("boundedness", [&] { load_case->boundedness(std::array{1.0}, both); });

@@ -194,10 +194,10 @@ TEST(Objective, FiniteTarget)
                  b = total_energy(m, q, t, stage, {}, 0).energy;
     EXPECT_NEAR(e.gradient[k], (a - b) / (2 * h), 1e-12);
     EXPECT_NEAR(e.hessian(k, k), (a - 2 * e.energy + b) / (h * h), 1e-8);
-    EXPECT_NEAR(e.gradient[k], -driving_load(s, t, stage)[k], 1e-15);
+    EXPECT_NEAR(e.gradient[k], -driving_load(m, s, t, stage)[k], 1e-15);
   }
   stage.target = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(driving_load(s, t, stage), t);
+  EXPECT_EQ(driving_load(m, s, t, stage), t);
   EXPECT_EQ(total_energy(m, s, t, stage, {}, 0).energy, -t.dot(s.macro));
 }
 

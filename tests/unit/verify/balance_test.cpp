@@ -52,7 +52,7 @@ TEST(States, WithoutPosesNeedAStatusThatSaysSo)
   for (const char* key : {"value", "line_stretch", "min_gap", "force_balance"}) limit[key] = nullptr;
   limit["contacts"].emplace_array();
   limit["contact"] = "";
-  EXPECT_EQ(limit_line(document), "NONE /limits/0 (0 deg, stretch): unbounded, no state to check");
+  EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): unbounded: no witness is given");
   document = chain_document();
   document.at_pointer("/limits/0/status") = "not_attained";
   EXPECT_EQ(limit_line(document),

@@ -54,9 +54,9 @@ Vector change_of_variables(const DesignPoint& from, const DesignPoint& to);
 /// all unknowns, strain included, that keeps the gaps in contact. Null where that is not a state of the same
 /// fabric: some gap is closed, a link is lost, or the change is so large that cores could have crossed
 /// unseen (a tube's radius). Large changes are followed in parts. What is between is not a motion of either
-/// design, so it need not be free of overlaps.
+/// design, so it need not be free of overlaps. Conditions on the strain that `held` has are kept.
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
-                              const std::vector<DesignVariable>& variables);
+                              const std::vector<DesignVariable>& variables, const Matrix& held = {});
 
 /// d gap / d variables at fixed poses.
 Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,

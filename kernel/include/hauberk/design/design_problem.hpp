@@ -99,11 +99,11 @@ class DesignProblem final : public OptimizationProblem {
   };
   /// Locked state of one task: the continuation of the one that is known of `from`; if that is p itself, the
   /// furthest that rest leads to.
-  LockedTarget lock_target(const DesignPoint& p, const DesignPoint& from, const Vector& load,
+  LockedTarget lock_target(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                            const std::vector<WarmStart>& warm) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
   /// another that is further along its direction, until there is none.
-  void learn(const DesignPoint& p, const std::vector<Vector>& loads,
+  void learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
              std::vector<LockedTarget>& targets) const;
   void list_constraints();
   double rest_target(const Model& m) const;

@@ -20,6 +20,9 @@ struct LimitSettings {
   double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
   double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
+  /// Whether limits learn from each other, from symmetric images and from loads beside their own; otherwise
+  /// each stands alone, and what contradicts it is told.
+  bool lessons = true;
   int tilts = 0;                      ///< random loads beside the task's own, from whose states it learns
   double tilt = 20.0;                 ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;
@@ -67,7 +70,9 @@ inline constexpr const char* learnt_origin = "from ";
 /// A locked state and where it came from.
 struct FoundState {
   Locked locked;
-  std::string origin;      ///< "start", "tilt", or learnt_origin and the limit whose state it began with
+  /// "start", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the limit whose state it
+  /// began with
+  std::string origin;
   std::uint64_t seed = 0;  ///< of the start or tilt
 };
 
@@ -76,8 +81,9 @@ struct FoundState {
 LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
                       const LimitSettings& settings, const std::vector<FoundState>& found);
 
-/// Result for a task that the links leave unbounded or not attained, or null if it is to be solved.
-std::optional<LimitResult> decided_by_links(const Model& model, const LimitTask& task);
+/// What links say of a task. `attained` is proved by them; the others mean that links do not stop the load:
+/// something else may (elements can be entangled without a link), so the load is tried.
+Boundedness bounded_by_links(const Model& model, const LimitTask& task);
 
 /// Who follows a computation of limits. Empty functions are not called.
 struct LimitsObserver {
@@ -103,10 +109,13 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
 /// After its starts each task learns from tilted loads. Then limits learn from each other: a locked state of
-/// any task is a reachable state for all, so where its value along another task's direction is further than
-/// that task's own limit, that one is locked again from it, until none is. A limit that has no other of its
-/// sense within `settings.neighbours` learns from limits at that angle to either side, which are not
-/// reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
+/// any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that hold
+/// nothing that it breaks, so where its value along another task's direction is further than that task's own
+/// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
+/// folds keep from their furthest state, are searched twice from rest, with the widest stage and without, and
+/// walk: each begins again from the states of the loads beside its own, as long as these come to further ones.
+/// A limit that has no other of its sense within `settings.neighbours` learns from limits at that angle to
+/// either side, which are not reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
 /// result (status failed) and does not stop the others. Tasks that were not finished when `keep_going` said
 /// no are `interrupted`, with the best of the starts that were done. What the observer throws is rethrown.
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
@@ -117,8 +126,12 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
 /// Both senses of equal directions joined: e_s, e_c, and for strains eta = (e_s - e_c)/(1 + e_c).
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load);
 
-/// Largest component of load + sum of forces times gap derivatives, from listed contacts alone.
-double force_imbalance(const Model& model, const State& state, const Vector& load,
-                       const std::vector<ContactEnergy::Point>& points, double mu);
+/// How listed contacts alone balance a load: load + sum of forces times gap derivatives = held * reactions.
+struct ForceBalance {
+  Vector reactions;        ///< of the conditions held: by how much the load's value rises per unit of each
+  double imbalance = 0.0;  ///< largest component of what is left, over all unknowns
+};
+ForceBalance force_balance(const Model& model, const State& state, const MacroLoad& load,
+                           const std::vector<ContactEnergy::Point>& points, double mu);
 
 }  // namespace hauberk

@@ -2,6 +2,7 @@
 /// From a state to the locked state that a load drives it to: stages of falling activation distance.
 
 #include <hauberk/mechanics/equilibrium.hpp>
+#include <hauberk/mechanics/held_model.hpp>
 
 #include <optional>
 #include <string_view>
@@ -41,7 +42,8 @@ struct Schedule {
   MinimaSearch search = MinimaSearch::certified;  ///< of contact `published`
   /// Finite target of the published objective, see Stage; infinite: the load alone.
   double target = std::numeric_limits<double>::infinity();
-  unsigned threads = 1;  ///< for the pairs of one large scene; never changes a result
+  bool keep_path = false;  ///< Locked::path is wanted
+  unsigned threads = 1;    ///< for the pairs of one large scene; never changes a result
 };
 
 /// Activation distances of a schedule's stages, falling.
@@ -72,7 +74,7 @@ struct StageRecord {
   int escapes = 0;
 };
 
-enum class LockStatus { locked, stalled, unbounded, interrupted };
+enum class LockStatus { locked, stalled, unbounded, not_a_sheet, interrupted };
 
 /// A locked state and how it was reached.
 struct Locked {
@@ -84,6 +86,9 @@ struct Locked {
   int iterations = 0;
   long evaluations = 0;
   std::vector<State> trail;  ///< states at the ends of `stages`, for warm starts
+  /// Where kept, and where the strain left every bound: states from the start to there, between which
+  /// `advanced` along their `difference` is free of intersection.
+  std::vector<State> path;
   std::optional<double> error_estimate;
   /// Of `constrained`: contacts with the multipliers of the problem as forces (stage.mu is 1).
   std::optional<ContactEnergy> pressed;
@@ -93,8 +98,11 @@ struct Locked {
 Vector load_vector(const Model& model, const Direction& direction, Sense sense);
 
 /// Runs all stages from `start`, or solves the constrained problem. Later stages start from the extrapolation
-/// of the last two, along which positions are linear in g_hat. Thread safe; deterministic.
-Locked lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+/// of the last two, along which positions are linear in g_hat. What the load holds is kept from the first
+/// stage on; a start that breaks it (another direction's state) is brought there first, on a certified path;
+/// where contact keeps it from there the result is `stalled` and has no stages. Derivatives in `pressed` are
+/// those of the macroscopic unknowns that conditions leave. Thread safe; deterministic.
+Locked lock(const Model& model, const State& start, const MacroLoad& load, ContactChoice choice,
             const Schedule& schedule, const KeepGoing& keep_going);
 
 }  // namespace hauberk

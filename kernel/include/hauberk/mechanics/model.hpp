@@ -1,7 +1,7 @@
 #pragma once
 /// The model: a scene in scaled lengths under one load case, and states of it.
 
-#include <hauberk/geometry/body.hpp>
+#include <hauberk/geometry/spine.hpp>
 #include <hauberk/load_case.hpp>
 #include <hauberk/scene.hpp>
 
@@ -16,11 +16,11 @@ using Matrix = Eigen::MatrixXd;
 /// The third index is 0 where there are two lattice vectors.
 using Image = std::array<int, 3>;
 
-/// A pair of linked bodies: A of the cell, B of the cell's image `image`.
+/// A pair of linked cycles: A of the cell, B of the cell's image `image`.
 struct Link {
-  int a = 0, b = 0;  ///< bodies
+  int a = 0, b = 0;  ///< bodies; from Model::bodies.size() on, loops of several (Model::loop)
   Image image{};
-  int number = 0;  ///< see linking_number
+  int number = 0;  ///< see linking_number and linking_numbers
 };
 
 /// Immutable description of what is simulated; lengths scaled by `length`. Thread safe to read.
@@ -35,8 +35,12 @@ struct Model {
   std::vector<int> source;  ///< per element: the one that it is a copy of, or itself
   std::vector<Vec3> lattice;
   std::vector<LinearInequality> walls;
-  Matrix held;              ///< dofs x equalities: orthonormal directions that no motion has
-  std::vector<Link> links;  ///< at rest
+  Matrix held;  ///< dofs x equalities: orthonormal directions that no motion has
+  /// Per element; none where no element has a loop that several of its primitives form together.
+  std::vector<std::shared_ptr<const Spine>> spines;
+  std::vector<int> first_loop;  ///< per element, and one past the end, where there are spines
+  std::vector<Link> links;      ///< at rest
+  std::vector<std::array<int, 2>> linked;  ///< elements of a patch with links between them, ascending
   /// Per body: d(position, R, r0, r1, harmonics)/d(element parameters), row-major, file units (dimensionless
   /// ratios).
   std::vector<PrimitiveJacobian> jacobians;
@@ -44,6 +48,8 @@ struct Model {
 
   int macro_count = 0, coordinate_count = 0;
   Vector metric;  ///< squared displacement per squared unknown: weights of the norm of a step
+  /// G of the squared size macro . G macro that the published objective takes; empty: the identity.
+  Matrix macro_square;
 
   /// d (scaled position, R, r0, r1, harmonics of a body; quantity 0, 1, ...) / d parameter of its element
   /// (file units).
@@ -122,11 +128,32 @@ struct ElementPair {
 /// visited.
 std::vector<ElementPair> near_pairs(const Model& model, const State& state, double margin);
 
-/// Links of the model in a state (all body pairs within reach), in a fixed order.
+/// Links of the model in a state (all pairs of cycles within reach), in a fixed order: every body's core and
+/// every loop of a spine with all of another element's. A cycle of primitives that each have a link has one,
+/// too, if it runs along them.
 std::vector<Link> find_links(const Model& model, const State& state);
+
+/// Element that a cycle of a Link belongs to.
+int element_of_cycle(const Model& model, int cycle);
+
+/// Indices (within their element) of the primitives that a cycle of a Link follows.
+std::vector<int> primitives_of_cycle(const Model& model, int cycle);
+
+/// What links two elements: so many pairs of their primitives, and so many more independent loops (rank of
+/// the matrix of linking numbers beyond that of its primitives' part), which no choice of cycles changes.
+struct ElementLink {
+  ElementPair pair;
+  int primitives = 0, together = 0;
+};
+
+/// Those of the model's links, in the order of their first links.
+std::vector<ElementLink> element_links(const Model& model);
 
 /// True if the links in `state` are those at rest.
 bool links_kept(const Model& model, const State& state);
+
+/// Why a state is no sheet on the scale of its elements (LoadCase::not_a_sheet); empty where it is one.
+std::string not_a_sheet(const Model& model, const State& state);
 
 /// Translations (at rest) of independent cycles of the link graph.
 std::vector<Vec3> cycle_translations(const Model& model);

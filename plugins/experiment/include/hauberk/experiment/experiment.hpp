@@ -37,6 +37,7 @@ struct ExperimentSolver {
   std::optional<double> finite_target;
   int starts = 1;
   double perturbation = 0.0;  ///< characteristic lengths and radians
+  bool lessons = true;
   double neighbours = 0.0;    ///< degrees
   int tilts = 0;
   double tilt = 0.0;  ///< degrees

@@ -10,7 +10,8 @@ namespace hauberk {
 /// scene, direction and sense).
 ///
 /// - interrupted stays interrupted; refused, stalled and failed are honest failures;
-/// - unbounded and not_attained are right where there is nothing to find, and silently wrong elsewhere;
+/// - unbounded, not_attained and not_a_sheet are right where there is nothing to find, and silently wrong
+/// elsewhere;
 /// - a locked state is silently wrong where there is none to find, where the check contradicts it, and where
 /// it is
 ///   further than the exact value; local where it falls short of the best known state; else verified.

@@ -90,7 +90,10 @@ struct VerifyReport {
 /// rest's;
 ///   heights keep to `out_of_plane`.
 /// - a locked state is no saddle: no state nearby goes further (second-order condition, then an actual
-/// motion). Never throws for a bad document: what is missing or malformed is a failing line. Thread safe.
+/// motion);
+/// - a locked bent state is a sheet on the scale of its elements, and one that is `not_a_sheet` is none.
+///
+/// Never throws for a bad document: what is missing or malformed is a failing line. Thread safe.
 VerifyReport verify(const boost::json::value& results, const VerifyTolerances& tolerances = {});
 
 }  // namespace hauberk

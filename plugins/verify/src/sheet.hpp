@@ -1,0 +1,28 @@
+#pragma once
+/// Whether a bent patch still is a sheet on the scale of its elements.
+#include "model.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hauberk::verification {
+
+/// Bounds of paraboloid_bending: its README says why these.
+constexpr double most_curvature = 2.0;  ///< largest curvature times the largest radius of an element
+constexpr double most_apart = 3.0;      ///< of linked elements along the surface, over their distance at rest
+
+/// How near a bent state comes to being no sheet.
+struct Sheet {
+  double curvature = 0.0;  ///< largest curvature times the largest radius of an element
+  /// Largest distance of linked elements along the surface, straight in plan, over the larger of their
+  /// distance at rest and their mean radius.
+  double apart = 0.0;
+  bool holds() const { return curvature < most_curvature && apart < most_apart; }
+  std::string text() const;
+};
+
+/// Of a patch on a paraboloid; `linked`: pairs of elements.
+Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>& places,
+               const std::vector<std::array<int, 2>>& linked);
+
+}  // namespace hauberk::verification

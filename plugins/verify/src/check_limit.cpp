@@ -102,7 +102,7 @@ VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const L
   Sentences problems;
   if (limit.value) problems.push_back(fmt::format("value {} reported, null expected", show(limit.value)));
   if (!limit.contacts.empty()) problems.push_back("contacts listed, though nothing is at rest here");
-  for (std::string& p : misplaced(scene, {*limit.macro, limit.poses}, tolerances.translation))
+  for (std::string& p : misplaced(scene, setting, {*limit.macro, limit.poses}, tolerances.translation))
     problems.push_back(std::move(p));
   const std::string gap = check_gap(scene, setting, limit, tolerances, problems);
   const std::string kept = check_links(scene, limit, problems);

@@ -207,6 +207,11 @@ void check_limits(const json::value& experiment, const json::value& asked, const
   }
 }
 
+bool known_row(const std::string& status)
+{
+  return status == "done" || status == "failed" || status == "refused" || status == "interrupted";
+}
+
 }  // namespace
 
 void check_locked(const json::value& entry, const Values& values, const std::string& where,
@@ -240,6 +245,8 @@ void check_chart_table(const json::value& whole, const json::value& experiment, 
     check_exact(asked[k], scenes[k], at, problems);
     check_limits(whole, asked[k], scenes[k], at, problems);
     const json::value& reference = member(scenes[k], "reference", at);
+    if (!reference.is_null() && !known_row(text(member(reference, "status", at), at)))
+      problems.push_back(at + "/reference/status: not a known one");
     if (!reference.is_null())
       check_locked(reference, read_values(member(reference, "values", at), at), at + "/reference", problems);
   }

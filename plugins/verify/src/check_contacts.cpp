@@ -114,9 +114,14 @@ bool check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
     check_surfaces(scene, limit, contact, allowed, name, problems);
     const double gap = (contact.points[1] - contact.points[0]).dot(contact.normal) - setting.clearance;
     const Vec3 aside = contact.points[1] - contact.points[0] - (gap + setting.clearance) * contact.normal;
-    if (!(aside.norm() <= allowed.length))
+    // Points are written with all digits, whatever surfaces they stand for.
+    const double written =
+        setting.facets > 0
+            ? allowed.length
+            : tolerances.written * (scene.length + contact.points[0].norm() + contact.points[1].norm());
+    if (!(aside.norm() <= written))
       problems.push_back(fmt::format("{}: its points are {:.3g} off its normal", name, aside.norm()));
-    if (std::abs(gap - contact.gap) > allowed.length)
+    if (!(std::abs(gap - contact.gap) <= written))
       problems.push_back(
           fmt::format("{}: gap {:.6g} listed, {:.6g} between its points", name, contact.gap, gap));
   }

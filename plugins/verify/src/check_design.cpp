@@ -219,6 +219,9 @@ VerifyLine check_profiles(const json::value& results, Load load, const std::vect
   for (const json::value& p : array(member(results, "profiles", ""), "/profiles")) {
     const std::string at = fmt::format("/profiles/{}", i++);
     const double direction = number(member(p, "direction_deg", at), at);
+    if (find_limit(limits, direction, positive) == nullptr &&
+        find_limit(limits, direction, negative) == nullptr)
+      problems.push_back(fmt::format("{}/direction_deg: no limit has it", at));
     const auto e_s = value_of(limits, direction, positive), e_c = value_of(limits, direction, negative);
     const auto joined = load != Load::paraboloid ? eta(e_s, e_c) : std::nullopt;
     for (const auto& [key, expected] :
@@ -246,6 +249,7 @@ VerifyLine check_design(const json::value& results, const std::vector<Limit>& in
   check_start(design, problems);
   record.done(VerifyPart::design, "/design", problems.empty());
   record.done(VerifyPart::design, "/experiment/design", problems.empty());
+  record.done(VerifyPart::design, "/experiment/cell/patch/tile", problems.empty());
   return line("design", problems, "targets, objectives and variables agree with limits and scenes");
 }
 

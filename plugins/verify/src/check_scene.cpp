@@ -113,7 +113,8 @@ double off_place(const Scene& scene, const Layout& laid, std::size_t k)
 
 /// Rest is as placed; or, where it may have been relaxed, it is linked as placed, and nothing overlaps.
 std::string compare_rest(const Scene& scene, const Layout& laid, const Setting& setting, bool relaxed,
-                         const VerifyTolerances& tolerances, Sentences& problems)
+                         const VerifyTolerances& tolerances, const std::string& experiment_where,
+                         Sentences& problems, Record& record)
 {
   double most = 0.0;
   std::size_t which = 0;
@@ -137,12 +138,26 @@ std::string compare_rest(const Scene& scene, const Layout& laid, const Setting& 
   const std::string changed =
       difference(links(scene, placed, Mat3::Identity()), links(scene, rest, Mat3::Identity()));
   if (!changed.empty()) problems.push_back("relaxed from its places to rest, not to the limit: " + changed);
+  for (std::size_t k = 0; k < laid.elements.size(); ++k)
+    for (const char* key : {"position", "rotation"})
+      record.skip(fmt::format("{}/cell/place/{}/{}", experiment_where, laid.elements[k].place, key),
+                  "places from which rest was relaxed");
   const auto closest = closest_pair(scene, rest, Mat3::Identity(), setting.clearance);
   if (closest && closest->distance < setting.clearance - tolerances.wrong_side * scene.length)
     problems.push_back(
         fmt::format("rest: surfaces of elements {} and {} are {:.3g} closer than the clearance",
                     closest->pair.first, closest->pair.second, setting.clearance - closest->distance));
   return fmt::format("rest relaxed by up to {:.2g} L or radians", most);
+}
+
+/// The design starts from the parameters that the experiment gives.
+void compare_initial(const Layout& laid, const std::vector<DesignedValue>& designed, Sentences& problems)
+{
+  for (const DesignedValue& value : designed)
+    for (const auto& [k, name] : value.parameters)
+      if (const double given = laid.elements.at(k).parameters.at(name); !equal(value.value, given, rounding))
+        problems.push_back(fmt::format("{}: {} starts from {:.10g}, the experiment has {:.10g}",
+                                       at_element(k), name, value.value, given));
 }
 
 bool may_relax(const json::value& experiment)
@@ -171,13 +186,14 @@ VerifyLine check_scene(const SceneCheck& check, const VerifyTolerances& toleranc
     problems.push_back(fmt::format("{} elements, the experiment places {}", check.scene->elements.size(),
                                    laid->elements.size()));
   } else {
+    if (check.initial) compare_initial(*laid, check.designed, problems);
     for (const DesignedValue& value : check.designed)
       for (const auto& [k, name] : value.parameters) laid->elements.at(k).parameters[name] = value.value;
     compare_cell(*laid, *check.scene, problems);
     compare_parameters(*laid, *check.json, where, problems);
     compare_primitives(experiment, *laid, *check.scene, where, problems, record);
     rest = compare_rest(*check.scene, *laid, check.setting, check.relaxed || may_relax(experiment),
-                        tolerances, problems);
+                        tolerances, own_experiment, problems, record);
   }
   record.done(VerifyPart::scene, where, problems.empty());
   record.done(VerifyPart::scene, own_experiment, problems.empty());

@@ -121,6 +121,7 @@ void check_sensitivity(const Scene& scene, const Setting& setting, const Limit& 
                        const std::string& where, Sentences& problems, Record& record)
 {
   const bool points = limit.contact == "nearest" || limit.contact == "constrained";
+  if (limit.kink) return record.skip(where, ambiguous);
   if (limit.status != "locked" || !points || setting.facets > 0 || limit.finite_target)
     return record.skip(where, "sensitivities of states that are not held at points by a constant load");
   if (!unique_forces(scene, setting, limit)) return record.skip(where, ambiguous);

@@ -25,7 +25,10 @@ struct Case {
   std::optional<double> value, best_known, exact;
   double slack = 0.0;
   bool checked = false;
+  std::string check;
 };
+
+const char* const stated = "states of which only the value is kept";
 
 Case read_case(const json::value& v, const std::string& where)
 {
@@ -43,7 +46,8 @@ Case read_case(const json::value& v, const std::string& where)
            {},
            {},
            0.0,
-           false};
+           false,
+           word("check")};
   if (const json::value& sense = member(v, "sense", where); !sense.is_null())
     out.sense = text(sense, where + "/sense");
   const json::value* components = v.as_object().if_contains("direction");
@@ -82,7 +86,7 @@ void check_case(const Case& c, bool solvable, double tolerance, const std::vecto
   if (c.exact && !equal(c.best_known, c.exact, rounding))
     problems.push_back(
         fmt::format("best_known {}, the exact value is {}", show(c.best_known), show(c.exact)));
-  if (c.exact || !c.best_known || c.status != "locked") return;
+  if (c.exact || !c.best_known) return;
   // Which cases share a scene is not told; but the best known value is one of a checked case, and no less
   // than this one's.
   const bool somebodys = std::any_of(all.begin(), all.end(), [&](const Case& o) {
@@ -91,9 +95,43 @@ void check_case(const Case& c, bool solvable, double tolerance, const std::vecto
   if (!somebodys)
     problems.push_back(fmt::format("best_known {}: no checked case has it", show(c.best_known)));
   const double sign = c.sense == "compress" || c.sense == "down" ? -1.0 : 1.0;
-  if (c.checked && c.value && sign * (*c.value - *c.best_known) > 0.0)
+  if (c.status == "locked" && c.checked && c.value && sign * (*c.value - *c.best_known) > 0.0)
     problems.push_back(
         fmt::format("value {} is further than best_known {}", show(c.value), show(c.best_known)));
+}
+
+/// What the check of a locked state said begins with what it was about.
+void check_said(const Case& c, Sentences& problems, Record& record)
+{
+  if (c.status == "locked" && c.checked) {
+    if (c.check.find("locked " + show(c.value) + ":") == std::string::npos)
+      problems.push_back(fmt::format("value {}: not that of the state that was checked", show(c.value)));
+    return;
+  }
+  record.skip(c.where + "/checked", stated);
+  if (c.value) record.skip(c.where + "/value", stated);
+}
+
+bool known_status(const std::string& status)
+{
+  constexpr std::array statuses{"locked", "unbounded",   "not_attained", "stalled",
+                                "failed", "interrupted", "not_a_sheet",  "refused"};
+  return std::find(statuses.begin(), statuses.end(), status) != statuses.end();
+}
+
+/// Methods of one member are asked the same questions, unless one was refused.
+void check_questions(const Case& c, const std::vector<Case>& cases, Sentences& problems)
+{
+  if (c.sense.empty()) return;
+  for (const Case& o : cases) {
+    if (o.family != c.family || o.member != c.member || o.method == c.method || o.sense.empty()) continue;
+    const bool there = std::any_of(cases.begin(), cases.end(), [&](const Case& p) {
+      return p.family == o.family && p.member == o.member && p.method == o.method && p.sense == c.sense &&
+             p.direction == c.direction;
+    });
+    if (!there)
+      return problems.push_back(fmt::format("'{}' was not asked for this direction and sense", o.method));
+  }
 }
 
 /// How many of the cases that fit have each outcome is what `counts` says.
@@ -188,6 +226,26 @@ void check_names(const Case& c, const std::vector<Case>& cases, const json::arra
   if (same != 1) problems.emplace_back("there are two of it");
 }
 
+/// Exact values are the experiment's, by member.
+void check_exact_value(const Case& c, const json::array& families, const json::array& asked,
+                       Sentences& problems)
+{
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    if (text(member(families[f], "name", c.where), c.where) != c.family) continue;
+    const json::array& members = array(member(families[f], "members", c.where), c.where);
+    const json::value* exact = asked[f].as_object().if_contains("exact");
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      if (members[k] != json::value(c.member)) continue;
+      const bool given = exact != nullptr && exact->is_array() && k < exact->as_array().size() &&
+                         !exact->as_array()[k].is_null();
+      const auto expected = given ? std::optional(number(exact->as_array()[k], c.where)) : std::nullopt;
+      // Nothing is compared where the input was refused.
+      if (c.status != "refused" && !equal(c.exact, expected, rounding))
+        problems.push_back(fmt::format("exact {}, the experiment has {}", show(c.exact), show(expected)));
+    }
+  }
+}
+
 }  // namespace
 
 void check_stability(const json::value& experiment, const json::value& map, std::vector<VerifyLine>& lines,
@@ -226,6 +284,10 @@ void check_stability(const json::value& experiment, const json::value& map, std:
     Sentences problems;
     const auto family = solvable.find(c.family);
     check_names(c, cases, families, problems);
+    check_questions(c, cases, problems);
+    check_said(c, problems, record);
+    if (!known_status(c.status)) problems.push_back(fmt::format("status \"{}\" is not known", c.status));
+    check_exact_value(c, families, asked_families, problems);
     check_case(c, family == solvable.end() || family->second, tolerance, cases, problems);
     record.done(VerifyPart::stability, c.where, problems.empty());
     if (!problems.empty())

@@ -101,6 +101,7 @@ void check_values(const Scene& scene, const Setting& setting, const Limit& limit
   problems.insert(problems.end(), places.begin(), places.end());
   check_heights(scene, setting, limit, tolerances, problems);
   check_range(scene, limit, tolerances, problems);
+  if (limit.infimum) problems.emplace_back("infimum is given, but there is a state");
   check_starts(limit, tolerances, problems);
 }
 

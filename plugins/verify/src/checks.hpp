@@ -51,6 +51,7 @@ struct SceneCheck {
   Setting setting;
   std::vector<DesignedValue> designed;
   bool relaxed = false;  ///< rest may have been relaxed, whatever the experiment says
+  bool initial = false;  ///< of a design: the experiment gives what is designed, too
 };
 
 /// The scene is what the experiment's text says: cell, types, parameters, primitives, and rest as placed or

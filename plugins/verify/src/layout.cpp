@@ -86,7 +86,7 @@ std::vector<LaidElement> read_places(const json::value& experiment, const json::
     const std::string where = "/experiment/cell/place/" + std::to_string(out.size());
     LaidElement element;
     element.type = text(member(entry, "element", where), where + "/element");
-    element.tile = static_cast<int>(out.size());
+    element.tile = element.place = static_cast<int>(out.size());
     overlay(member(types, element.type.c_str(), "/experiment/elements"),
             "/experiment/elements/" + element.type, element.parameters);
     overlay(entry, where, element.parameters);
@@ -209,6 +209,10 @@ std::optional<Layout> laid_out(const json::value& experiment)
   if (cell == nullptr || !cell->is_object() || !cell->as_object().contains("place")) return std::nullopt;
   const std::vector<LaidElement> placed = read_places(experiment, *cell);
   const json::value* patch = cell->as_object().if_contains("patch");
+  const json::value* repeat = cell->as_object().if_contains("repeat");
+  if (patch != nullptr && repeat != nullptr)
+    for (const double count : numbers(*repeat, "/experiment/cell/repeat"))
+      if (count != 1.0) throw Malformed("/experiment/cell/repeat: a patch is not repeated");
   return patch != nullptr ? patched(*patch, placed) : repeated(*cell, placed);
 }
 

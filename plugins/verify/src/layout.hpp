@@ -15,7 +15,8 @@ struct LaidElement {
   std::string type;
   std::map<std::string, double> parameters;
   Place rest;
-  int tile = 0;  ///< the element by which variables are named that it shares its parameters with
+  int place = 0;  ///< its entry of the experiment's `place`
+  int tile = 0;   ///< the element by which variables are named that it shares its parameters with
 };
 
 struct Layout {

@@ -158,6 +158,7 @@ struct Limit {
   std::optional<double> finite_target;
   std::optional<Macro> macro;
   bool links_kept = false;
+  bool kink = false;  ///< contact forces are said not to be unique
   std::vector<Start> starts;
   std::vector<Place> poses;
   std::vector<Contact> contacts;

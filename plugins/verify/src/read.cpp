@@ -336,6 +336,10 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
   out.infimum = optional_number(limit, "infimum", where);
   out.z_range = optional_number(limit, "z_range", where);
   read_held(limit, where, out);
+  if (const json::value* kink = fields.if_contains("kink")) {
+    if (!kink->is_bool()) throw Malformed(where + "/kink: true or false expected");
+    out.kink = kink->get_bool();
+  }
   if (limit.is_object() && limit.get_object().contains("finite_target"))
     out.finite_target = number(member(limit, "finite_target", where), where + "/finite_target");
   const json::value& kept = member(limit, "links_kept", where);

@@ -105,10 +105,15 @@ void check_unknown_load(const json::value& results, const std::string& prefix, c
     work.record.skip(prefix + part, why);
   for (const char* part : {"/experiment/load_case", "/experiment/solver", "/experiment/design"})
     work.record.skip(prefix + part, why);
+  const json::value& asked =
+      member(member(results, "experiment", prefix), "load_case", prefix + "/experiment");
   std::size_t i = 0;
   for (const json::value& limit : array(member(results, "limits", prefix), prefix + "/limits")) {
-    (void)limit;
-    work.lines.push_back({true, fmt::format("{}/limits/{}: {}", prefix, i++, why), false});
+    const std::string where = fmt::format("{}/limits/{}", prefix, i++);
+    if (member(limit, "load_case", where) == member(asked, "plugin", prefix + "/experiment/load_case"))
+      work.lines.push_back({true, where + ": " + why, false});
+    else
+      work.malformed(where + "/load_case: not the experiment's");
   }
   const Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
   SceneCheck check{&member(results, "experiment", prefix),
@@ -144,6 +149,9 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
     if (!prefix.empty()) line.text = prefix + ": " + line.text;
     work.lines.push_back(std::move(line));
   };
+  if (const json::value* design = results.as_object().if_contains("design");
+      design != nullptr && !design->is_null())
+    throw Malformed(prefix + "/design: null expected, as nothing is designed here");
   VerifyLine profiles = check_profiles(results, setting.load, limits, work.tolerances);
   work.record.done(VerifyPart::profiles, prefix + "/profiles", profiles.ok);
   add(std::move(profiles));
@@ -217,8 +225,13 @@ void check_sweep(const json::value& sweep, const Work& work)
     const std::string status = text(member(row, "status", where), where);
     if (result.is_null()) {
       // Only a row that is done must have any; whether the status is one at all the table tells.
-      work.record.done(VerifyPart::sweep, where, status != "done");
-      work.lines.push_back({status != "done", where + ": " + status + ", no results", false});
+      bool nothing = status != "done";
+      const json::value& measured = member(row, "measured", where);
+      if (measured.is_object())
+        for (const auto& [name, value] : measured.as_object()) nothing = nothing && value.is_null();
+      work.record.done(VerifyPart::sweep, where, nothing);
+      work.lines.push_back(
+          {nothing, where + ": " + status + (nothing ? ", no results" : ", but results are missing"), false});
       continue;
     }
     try {
@@ -266,8 +279,9 @@ void check_designed(const json::value& results, const Work& work)
   work.lines.push_back(std::move(line));
   const SceneCheck last{&experiment, "/experiment", &scene_json,    "/scene",
                         &scene,      setting,       designed.final, true};
-  const SceneCheck first{&experiment,    "/experiment", &initial_json,    "/design/initial/scene",
-                         &initial_scene, setting,       designed.initial, true};
+  const SceneCheck first{
+      &experiment,      "/experiment", &initial_json, "/design/initial/scene", &initial_scene, setting,
+      designed.initial, true,          true};
   work.lines.push_back(scene_and_asked(last, limits, work));
   work.lines.push_back(scene_and_asked(first, initial_limits, work));
 }

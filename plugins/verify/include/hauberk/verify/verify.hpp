@@ -23,7 +23,9 @@ struct VerifyTolerances {
   /// rounding error of about 1e-15 L / g, 1e-5 at g = 1e-10 L, which is added, but no more than that much.
   double balance = 1e-4, rounding = 1e-15, most_rounding = 1e-3;
   /// Of the reported imbalance against the one found here: the same sum of the same numbers.
-  double balance_agreement = 1e-6;
+  double balance_agreement = 1e-8;
+  /// Of gaps against the points that they are listed with, over the sizes of the coordinates.
+  double written = 1e-13;
   /// Of what is held at zero, strains or curvatures times L; of reactions, beside ten times the imbalance.
   double held = 1e-9, reaction = 1e-7;
   /// Of the mean translation: one element in a thousand, moved by 1e-3 mm, shows.

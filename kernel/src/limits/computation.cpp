@@ -286,7 +286,7 @@ class Computation {
     std::optional<FoundState> out;
     std::string problem;
     try {
-      const std::optional<State> start = donors.state(donor, states[*best].locked.state);
+      const std::optional<State> start = donors.state(donor, states[*best].locked);
       if (start) {
         out = FoundState{
             limit_from_state(model_, tasks_[task], settings_, *start, [this] { return going(); }),

@@ -91,6 +91,8 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
     LimitResult& own = results[k];
     if (own.status != LimitStatus::locked || !own.value || own.resumed) continue;
     const double value = towards(m, tasks[k], own);
+    double most = 0.0;  // by which any state is further
+    std::string furthest;
     for (std::size_t donor = 0; donor < donors.count(); ++donor) {
       const std::size_t d = donors.task(donor);
       const LimitResult& other = results[d];
@@ -113,12 +115,14 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
       }
       if (!there) continue;
       if (*there > value + margin) {
-        own.confidence.contradicted_by.push_back(fmt::format("{}: further by {:.3g}", by, *there - value));
+        if (*there - value > most) furthest = fmt::format("{}: further by {:.3g}", by, *there - value);
+        most = std::max(most, *there - value);
       } else if (donors.same_load(donor, tasks[k]) && *there > value - margin && found_alone(own) &&
                  found_alone(other)) {
         own.confidence.confirmed_by.push_back(by);
       }
     }
+    if (!furthest.empty()) own.confidence.contradicted_by.push_back(std::move(furthest));
     auto& by = own.confidence.confirmed_by;
     std::sort(by.begin(), by.end());
     by.erase(std::unique(by.begin(), by.end()), by.end());

@@ -11,6 +11,10 @@ constexpr double same_angle = 1e-7, widest = 30.0;
 /// Conditions missed by less are kept: rounding of the symmetry that carries a state over.
 constexpr double kept = 1e-9;
 
+/// Activation distance (L) of a stage whose gaps, a tenth of it, have room for what a scene's symmetry is off by
+/// (symmetry_tolerance).
+constexpr double room_of_image = 1e-5;
+
 /// From one direction to another, in (-90, 90].
 double turn(double from, double to)
 {
@@ -34,9 +38,13 @@ Donors::Donors(const Model& m, const std::vector<LimitTask>& tasks)
   for (std::size_t k = 0; k < tasks.size(); ++k) images_[k * symmetries_.size()] = tasks[k];
 }
 
-std::optional<State> Donors::state(std::size_t donor, const State& own) const
+std::optional<State> Donors::state(std::size_t donor, const Locked& own) const
 {
-  return is_own(donor) ? own : transformed(model_, symmetries_[donor % symmetries_.size()], own);
+  if (is_own(donor)) return own.state;
+  const State* roomy = &own.state;
+  for (std::size_t k = 0; k < own.trail.size() && own.stages[k].g_hat >= room_of_image; ++k)
+    roomy = &own.trail[k];
+  return transformed(model_, symmetries_[donor % symmetries_.size()], *roomy);
 }
 
 bool Donors::same_load(std::size_t donor, const LimitTask& task) const

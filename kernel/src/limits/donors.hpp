@@ -20,8 +20,10 @@ class Donors {
   std::size_t task(std::size_t donor) const { return donor / symmetries_.size(); }
   bool is_own(std::size_t donor) const { return donor % symmetries_.size() == 0; }
 
-  /// A state of the donor's task as the donor has it; null where the symmetry makes none of it.
-  std::optional<State> state(std::size_t donor, const State& own) const;
+  /// A locked state of the donor's task as the donor has it; null where the symmetry makes none of it. A
+  /// scene is symmetric up to the digits that it is written with, and a locked state has no room for those: an
+  /// image is that of the last stage that has.
+  std::optional<State> state(std::size_t donor, const Locked& own) const;
 
   /// Whether the donor's load, carried over, is that of a task: their limits are equal then.
   bool same_load(std::size_t donor, const LimitTask& task) const;

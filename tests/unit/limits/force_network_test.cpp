@@ -14,7 +14,7 @@
 namespace hauberk::test {
 namespace {
 
-const InPlanePeriodic flat(StrainMeasure::tensor, {});
+const InPlanePeriodic flat(StrainMeasure::tensor, {}, {false, false});
 
 struct LockedAt {
   Locked locked;

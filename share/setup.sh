@@ -12,7 +12,6 @@ packages=(
   libboost1.81-dev                  # plugin loading, intervals (1.74, the default, is too old)
   libboost-json1.81-dev libboost-program-options1.81-dev
   libsuitesparse-dev                # CHOLMOD
-  libopenblas0-serial               # products of dense blocks in large scenes: 10 times as fast as plain BLAS
   libnlopt-dev                      # optimizers/nlopt
   libfmt-dev
   libgtest-dev python3-jsonschema   # tests only

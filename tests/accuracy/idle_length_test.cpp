@@ -54,8 +54,8 @@ TEST(IdleLength, ChangesNoLimitOfAChain)
 TEST(IdleLength, IsNotThatOfALinkedVector)
 {
   const test::Sheet sheet(2);
-  const Model one = make_model(test::chainmail(1, 1), sheet, 0.0),
-              four = make_model(test::chainmail(2, 2), sheet, 0.0);
+  const Model one = make_model(test::chainmail(2, 2), sheet, 0.0),
+              four = make_model(test::chainmail(4, 4), sheet, 0.0);
   EXPECT_NEAR(four.metric[0], 4.0 * one.metric[0], 1e-12 * four.metric[0]);
   const Model chain = make_model(chain_beside({0, 1e6, 0}), sheet, 0.0);
   EXPECT_LT(chain.metric[1], 10.0);

@@ -1,11 +1,37 @@
 #include "limit_report.hpp"
 
+#include <hauberk/motion/advancement.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace hauberk {
 namespace {
+
+/// Part of every gap that a straight way must leave.
+constexpr double keep_gap = 0.1;
+/// Pieces that become one at most, while the strain does not double: longer ones take many images to certify.
+constexpr std::size_t most_joined = 32;
+
+/// The same way in fewer pieces: from each state straight to a far one that it certainly reaches.
+std::vector<State> in_fewer_pieces(const Model& m, const std::vector<State>& path)
+{
+  const auto largest = [&m](const State& s) {
+    return m.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m.macro_count)}).second;
+  };
+  std::vector<State> out{path.front()};
+  for (std::size_t at = 0; at + 1 < path.size();) {
+    std::size_t span = std::min(most_joined, path.size() - 1 - at);
+    while (span > 1 &&
+           (largest(path[at + span]) > 2.0 * largest(path[at]) ||
+            largest_safe_step(m, path[at], difference(m, path[at], path[at + span]), keep_gap).alpha < 1.0))
+      span /= 2;
+    at += span;
+    out.push_back(path[at]);
+  }
+  return out;
+}
 
 WitnessState reported(const Model& m, const State& s)
 {
@@ -33,7 +59,8 @@ void add_witness(LimitResult& r, const Model& m, const LimitTask& task, const Lo
     return;
   }
   const State* last = nullptr;
-  for (const State& s : l.path) {
+  const std::vector<State> path = in_fewer_pieces(m, l.path);
+  for (const State& s : path) {
     if (last == nullptr || step_norm(m, difference(m, *last, s)) > 0.0) r.witness.push_back(reported(m, s));
     last = &s;
   }

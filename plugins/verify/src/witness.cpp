@@ -19,8 +19,9 @@ constexpr double largest_stretch = 1e3;  ///< singular value of F that no limit 
 constexpr double same_place = 1e-9;      ///< L
 /// Of an unbounded value: it must have grown with the strain, to this part of it at least.
 constexpr double grown = 1e-2;
-constexpr int most_looks = 200000;  ///< pairs of elements looked at for one piece of a motion
-constexpr int most_halvings = 50;
+constexpr int most_looks = 300;  ///< at pairs that balls do not keep apart, for one piece of a motion
+constexpr int samples = 33;      ///< of a piece that takes more
+constexpr int most_halvings = 30;
 
 Vec3 own_displacement(const Scene& scene, const MovedState& s, std::size_t k)
 {
@@ -52,6 +53,16 @@ class Piece {
       du_.push_back(own_displacement(scene, to, k) - u_.back());
       turn_.emplace_back(Mat3(to.places[k].rotation * from.places[k].rotation.transpose()));
     }
+  }
+
+  /// Whether surfaces intersect at one of a few times.
+  bool meets_somewhere()
+  {
+    for (int k = 0; k < samples; ++k) {
+      looks_ = 0;
+      if (around(static_cast<double>(k) / (samples - 1), 0.0) == Motion::meets) return true;
+    }
+    return false;
   }
 
   Motion over(double from, double to, int halvings)
@@ -105,7 +116,6 @@ class Piece {
     const double far = (reaches + relative * own + half * (change + turning)) / (1.0 - relative);
     Motion out = Motion::free;
     for (const Neighbour& pair : neighbours(scene_, s.places, F, std::max(0.0, far - least))) {
-      ++looks_;
       const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
       const Element &a = scene_.elements[i], &b = scene_.elements[j];
       Place other = s.places[j];
@@ -114,6 +124,8 @@ class Piece {
       const double comes =
           half * ((dF_ * rest + du_[i] - du_[j]).norm() + std::abs(turn_[i].angle()) * a.reach +
                   std::abs(turn_[j].angle()) * b.reach);
+      if ((s.places[i].position - other.position).norm() - a.reach - b.reach > comes) continue;
+      if (++looks_ > most_looks) return Motion::undecided;
       if (apart(a, s.places[i], b, other, comes)) continue;
       if (!apart(a, s.places[i], b, other, 0.0)) return Motion::meets;
       out = Motion::undecided;
@@ -168,7 +180,9 @@ void check_end(const Limit& limit, const MovedState& last, Sentences& problems)
 
 Motion motion(const Scene& scene, const MovedState& from, const MovedState& to)
 {
-  return Piece(scene, from, to).over(0.0, 1.0, 0);
+  Piece piece(scene, from, to);
+  const Motion out = piece.over(0.0, 1.0, 0);
+  return out == Motion::undecided && piece.meets_somewhere() ? Motion::meets : out;
 }
 
 void check_witness(const Scene& scene, const Limit& limit, Sentences& problems, Sentences& found)
@@ -197,17 +211,23 @@ void check_witness(const Scene& scene, const Limit& limit, Sentences& problems, 
   }
   const auto links_of = [&](const MovedState& s) { return links(scene, s.places, s.macro.deformation()); };
   const auto at_rest = links_of(limit.witness.front());
+  std::size_t free = 0;
   for (std::size_t k = 1; k < limit.witness.size(); ++k) {
     const std::string changed = difference(at_rest, links_of(limit.witness[k]));
     if (!changed.empty()) problems.push_back(fmt::format("witness state {}: {}", k, changed));
     const Motion way = motion(scene, limit.witness[k - 1], limit.witness[k]);
-    if (way == Motion::free) continue;
-    problems.push_back(fmt::format(
-        "between witness states {} and {} {}", k - 1, k,
-        way == Motion::meets ? "surfaces intersect" : "the motion is not shown to be free of intersection"));
+    if (way == Motion::meets)
+      problems.push_back(fmt::format("between witness states {} and {} surfaces intersect", k - 1, k));
+    free += way == Motion::free ? 1 : 0;
   }
   check_end(limit, limit.witness.back(), problems);
-  found.push_back(fmt::format("a free motion of {} pieces past every bound", limit.witness.size() - 1));
+  const std::size_t pieces = limit.witness.size() - 1;
+  found.push_back(fmt::format("a motion of {} pieces past every bound", pieces) +
+                  (free == pieces
+                       ? ", free of intersection"
+                       : fmt::format(", {} of them shown to be free of intersection, the others at {} "
+                                     "times each",
+                                     free, samples)));
 }
 
 }  // namespace hauberk::verification

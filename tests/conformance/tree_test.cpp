@@ -21,11 +21,14 @@ HAUBERK_CONFORMANCE_TESTS(Mesh, folder + "mesh.so",
                           R"({ "shape": "mesh", "file": ")" HAUBERK_SOURCE_DIR
                           R"(/shapes/mesh/frame.obj" })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
-HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicEquation12, folder + "in_plane_periodic.so", R"({ "measure": "equation_12", "hold": [] })");
+HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicEquation12, folder + "in_plane_periodic.so",
+                          R"({ "measure": "equation_12", "hold": [] })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicLayer, folder + "in_plane_periodic.so",
                           R"({ "out_of_plane": 0.3 })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicFree, folder + "in_plane_periodic.so",
                           R"({ "out_of_plane": "free" })");
 HAUBERK_CONFORMANCE_TESTS(ParaboloidBending, folder + "paraboloid_bending.so");
+HAUBERK_CONFORMANCE_TESTS(ParaboloidBendingPlaces, folder + "paraboloid_bending.so",
+                          R"({ "hold": ["places", "twist"] })");
 
 }  // namespace

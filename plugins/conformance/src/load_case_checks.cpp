@@ -70,8 +70,8 @@ void unknowns(Trial& trial)
   const LoadCase& load_case = *object.load_case;
   const int macros = load_case.macro_count(), coordinates = load_case.coordinate_count();
   require(macros >= 1 && macros <= max_macro, "{} macroscopic unknowns; expected 1 to {}", macros, max_macro);
-  require(coordinates >= 1 && coordinates <= max_coordinates,
-          "{} coordinates of an element; expected 1 to {}", coordinates, max_coordinates);
+  require(coordinates >= 0 && coordinates <= max_coordinates,
+          "{} coordinates of an element; expected 0 to {}", coordinates, max_coordinates);
   std::set<std::string> names;
   for (const MacroInfo& macro : load_case.macros()) {
     require(!macro.name.empty(), "a macroscopic unknown has no name");

@@ -152,7 +152,7 @@ TEST(LoadCaseChecks, Position)
   load_case.coordinates = 4;
   EXPECT_EQ(
       position(one, two),
-      "load case: declares 1 macroscopic unknowns (at most 6) and 4 coordinates of an element (1 to 3)");
+      "load case: declares 1 macroscopic unknowns (at most 6) and 4 coordinates of an element (at most 3)");
 }
 
 TEST(LoadCaseChecks, Components)

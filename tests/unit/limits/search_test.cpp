@@ -167,7 +167,7 @@ TEST(Search, InterruptedStartsSaySo)
   LimitSettings settings;
   settings.schedule.last = 3e-9;
   bool attempts = false;  // with arc, after nearest did not balance
-  for (const double r : {0.5, 0.6, 0.7}) {
+  for (const double r : {0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85}) {
     const Model m = make_model(chain({5.0, r, r}, {5.0, r, r}, 12.0), load, 0.0);
     const LimitTask task{Direction(), Sense::positive};
     int calls = 0;

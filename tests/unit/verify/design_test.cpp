@@ -116,7 +116,7 @@ TEST(Profiles, EtaFollowsFromBothSenses)
   json::value compressed = document.at_pointer("/limits/0");
   auto& limit = compressed.as_object();
   limit["sense"] = "compress";
-  limit["status"] = "unbounded";
+  limit["status"] = "stalled";
   for (const char* key : {"value", "line_stretch", "min_gap", "force_balance"}) limit[key] = nullptr;
   for (const char* key : {"poses", "contacts", "starts"}) limit[key].emplace_array();
   limit["contact"] = "";

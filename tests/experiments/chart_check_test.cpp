@@ -20,7 +20,7 @@ TEST_F(ChartCheck, IsVerifiedFromTheFile)
   const Outcome good = run_program({"verify", *folder_ / "out"});
   EXPECT_EQ(good.code, 0) << good.out;
   EXPECT_TRUE(holds(good.out, "PASS /chart: 14 points, as asked for\n"));
-  EXPECT_TRUE(holds(good.out, "PASS /chart/points/0 (chain, nearest, 0.01): error 6."));
+  EXPECT_TRUE(holds(good.out, "PASS /chart/points/0 (chain, nearest, 0.01): error 0.000435"));
   EXPECT_TRUE(holds(good.out, "NONE /chart/points/8 (chain, arc, hasty): failed, no error\n"));
   const auto after = [&](const std::string& pointer, const json::value& value) {
     json::value wrong = results_;

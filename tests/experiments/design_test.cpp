@@ -57,7 +57,6 @@ TEST(Design, OfAWeaveThatIsAlsoSweptRunsByItself)
   const std::string file = folder.write("w.json", R"({ "name": "w", "task": "design",
   "cell": { "weave": { "name": "chain", "parameters": { "inner_diameter": 8 } } },
   "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
-  "solver": { "preset": "fast" },
   "design": { "quantity": "stretch", "optimizer": { "plugin": "sqp", "max_iterations": 1 },
     "variables": [{ "parameters": "ring.R", "lower": 4, "upper": 5 }],
     "targets": [{ "direction_deg": 0, "value": 0.4 }] },

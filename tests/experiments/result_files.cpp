@@ -66,8 +66,8 @@ void expect_whole(const Contents& files, const std::string& what)
 
 std::string endless_text()
 {
-  return with(with(chain_text(), R"(["stretch"])", R"(["compress", "stretch"])"), R"("preset": "accurate")",
-              R"("preset": "accurate", "starts": 200000)");
+  return with(with(chain_text(), R"("directions_deg": [0])", R"("directions_deg": [90, 0])"),
+              R"("preset": "accurate")", R"("preset": "accurate", "starts": 200000)");
 }
 
 const std::vector<TaskCase>& task_cases()

@@ -70,7 +70,8 @@ TEST(Run, MissedExpectationsFailAfterWriting)
   EXPECT_TRUE(fs::exists(folder / "out/results.json"));
 }
 
-TEST(Run, UnboundedAndNotAttainedAreAnswers)
+/// What links do not stop is tried: rings of a chain jam when it is compressed, rows of chains part for ever.
+TEST(Run, UnboundedIsAnAnswer)
 {
   const TemporaryFolder folder;
   const std::string text = with(with(chain_text(), R"(, "senses": ["stretch"])", ""),
@@ -79,9 +80,11 @@ TEST(Run, UnboundedAndNotAttainedAreAnswers)
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   const json::value r = read_results(folder / "out");
   EXPECT_EQ(r.at_pointer("/limits/1/sense").as_string(), "compress");
-  EXPECT_EQ(r.at_pointer("/limits/1/status").as_string(), "not_attained");
-  EXPECT_TRUE(r.at_pointer("/limits/1/value").is_null());
+  EXPECT_EQ(r.at_pointer("/limits/1/status").as_string(), "locked");
+  // One ring's images along the chain are at least two tube radii apart: 1 + value >= 1.4/12.
+  EXPECT_GT(number_at(r, "/limits/1/value"), 1.4 / 12.0 - 1.0);
   EXPECT_EQ(r.at_pointer("/limits/2/status").as_string(), "unbounded");
+  EXPECT_EQ(run_program({"verify", folder / "out/results.json"}).code, 0) << "its witness";
 }
 
 TEST(Run, UnfinishedLimitsFailTheRun)
@@ -95,11 +98,11 @@ TEST(Run, UnfinishedLimitsFailTheRun)
 }
 
 /// A chain whose second ring leans over, so that tubes are nearly parallel where they touch: nearest points
-/// merge, the energy is flat to rounding, and the forces on what is left of them miss the load by 0.29 of it.
+/// merge, the energy is flat to rounding, and the forces on what is left of them miss the load.
 TEST(Run, UnbalancedForcesAreNoLockedState)
 {
   const TemporaryFolder folder;
-  const std::string file = folder.write("c.json", with(chain_text(), R"("degrees": 90)", R"("degrees": 35)"));
+  const std::string file = folder.write("c.json", with(chain_text(), R"("degrees": 90)", R"("degrees": 32)"));
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/contact=nearest"});
   const json::value r = read_results(folder / "out");
   EXPECT_EQ(r.at_pointer("/limits/0/status").as_string(), "stalled");
@@ -125,7 +128,7 @@ TEST(Run, LimitsOnTheWrongSideOfRestAreNone)
   EXPECT_EQ(fast.code, 1) << fast.out;
   EXPECT_NE(
       fast.out.find("stretch at 0 degrees: stalled: rest is nearer to the limit than the gaps that this "
-                    "schedule leaves: value -7."),
+                    "schedule leaves: value -4."),
       std::string::npos)
       << fast.out;
   const Outcome accurate = run_program({"run", file, "-o", folder / "accurate", "--set", "/expect=[]"});

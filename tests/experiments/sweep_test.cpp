@@ -239,7 +239,7 @@ TEST(SweepRun, TableIsVerifiedAgainstWhatWasAskedFor)
   found = after("/sweep/rows/8/values/r", 0.6);
   EXPECT_TRUE(says(found, "rows/8: 'r' is not the value of this row")) << found;
   found = after("/sweep/rows/0/result", nullptr);
-  EXPECT_TRUE(says(found, "FAIL /sweep/rows/0: done, no results")) << found;
+  EXPECT_TRUE(says(found, "FAIL /sweep/rows/0: done, but results are missing")) << found;
   found = after("/sweep/rows/8/status", "done");
   EXPECT_TRUE(says(found, "counts/done: 7 expected, found 6")) << found;
   found = after("/sweep/axes/0/places/1/factor", 0.4);

@@ -21,6 +21,7 @@ struct Attempt {
   std::optional<Locked> locked;  ///< null: not begun, interrupted, or it threw
   std::string error;
   double seconds = 0.0;
+  bool needless = false;  ///< the first start has shown that nothing stops the load
 };
 
 /// What is known of a task.
@@ -139,10 +140,22 @@ class Computation {
     return out;
   }
 
+  /// The first start of a task went past every bound, with a witness: others would say no more.
+  bool runs_away(std::size_t task) const
+  {
+    const std::optional<Locked>& first = states_[task].starts.front().locked;
+    return first && first->status == LockStatus::unbounded && !first->path.empty();
+  }
+
   void solve(std::size_t task, std::size_t start)
   {
-    Attempt done = attempt(task, start);
-    const bool finished = done.locked || !done.error.empty();
+    Attempt done;
+    {
+      const std::lock_guard lock(mutex_);
+      done.needless = start > 0 && runs_away(task);
+    }
+    if (!done.needless) done = attempt(task, start);
+    const bool finished = done.locked || !done.error.empty() || done.needless;
     bool last = false;
     {
       const std::lock_guard lock(mutex_);
@@ -212,6 +225,7 @@ class Computation {
     const TaskState& t = states_[task];
     for (std::size_t s = 0; s < t.starts.size(); ++s) {
       if (!t.starts[s].locked) continue;
+      if (s > 0 && runs_away(task)) break;  // whatever the order in which starts were done
       found.push_back(s < starts_ ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
                                   : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
     }

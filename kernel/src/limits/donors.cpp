@@ -8,11 +8,12 @@ namespace {
 
 /// Angles (degrees) that differ by less are one direction; beside each other are those up to `widest` apart.
 constexpr double same_angle = 1e-7, widest = 30.0;
+constexpr int strides = 2;
 /// Conditions missed by less are kept: rounding of the symmetry that carries a state over.
 constexpr double kept = 1e-9;
 
-/// Activation distance (L) of a stage whose gaps, a tenth of it, have room for what a scene's symmetry is off by
-/// (symmetry_tolerance).
+/// Activation distance (L) of a stage whose gaps, a tenth of it, have room for what a scene's symmetry is off
+/// by (symmetry_tolerance).
 constexpr double room_of_image = 1e-5;
 
 /// From one direction to another, in (-90, 90].
@@ -80,20 +81,25 @@ std::vector<Lesson> Donors::beside() const
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
     if (!tasks_[k].direction.is_angle() || !may_fold(model_, tasks_[k])) continue;
     for (const double side : {-1.0, 1.0}) {
-      std::optional<std::size_t> next;
-      double nearest = widest + same_angle;
-      for (std::size_t d = 0; d < images_.size(); ++d) {
-        const std::optional<LimitTask>& other = images_[d];
-        if (!other || !other->direction.is_angle() || other->sense != tasks_[k].sense) continue;
-        const double by = side * turn(tasks_[k].direction.degrees(), other->direction.degrees());
-        // Of donors with one load those of the task itself come first.
-        const bool nearer = by < nearest - same_angle ||
-                            (next && by < nearest + same_angle && is_own(d) && !is_own(*next));
-        if (by < same_angle || !nearer) continue;
-        nearest = by;
-        next = d;
+      double passed = 0.0;  // angle of the last donor taken
+      for (int stride = 0; stride < strides; ++stride) {
+        std::optional<std::size_t> next;
+        double nearest = widest + same_angle;
+        for (std::size_t d = 0; d < images_.size(); ++d) {
+          const std::optional<LimitTask>& other = images_[d];
+          if (!other || !other->direction.is_angle() || other->sense != tasks_[k].sense) continue;
+          const double by = side * turn(tasks_[k].direction.degrees(), other->direction.degrees());
+          // Of donors with one load those of the task itself come first.
+          const bool nearer =
+              by < nearest - same_angle || (next && by < nearest + same_angle && is_own(d) && !is_own(*next));
+          if (by < passed + same_angle || !nearer) continue;
+          nearest = by;
+          next = d;
+        }
+        if (!next) break;
+        out.push_back({k, *next});
+        passed = nearest;
       }
-      if (next) out.push_back({k, *next});
     }
   }
   return out;

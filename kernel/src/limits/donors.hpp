@@ -32,8 +32,8 @@ class Donors {
   /// does not keep what that task holds.
   std::optional<double> reached(std::size_t donor, const Vector& macro, const LimitTask& along) const;
 
-  /// Each task that may fold with the donors whose load is the next one to either side of its own, among loads
-  /// of its sense within 30 degrees.
+  /// Each task that may fold with the donors whose loads are the next two to either side of its own, among loads
+  /// of its sense within 30 degrees: a longer stride at times leaves a fold that a short one keeps.
   std::vector<Lesson> beside() const;
 
  private:

@@ -63,6 +63,7 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   for (const json::value& start : entry.at("starts").as_array()) {
     r.starts.emplace_back();
     r.starts.back().origin = text(start.at("origin"));
+    r.starts.back().value = number(start.at("value"));
   }
   r.contacts.resize(entry.at("contacts").as_array().size());
   return r;

@@ -188,7 +188,7 @@ double distance_from(const LoadCase& load_case, const Values& macro, const Vec3&
   Eigen::VectorXd e = Eigen::VectorXd::Zero(count);
   PositionMap map;
   constexpr int steps = 20;  // of Gauss-Newton; one would do for affine load cases
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < steps && count > 0; ++k) {
     load_case.position(macro, {e.data(), static_cast<std::size_t>(count)}, X, T, map);
     const Eigen::Matrix<double, 3, Eigen::Dynamic> J = map.J.middleCols(load_case.macro_count(), count);
     e += J.colPivHouseholderQr().solve(x - map.x);

@@ -41,8 +41,22 @@ bool indices_exist(const Scene& scene, const Contact& contact)
   return contact.elements[0] != contact.elements[1] || contact.image != Image{};
 }
 
+/// Whether the contact is one of another primitive of its element as well.
+bool on_another(const Element& element, const Contact& contact, std::size_t side, const Place& place,
+                const Slack& slack)
+{
+  for (std::size_t p = 0; p < element.tori.size(); ++p) {
+    if (static_cast<int>(p) == contact.primitives[side]) continue;
+    Vec3 outward;
+    const double off = signed_distance(placed(element.tori[p], place), contact.points[side], &outward);
+    const Vec3 normal = side == 0 ? contact.normal : Vec3(-contact.normal);
+    if (std::abs(off) <= slack.length && (normal - outward).norm() <= slack.angle) return true;
+  }
+  return false;
+}
+
 void check_surfaces(const Scene& scene, const Limit& limit, const Contact& contact, const Slack& slack,
-                    const std::string& name, Sentences& problems)
+                    const std::string& name, const std::string& where, Sentences& problems, Record& record)
 {
   for (std::size_t side = 0; side < 2; ++side) {
     const auto k = static_cast<std::size_t>(contact.elements[side]);
@@ -63,6 +77,9 @@ void check_surfaces(const Scene& scene, const Limit& limit, const Contact& conta
     const double turned = ((side == 0 ? contact.normal : Vec3(-contact.normal)) - outward).norm();
     if (!(turned <= slack.angle))
       problems.push_back(fmt::format("{}: the normal is {:.3g} off that of surface {}", name, turned, side));
+    if (on_another(scene.elements[k], contact, side, place, slack))
+      record.skip(fmt::format("{}/primitives/{}", where, side),
+                  "primitives of which others have the same surface at the contact");
   }
 }
 
@@ -91,7 +108,7 @@ bool check_wall(const Scene& scene, const Setting& setting, const Limit& limit, 
 }  // namespace
 
 bool check_contacts(const Scene& scene, const Setting& setting, const Limit& limit,
-                    const VerifyTolerances& tolerances, Sentences& problems)
+                    const VerifyTolerances& tolerances, Sentences& problems, Record& record)
 {
   bool all_exist = true;
   for (std::size_t i = 0; i < limit.contacts.size(); ++i) {
@@ -111,7 +128,8 @@ bool check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
       continue;
     }
     const Slack allowed = slack(scene, limit, contact, tolerances);
-    check_surfaces(scene, limit, contact, allowed, name, problems);
+    check_surfaces(scene, limit, contact, allowed, name, fmt::format("{}/contacts/{}", limit.where, i), problems,
+                   record);
     const double gap = (contact.points[1] - contact.points[0]).dot(contact.normal) - setting.clearance;
     const Vec3 aside = contact.points[1] - contact.points[0] - (gap + setting.clearance) * contact.normal;
     // Points are written with all digits, whatever surfaces they stand for.

@@ -101,7 +101,10 @@ VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const L
 {
   Sentences problems;
   if (limit.value) problems.push_back(fmt::format("value {} reported, null expected", show(limit.value)));
-  if (!limit.contacts.empty()) problems.push_back("contacts listed, though nothing is at rest here");
+  if (!limit.contacts.empty() || limit.force_balance || limit.infimum)
+    problems.push_back("contacts, their balance or an infimum, though nothing is at rest here");
+  load(limit);  // throws where the measure is none of this load case's
+  check_range(scene, limit, tolerances, problems);
   for (std::string& p : misplaced(scene, setting, {*limit.macro, limit.poses}, tolerances.translation))
     problems.push_back(std::move(p));
   const std::string gap = check_gap(scene, setting, limit, tolerances, problems);
@@ -246,7 +249,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
   check.part(VerifyPart::links, [&] { found.push_back(check_links(scene, limit, problems)); });
   bool readable = true;
   check.part(VerifyPart::contacts,
-             [&] { readable = check_contacts(scene, setting, limit, tolerances, problems); });
+             [&] { readable = check_contacts(scene, setting, limit, tolerances, problems, record); });
   if (readable) {
     double imbalance = 0.0;
     check.part(VerifyPart::balance, [&] {

@@ -28,21 +28,6 @@ void check_heights(const Scene& scene, const Setting& setting, const Limit& limi
                                    setting.half_height));
 }
 
-void check_range(const Scene& scene, const Limit& limit, const VerifyTolerances& tolerances,
-                 Sentences& problems)
-{
-  if (!limit.z_range || limit.poses.empty()) return;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t k = 0; k < limit.poses.size(); ++k) {
-    const double z = limit.poses[k].position.z() - scene.elements[k].rest.position.z();
-    low = std::min(low, z);
-    high = std::max(high, z);
-  }
-  if (!(std::abs(*limit.z_range - (high - low)) <= tolerances.gap * scene.length))
-    problems.push_back(
-        fmt::format("z_range {:.6g} reported, {:.6g} from the poses", *limit.z_range, high - low));
-}
-
 /// The limit is the furthest of its starts, and that start has its state.
 void check_starts(const Limit& limit, const VerifyTolerances& tolerances, Sentences& problems)
 {
@@ -59,6 +44,21 @@ void check_starts(const Limit& limit, const VerifyTolerances& tolerances, Senten
 }
 
 }  // namespace
+
+void check_range(const Scene& scene, const Limit& limit, const VerifyTolerances& tolerances,
+                 Sentences& problems)
+{
+  if (!limit.z_range || limit.poses.empty()) return;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = 0; k < limit.poses.size(); ++k) {
+    const double z = limit.poses[k].position.z() - scene.elements[k].rest.position.z();
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+  if (!(std::abs(*limit.z_range - (high - low)) <= tolerances.gap * scene.length))
+    problems.push_back(
+        fmt::format("z_range {:.6g} reported, {:.6g} from the poses", *limit.z_range, high - low));
+}
 
 bool equal(double a, double b, double tolerance)
 {

@@ -19,11 +19,15 @@ using Sentences = std::vector<std::string>;
 /// Contacts belong to the state: indices, points on surfaces, normals, gaps, forces, walls. False where one
 /// names an element or a primitive that does not exist, so that nothing can be done with it.
 bool check_contacts(const Scene& scene, const Setting& setting, const Limit& limit,
-                    const VerifyTolerances& tolerances, Sentences& problems);
+                    const VerifyTolerances& tolerances, Sentences& problems, Record& record);
 
 /// Value, companions and starts follow from macro; sense, F, mean translation and heights are admissible.
 void check_values(const Scene& scene, const Setting& setting, const Limit& limit,
                   const VerifyTolerances& tolerances, Sentences& problems);
+
+/// `z_range` is that of the poses.
+void check_range(const Scene& scene, const Limit& limit, const VerifyTolerances& tolerances,
+                 Sentences& problems);
 
 /// Everything about one limit; the line says what was found. `json` is the limit as the file has it,
 /// `experiment` gives the shapes. Throws Malformed, Unknown.

@@ -319,6 +319,8 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
       (*out.direction)[static_cast<Eigen::Index>(k)] = number(components[k], at + "/" + std::to_string(k));
     if (!(out.direction->cwiseAbs().maxCoeff() > 0.0)) throw Malformed(at + ": not all zeros expected");
     out.direction_deg = std::numeric_limits<double>::quiet_NaN();
+    if (!member(limit, "direction_deg", where).is_null())
+      throw Malformed(where + "/direction_deg: null expected beside a direction");
   } else {
     out.direction_deg = number(member(limit, "direction_deg", where), where + "/direction_deg");
   }

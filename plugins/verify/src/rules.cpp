@@ -66,6 +66,7 @@ constexpr std::array rules{
     VerifyRule{"/files/**", {}, elsewhere},
 
     // The scene.
+    VerifyRule{"/scene/cell_vectors", {scene}, "empty of a patch"},
     VerifyRule{"/scene/cell_vectors/**", {scene}, "the experiment's vectors times `repeat`"},
     VerifyRule{
         "/scene/length",

@@ -61,7 +61,9 @@ std::vector<Torus> torus_union(const json::value& section, const Parameters& par
     Vec3 along = Vec3::UnitX(), axis = Vec3::UnitZ();
     t.place.position = position_of(torus.if_contains("position"), parameters, along, at + "/position");
     if (const json::value* given = torus.if_contains("axis"))
-      axis = given->is_string() ? Vec3::UnitZ().cross(along) : vector_of(*given, at + "/axis");
+      axis = given->is_string() && text(*given, at + "/axis") == "tangential"
+                 ? Vec3::UnitZ().cross(along)
+                 : vector_of(*given, at + "/axis");
     // A turn about its own axis is none of a torus.
     t.place.rotation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
     out.push_back(std::move(t));

@@ -424,8 +424,9 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
   std::vector<LimitTask> all = tasks;
   if (apart <= 0.0) return all;
   for (const LimitTask& task : tasks) {
-    // A taut fabric learns nothing from others.
-    if (!task.direction.is_angle() || (model.load->periodic() && !may_fold(model, task))) continue;
+    // A taut fabric whose axes are held learns nothing from others: their states break what it holds.
+    const bool taut = model.load->periodic() && !may_fold(model, task);
+    if (!task.direction.is_angle() || (taut && !model.load->conditions(task.direction).empty())) continue;
     const bool lone = std::none_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
       const double to = std::abs(o.direction.degrees() - task.direction.degrees());
       return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;

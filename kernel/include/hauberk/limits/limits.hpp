@@ -103,7 +103,7 @@ double further_than(const LimitSettings& settings);
 
 /// The tasks, then those `apart` degrees to either side of every one that has no other of its sense within
 /// that angle; only tasks that links bound have neighbours and are neighbours. Directions along
-/// components and stretches of periodic cells, which are taut, have none.
+/// components and stretches of periodic cells that hold a strain have none.
 std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart);
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.

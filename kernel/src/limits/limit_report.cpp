@@ -411,7 +411,8 @@ void stand_for_equals(std::vector<LockedState>& list, const Model& m, const Limi
 {
   LockedState s = locked_state(m, task, reported);
   LockedState* same = equal_state(list, m, s);
-  if (same == nullptr) return;
+  // A row of states, each one with the next, may end far from where it began.
+  if (same == nullptr) return list.push_back(std::move(s));
   s.count = same->count;
   *same = std::move(s);
 }

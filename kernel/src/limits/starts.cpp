@@ -1,6 +1,8 @@
 #include <hauberk/limits/limits.hpp>
 #include <hauberk/motion/advancement.hpp>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 namespace hauberk {
@@ -95,11 +97,20 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
   Schedule schedule = settings.schedule;
   // Where links do not stop a load, the way from rest shows whether anything does.
   schedule.keep_path = !settings.start && bounded_by_links(m, task) != Boundedness::attained;
-  Locked out = lock(m, from, load, settings.contact, schedule, keep_going);
-  // Steps of `constrained` are not certified: what runs away under it does so once more under barriers.
-  if (schedule.keep_path && settings.contact == ContactChoice::constrained &&
-      out.status == LockStatus::unbounded)
-    out = lock(m, from, load, ContactChoice::automatic, schedule, keep_going);
+  Locked out;
+  // Where steps are not certified, or a finite target holds what no contact does, a barrier is asked first whether
+  // anything stops the load at all.
+  const bool witnesses = settings.contact != ContactChoice::constrained &&
+                         settings.contact != ContactChoice::published && !std::isfinite(schedule.target) &&
+                         schedule.ccd == CollisionCheck::certified;
+  if (schedule.keep_path && !witnesses) {
+    Schedule certified = schedule;
+    certified.target = std::numeric_limits<double>::infinity();
+    certified.ccd = CollisionCheck::certified;
+    out = lock(m, from, load, ContactChoice::automatic, certified, keep_going);
+  }
+  if (out.status != LockStatus::unbounded && out.status != LockStatus::interrupted)
+    out = lock(m, from, load, settings.contact, schedule, keep_going);
   if (out.status != LockStatus::unbounded) out.path.clear();
   // A perturbed start lies straight ahead of rest.
   if (!out.path.empty()) out.path.insert(out.path.begin(), rest_state(m));

@@ -13,6 +13,7 @@
 #include <boost/json/object.hpp>
 
 #include <cmath>
+#include <limits>
 
 /// A locked state is a maximum of s value under gaps g >= 0, with the forces as multipliers. Where these are
 /// unique, the envelope theorem gives s d value/dp = sum f dg/dp at a fixed state: of the clearance dg/dp =
@@ -78,7 +79,12 @@ std::optional<double> parameter_sum(const Scene& scene, const Limit& limit, cons
                                     const std::string& where, std::map<std::string, double> parameters,
                                     std::size_t element, const std::string& name)
 {
-  const double at = parameters.at(name), h = step * std::max(std::abs(at), 1e-3 * scene.length);
+  const double at = parameters.at(name);
+  // Changes stay small beside every tube: closest points move as far as sizes do over the tube's radius.
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const Element& e : scene.elements)
+    for (const Torus& t : e.tori) thinnest = std::min({thinnest, t.r0, t.r1});
+  const double h = std::min(step * std::max(std::abs(at), 1e-3 * scene.length), 1e-3 * thinnest);
   std::array<std::vector<Torus>, 2> tori;
   for (std::size_t way = 0; way < 2; ++way) {
     parameters[name] = at + (way == 0 ? h : -h);

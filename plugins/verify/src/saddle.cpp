@@ -127,7 +127,7 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
     Vector wanted = Vector::Zero(unknowns(scene));
     // First on along the load, then only what makes room.
     if (k < steps) wanted.head(macros(scene)) = pull * objective.gradient(state) / objective.load.norm();
-    const Vector e = projected(wanted, rows, room);
+    const Vector e = projected(free_part(fixed, wanted), rows, room);
     if (e.cwiseAbs().maxCoeff() > 10.0 * kick) return std::nullopt;
     state = moved(scene, setting, state, e);
     if (k >= steps && e.cwiseAbs().maxCoeff() < 1e-11) break;

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Weave{"japanese_4in1", {4, 2, 2}, "inner_diameter", "wire_diameter", 2.41421357},
                       Weave{"japanese_6in1", {6, 2, 2, 2}, "inner_diameter", "wire_diameter", 3.00000001},
                       Weave{"threefold", {6}, "side_R", "side_r0", 2.396},
-                      Weave{"fourfold", {16, 8, 8}, "R", "r", 4.958}),
+                      Weave{"fourfold", {20, 10, 10}, "R", "r", 4.958}),
     [](const auto& info) { return std::string(info.param.name); });
 
 /// n wires that pass through a round hole are n discs in a disc, and the hole's own tube is as thick: inner

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -273,6 +274,29 @@ Boundedness InPlanePeriodic::do_held_boundedness(double theta, std::span<const d
   const bool thins_a = on_a < 0 && !across && on_b == 0;  // a falls for ever, as b grows at no price
   const bool thins_b = on_b < 0 && !along && on_a == 0;
   return thins_a || thins_b ? Boundedness::not_attained : Boundedness::attained;
+}
+
+std::vector<StricterLoadCase> InPlanePeriodic::do_stricter() const
+{
+  std::vector<StricterLoadCase> out;
+  if (do_coordinate_count() == 3)
+    out.push_back({"z fixed", std::make_unique<InPlanePeriodic>(measure_, OutOfPlane{}, hold_)});
+  // One strain more; which one makes no difference to what both together hold.
+  for (const auto& [name, more] : {std::pair{"shear held", Hold{true, hold_.lateral}},
+                                   std::pair{"lateral strain held", Hold{hold_.shear, true}}}) {
+    if (more.shear != hold_.shear || more.lateral != hold_.lateral)
+      out.push_back({name, std::make_unique<InPlanePeriodic>(measure_, out_of_plane_, more)});
+  }
+  return out;
+}
+
+bool InPlanePeriodic::do_contains(const LoadCase& other) const
+{
+  const auto* o = dynamic_cast<const InPlanePeriodic*>(&other);
+  if (o == nullptr || o->measure_ != measure_) return false;
+  const bool layer = out_of_plane_.free ||
+                     (!o->out_of_plane_.free && o->out_of_plane_.half_height <= out_of_plane_.half_height);
+  return layer && (o->hold_.shear || !hold_.shear) && (o->hold_.lateral || !hold_.lateral);
 }
 
 }  // namespace hauberk

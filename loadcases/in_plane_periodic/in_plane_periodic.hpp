@@ -61,6 +61,8 @@ class InPlanePeriodic final : public LoadCase {
   std::vector<MacroCondition> do_conditions(double theta) const override;
   Boundedness do_held_boundedness(double theta, std::span<const double> load,
                                   std::span<const Vec3> cycles) const override;
+  std::vector<StricterLoadCase> do_stricter() const override;
+  bool do_contains(const LoadCase& other) const override;
 
  private:
   std::vector<MacroInfo> macros_;

@@ -213,4 +213,12 @@ std::string ParaboloidBending::do_not_a_sheet(const SheetState& state) const
   return {};
 }
 
+bool ParaboloidBending::do_contains(const LoadCase& other) const
+{
+  // Elements at their places keep the mean of the patch, and it has no turn.
+  const auto* o = dynamic_cast<const ParaboloidBending*>(&other);
+  return o != nullptr && (o->hold_.places || !hold_.places) && (o->hold_.twist || !hold_.twist) &&
+         (o->hold_.transverse || !hold_.transverse);
+}
+
 }  // namespace hauberk

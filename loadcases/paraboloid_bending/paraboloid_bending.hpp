@@ -58,6 +58,7 @@ class ParaboloidBending final : public LoadCase {
   std::vector<std::string> do_hold() const override;
   std::vector<MacroCondition> do_conditions(double theta) const override;
   std::string do_not_a_sheet(const SheetState& state) const override;
+  bool do_contains(const LoadCase& other) const override;
 
  private:
   Hold hold_;

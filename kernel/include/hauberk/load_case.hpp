@@ -5,6 +5,7 @@
 #include <hauberk/linalg.hpp>
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -75,6 +76,14 @@ struct SheetState {
 enum class Boundedness { attained, unbounded, not_attained };
 
 enum class Sense { positive, negative };  ///< stretch or up; compress or down
+
+class LoadCase;
+
+/// A load case that leaves elements less freedom than another one.
+struct StricterLoadCase {
+  std::string name;  ///< what it holds more, for people: "z fixed"
+  std::unique_ptr<const LoadCase> load;
+};
 
 /// A family of loads on one cell or patch. Immutable after construction, so all calls are thread safe.
 /// Angles are in radians; lengths are scaled by L. A load case knows angles; what a direction of components
@@ -164,6 +173,16 @@ class LoadCase {
   /// `out` is then left undefined. The identity is always one. O may be improper (det O = -1).
   bool transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const;
 
+  /// Load cases that leave less freedom, one step each: `contains` holds for every one of them, and two steps
+  /// in either order make the same load case. Their locked states are where limits of this one begin once more.
+  /// Empty where there is none, or none is known.
+  std::vector<StricterLoadCase> stricter() const { return do_stricter(); }
+
+  /// Whether every state that a limit of `other` may end in is one that the limit of this one at the same
+  /// direction may, with the same macroscopic unknowns and the same value: this one holds no more, and moves
+  /// elements the same way. False: it is not, or it is not known.
+  bool contains(const LoadCase& other) const { return &other == this || do_contains(other); }
+
   /// Walls that act on element coordinates, for elements with rest positions X.
   std::vector<LinearInequality> inequalities(std::span<const Vec3> X) const { return do_inequalities(X); }
 
@@ -215,6 +234,8 @@ class LoadCase {
   virtual std::pair<std::string, std::string> do_sense_names() const = 0;
   virtual void do_metric(std::span<double> m) const = 0;
   virtual bool do_transform(const Mat3&, std::span<const double>, std::span<double>) const { return false; }
+  virtual std::vector<StricterLoadCase> do_stricter() const { return {}; }
+  virtual bool do_contains(const LoadCase&) const { return false; }
   virtual std::vector<LinearInequality> do_inequalities(std::span<const Vec3>) const { return {}; }
   virtual std::vector<LinearEquality> do_equalities(std::span<const Vec3>) const { return {}; }
   virtual Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const = 0;

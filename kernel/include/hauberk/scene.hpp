@@ -36,6 +36,9 @@ struct SceneSpec {
   std::vector<ElementType> types;
   std::vector<PlacedElement> elements;
   std::vector<Vec3> lattice;  ///< two or three vectors of the supercell when periodic, else empty
+  /// How many copies of the cell as written the lattice vectors span: element k is
+  /// ((l n + j) m + i) |place| + index in place.
+  std::array<int, 3> repeat{1, 1, 1};
   /// Contact of meshes: every primitive is replaced by facets x facets quadrilaterals; 0: surfaces as they
   /// are.
   int facets = 0;

@@ -73,8 +73,9 @@ void DesignProblem::accept(std::span<const double> x)
     throw PluginError("the optimizer accepted a design that it " + (p->why.empty()
                                                                         ? "did not evaluate from its iterate"
                                                                         : "could not evaluate: " + p->why));
-  // What ends a search has to be what rest leads to.
-  const bool at_the_goal = p->unchecked > 0 && meets_targets(design_, p->values);
+  // What ends a search has to be what its limits are recomputed as.
+  const bool at_the_goal = meets_targets(design_, p->values);
+  p->thorough = at_the_goal;
   take(p, p->unchecked >= most_unchecked || at_the_goal);
 }
 

@@ -16,6 +16,7 @@ namespace hauberk {
 namespace {
 
 constexpr double same_value = 1e-9;    ///< two locked states closer than that are taken for one
+constexpr double keeps_conditions = 1e-9;
 constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 
 /// Stages of a locked state as warm starts.
@@ -73,7 +74,8 @@ Value value_of(const Model& model, const Locked& l, const MacroLoad& load, Desig
 
 DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, const DesignPoint& from,
                                                        const MacroLoad& load,
-                                                       const std::vector<WarmStart>& warm) const
+                                                       const std::vector<WarmStart>& warm,
+                                                       const std::optional<State>& known) const
 {
   LockedTarget out;
   const auto run = [&](const State& start, const Schedule& schedule) {
@@ -92,6 +94,12 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
     Locked found = from_rest(0);
     for (int attempt = 1; attempt < attempts_from_rest; ++attempt) {
       Locked other = from_rest(attempt);
+      if (other.status == LockStatus::locked &&
+          (found.status != LockStatus::locked || value(other.state) > value(found.state) + same_value))
+        found = std::move(other);
+    }
+    if (known) {
+      Locked other = run(*known, without_widest(schedule_));
       if (other.status == LockStatus::locked &&
           (found.status != LockStatus::locked || value(other.state) > value(found.state) + same_value))
         found = std::move(other);
@@ -138,13 +146,32 @@ DesignProblem::LockedTarget DesignProblem::lock_target(const DesignPoint& p, con
   return out;
 }
 
+std::vector<std::optional<State>> DesignProblem::thorough_states(const DesignPoint& p)
+{
+  LimitSettings settings = limits_;
+  settings.start = p.rest;
+  settings.schedule = schedule_;
+  std::vector<std::optional<State>> states;
+  LimitsObserver observer;
+  observer.on_states = [&states](const auto& found) { states = found; };
+  const auto count = [this](const std::vector<LimitResult>& limits) {
+    for (const LimitResult& limit : limits) evaluations_ += limit.evaluations;
+  };
+  observer.on_unreported = count;
+  count(compute_limits(p.model, p.spec, tasks_, settings, threads_, observer));
+  return states;
+}
+
 void DesignProblem::learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
                           std::vector<LockedTarget>& targets) const
 {
   Lessons rounds(targets.size(), targets.size(), std::max(1e-8, schedule_.last));
   const auto given = [&](std::size_t donor, std::size_t k) -> std::optional<double> {
+    // A state that breaks what k holds is none of its own: searches from there are many steps, and seldom lead on.
     const Locked& l = targets[donor].locked;
-    return l.status == LockStatus::locked ? std::optional(loads[k].pull.dot(l.state.macro)) : std::nullopt;
+    if (l.status != LockStatus::locked || missed(loads[k].held, l.state.macro) > keeps_conditions)
+      return std::nullopt;
+    return loads[k].pull.dot(l.state.macro);
   };
   const auto own = [&](std::size_t k) { return given(k, k); };
   for (;;) {
@@ -197,7 +224,9 @@ void DesignProblem::solve_targets(DesignPoint& p, const DesignPoint& from)
     });
   };
   const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
-  each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k]); });
+  std::vector<std::optional<State>> known(tasks_.size());
+  if (p.thorough && p.x == from.x) known = thorough_states(p);
+  each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k], known[k]); });
   p.continued = p.x != from.x && std::any_of(targets.begin(), targets.end(),
                                              [](const LockedTarget& t) { return t.followed && !t.changed; });
   if (std::none_of(targets.begin(), targets.end(), has_problem)) learn(p, loads, targets);

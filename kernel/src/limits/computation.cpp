@@ -2,6 +2,7 @@
 #include "donors.hpp"
 #include "limit_report.hpp"
 
+#include <hauberk/limits/relatives.hpp>
 #include <hauberk/parallel.hpp>
 
 #include <fmt/format.h>
@@ -15,6 +16,9 @@
 
 namespace hauberk {
 namespace {
+
+/// Elements of the largest cell that has all LimitSettings::fold_starts.
+constexpr int cell_of_all_starts = 8;
 
 /// One start of one task.
 struct Attempt {
@@ -34,7 +38,17 @@ struct TaskState {
   int iterations = 0;               ///< of what led nowhere
   long evaluations = 0;             ///< the same
   std::size_t missing = 0;          ///< starts not done
+  bool narrow = false;              ///< the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
+
+  bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
+};
+
+/// A scene that another one contains, with what its limits came to.
+struct Solved {
+  Model model;
+  std::vector<LimitTask> tasks;
+  std::vector<std::optional<State>> states;  ///< per task
 };
 
 class Computation {
@@ -53,7 +67,9 @@ class Computation {
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
       // A fabric with room folds one way under the widest stage and another way without it.
       const bool twice = settings.lessons && k < asked_ && may_fold(model, tasks_[k]);
-      states_[k].starts.resize((k < asked_ ? starts_ : 1) + (twice ? 1 : 0));
+      const std::size_t starts = k >= asked_ ? 1 : twice ? std::max(starts_, fold_starts()) : starts_;
+      states_[k].narrow = twice;
+      states_[k].starts.resize(starts + (twice ? 1 : 0));
       states_[k].missing = states_[k].starts.size();
       results_.push_back(limit_header(model, tasks_[k]));
       results_.back().status = LimitStatus::interrupted;
@@ -92,18 +108,33 @@ class Computation {
     });
     if (unfinished_ == 0 && !complete) {
       const Donors donors(model_, tasks_);
-      if (settings_.lessons) learn(donors, threads);
+      if (settings_.lessons && inherit(donors, threads)) learn(donors, threads);
       enter_relations(results_, model_, settings_, tasks_, donors);
     }
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
     if (observer_.on_unreported)
       observer_.on_unreported({results_.begin() + static_cast<std::ptrdiff_t>(asked_), results_.end()});
+    if (observer_.on_states) {
+      std::vector<std::optional<State>> states(asked_);
+      for (std::size_t k = 0; k < asked_; ++k) {
+        const std::vector<FoundState> found = found_of(k);
+        if (const auto best = furthest(model_, tasks_[k], settings_, found)) states[k] = found[*best].locked.state;
+      }
+      observer_.on_states(states);
+    }
     results_.resize(asked_);
     return std::move(results_);
   }
 
  private:
+  /// Starts of a limit that may fold: fewer in large cells, where each is expensive.
+  std::size_t fold_starts() const
+  {
+    const int most = settings_.fold_starts / std::max(1, model_.element_count() / cell_of_all_starts);
+    return static_cast<std::size_t>(std::max(1, most));
+  }
+
   bool going() const { return !observer_.keep_going || observer_.keep_going(); }
 
   void tell() const
@@ -125,9 +156,9 @@ class Computation {
     const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
     try {
-      out.locked = start < starts_ ? limit_from_start(model_, tasks_[task], settings_,
-                                                      static_cast<int>(start), keep_going)
-                                   : limit_from_state(model_, tasks_[task], settings_,
+      out.locked = !states_[task].is_narrow(start)
+                       ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
+                       : limit_from_state(model_, tasks_[task], settings_,
                                                       perturbed(model_, start_state(model_, settings_),
                                                                 settings_.perturbation, settings_.seed,
                                                                 Copies::alike),
@@ -226,7 +257,7 @@ class Computation {
     for (std::size_t s = 0; s < t.starts.size(); ++s) {
       if (!t.starts[s].locked) continue;
       if (s > 0 && runs_away(task)) break;  // whatever the order in which starts were done
-      found.push_back(s < starts_ ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
+      found.push_back(!t.is_narrow(s) ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
                                   : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
     }
     found.insert(found.end(), t.further.begin(), t.further.end());
@@ -337,6 +368,99 @@ class Computation {
     for (const std::size_t k : unknown) states_[k].known = false;
   }
 
+  /// The states that the limits of a relative end in, one search each; no tasks: it has no use for any.
+  Solved solved(const Relative& relative, unsigned threads) const
+  {
+    Solved s;
+    const LoadCase& load = relative.load ? *relative.load : *model_.load;
+    s.model = make_model(relative.scene, load, model_.clearance * model_.length);
+    const bool other_elements = s.model.dofs() != model_.dofs();  // fewer of them, or of their coordinates
+    for (std::size_t k = 0; k < asked_; ++k) {
+      const Direction& along = tasks_[k].direction;
+      if (may_fold(model_, tasks_[k]) &&
+          (other_elements || load.conditions(along).size() != model_.load->conditions(along).size()))
+        s.tasks.push_back(tasks_[k]);
+    }
+    LimitSettings settings = settings_;
+    settings.lessons = false;  // its states begin a search, they are no answers
+    settings.starts = 1;
+    settings.given.clear();
+    if (settings_.start && !s.tasks.empty()) {
+      if (relative.scene.elements.size() == spec_.elements.size())
+        settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
+      if (relative.scene.elements.size() != spec_.elements.size() || !settings.start) s.tasks.clear();
+    }
+    if (s.tasks.empty()) return s;
+    LimitsObserver observer;
+    observer.keep_going = observer_.keep_going;
+    observer.on_states = [&s](const auto& states) { s.states = states; };
+    compute_limits(s.model, relative.scene, s.tasks, settings, threads, observer);
+    return s;
+  }
+
+  /// States of scenes that this one contains, carried over.
+  std::vector<GivenState> inherited(unsigned threads)
+  {
+    std::vector<GivenState> out = settings_.given;
+    if (std::none_of(tasks_.begin(), tasks_.begin() + static_cast<std::ptrdiff_t>(asked_),
+                     [&](const LimitTask& t) { return may_fold(model_, t); }))
+      return out;
+    for (const Relative& relative : relatives(model_, spec_)) {
+      const Solved s = solved(relative, threads);
+      if (s.tasks.empty() || !going()) continue;
+      const Carrier carrier(s.model, relative.scene, model_, spec_);
+      if (!carrier.joined()) continue;
+      for (std::size_t k = 0; k < s.tasks.size(); ++k) {
+        const std::optional<State> state = s.states[k] ? carrier.state(*s.states[k]) : std::nullopt;
+        if (state) out.push_back({s.tasks[k].direction, s.tasks[k].sense, *state, relative.name});
+      }
+    }
+    return out;
+  }
+
+  /// Each limit begins once more from every state that is given for it. False: interrupted.
+  bool inherit(const Donors& donors, unsigned threads)
+  {
+    const std::vector<GivenState> given = inherited(threads);
+    std::vector<std::pair<std::size_t, const GivenState*>> items;
+    std::vector<Lesson> learners;
+    for (std::size_t k = 0; k < asked_; ++k) {
+      for (const GivenState& g : given) {
+        if (g.sense != tasks_[k].sense || g.direction.text() != tasks_[k].direction.text()) continue;
+        items.emplace_back(k, &g);
+        learners.push_back({k, donors.own(k)});
+      }
+    }
+    if (going()) find_states(donors, learners, threads);
+    std::vector<std::optional<FoundState>> found(items.size());
+    std::vector<double> seconds(items.size(), 0.0);
+    parallel_for(items.size(), threads, [&](std::size_t i) {
+      const auto& [k, from] = items[i];
+      if (!going()) return;
+      const auto t0 = std::chrono::steady_clock::now();
+      try {
+        found[i] = FoundState{limit_from_state(model_, tasks_[k], settings_, from->state, [this] { return going(); }),
+                              learnt_origin + from->origin, settings_.seed};
+      } catch (const std::exception& failure) {
+        const std::lock_guard lock(mutex_);
+        states_[k].remark = fmt::format("from the state of {}: {}", from->origin, failure.what());
+      }
+      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    });
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const std::size_t k = items[i].first;
+      if (!going()) {
+        results_[k].status = LimitStatus::interrupted;
+        results_[k].message = fmt::format("what the state of {} leads to was not found", items[i].second->origin);
+        continue;
+      }
+      if (found[i]) states_[k].further.push_back(std::move(*found[i]));
+      states_[k].seconds += seconds[i];
+      results_[k] = result_of(k);
+    }
+    return going();
+  }
+
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
   /// loads beside its own, as long as these come to new ones.
@@ -346,7 +470,7 @@ class Computation {
     Walks walks(donors.beside());
     const auto own = [&](std::size_t k) -> std::optional<double> {
       const LimitStatus status = results_[k].status;
-      const std::size_t self = k * (donors.count() / tasks_.size());
+      const std::size_t self = donors.own(k);
       if (status == LimitStatus::locked) return reached_by(donors, self, k);
       // One that stalled learns also from a state that is only as far as its own.
       const auto there = status == LimitStatus::stalled ? reached_by(donors, self, k) : std::nullopt;
@@ -362,7 +486,7 @@ class Computation {
         lessons = walks.next(
             [&](std::size_t donor) {
               const std::size_t k = donors.task(donor);
-              return given(k * (donors.count() / tasks_.size()), k);
+              return given(donors.own(k), k);
             },
             further_than(settings_));
       }

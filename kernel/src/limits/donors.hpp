@@ -18,6 +18,8 @@ class Donors {
 
   std::size_t count() const { return images_.size(); }
   std::size_t task(std::size_t donor) const { return donor / symmetries_.size(); }
+  /// The donor that is a task's own state.
+  std::size_t own(std::size_t task) const { return task * symmetries_.size(); }
   bool is_own(std::size_t donor) const { return donor % symmetries_.size() == 0; }
 
   /// A locked state of the donor's task as the donor has it; null where the symmetry makes none of it. A

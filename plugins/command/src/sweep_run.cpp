@@ -1,5 +1,6 @@
 #include "sweep_run.hpp"
 #include "interrupt.hpp"
+#include "row_lessons.hpp"
 #include "text_table.hpp"
 #include "variant_run.hpp"
 
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <mutex>
 
 namespace hauberk::command {
@@ -22,21 +24,39 @@ void refuse(SweepRow& row, RowStatus status, const std::string& message)
   row.message = message;
 }
 
-void solve(const Loaded& loaded, const VariantReading& reading, const SweepTable& table, SweepRow& row)
+/// A row's scene; of a row that is none the experiment is null, and the row says why.
+SweepScene prepared(const VariantReading& reading, SweepRow& row)
 {
-  if (!reading.experiment) return refuse(row, RowStatus::refused, reading.refusal);
-  const Experiment& e = *reading.experiment;
-  RunResult run;
-  try {
-    run = run_variant(e);
-  } catch (const InputError& error) {
-    return refuse(row, RowStatus::refused, error.what());
+  SweepScene out;
+  if (!reading.experiment) {
+    refuse(row, RowStatus::refused, reading.refusal);
+    return out;
   }
-  for (LimitResult& limit : run.limits) limit.load_case = e.load_case_plugin;
-  ResultNames names;
-  names.macro.clear();
-  for (const MacroInfo& macro : loaded.experiment.load_case->macros()) names.macro.push_back(macro.name);
-  enter_result(table, row, run, write_json(e.resolved), names);
+  const Experiment& e = *reading.experiment;
+  try {
+    out.prepared = prepare_variant(e);
+    out.model = make_model(out.prepared.scene, *e.load_case, e.solver.clearance);
+    out.experiment = &e;
+  } catch (const InputError& error) {
+    refuse(row, RowStatus::refused, error.what());
+  } catch (const std::exception& error) {
+    refuse(row, RowStatus::failed, error.what());
+  }
+  return out;
+}
+
+/// Rows that are to be computed: those that are left, and all whose states they begin from.
+std::vector<bool> needed_rows(const std::vector<bool>& left, const std::vector<std::vector<std::size_t>>& donors,
+                              const std::vector<std::vector<std::size_t>>& rounds)
+{
+  std::vector<bool> needed = left;
+  for (auto round = rounds.rbegin(); round != rounds.rend(); ++round) {
+    for (const std::size_t k : *round) {
+      if (!needed[k]) continue;
+      for (const std::size_t donor : donors[k]) needed[donor] = true;
+    }
+  }
+  return needed;
 }
 
 std::string cell(const boost::json::value& value)
@@ -80,31 +100,62 @@ SweepTable empty_table(const Loaded& loaded)
 void run_sweep(const Loaded& loaded, unsigned threads, Progress& progress, SweepTable& table,
                const TableObserver& observer)
 {
-  std::vector<std::size_t> left;
-  for (std::size_t k = 0; k < table.rows.size(); ++k) {
-    if (table.rows[k].status == RowStatus::interrupted) left.push_back(k);
-  }
+  const std::size_t n = table.rows.size();
+  std::vector<bool> left(n);
+  for (std::size_t k = 0; k < n; ++k) left[k] = table.rows[k].status == RowStatus::interrupted;
+  const auto rows_left = static_cast<std::size_t>(std::count(left.begin(), left.end(), true));
+  progress.limits("sweep", 0, rows_left);
+  if (rows_left == 0) return;
+
+  // Scenes first: they say which row learns from which. A row that is done already and teaches is solved again.
+  std::vector<SweepRow> refused = table.rows;
+  std::vector<SweepScene> scenes(n);
+  parallel_for(n, threads, [&](std::size_t k) {
+    if (!interrupted()) scenes[k] = prepared(loaded.sweep[k], refused[k]);
+  });
+  if (interrupted()) return;
+  const std::vector<std::vector<std::size_t>> donors = row_donors(scenes), rounds = row_rounds(donors);
+  const std::vector<bool> needed = needed_rows(left, donors, rounds);
+
+  ResultNames names;
+  names.macro.clear();
+  for (const MacroInfo& macro : loaded.experiment.load_case->macros()) names.macro.push_back(macro.name);
+  std::vector<std::vector<std::optional<State>>> states(n);
   std::mutex mutex;  // guards the rows of table, progress and observer
   std::size_t done = 0;
-  progress.limits("sweep", 0, left.size());
-  parallel_for(left.size(), threads, [&](std::size_t i) {
-    if (interrupted()) return;
-    const std::size_t k = left[i];
-    SweepRow row;
-    {
-      const std::lock_guard lock(mutex);
-      row = table.rows[k];
-    }
-    try {
-      solve(loaded, loaded.sweep[k], table, row);
-    } catch (const std::exception& error) {
-      refuse(row, RowStatus::failed, error.what());
-    }
+  const auto finish = [&](std::size_t k, SweepRow row) {
+    if (!left[k]) return;
     const std::lock_guard lock(mutex);
     table.rows[k] = std::move(row);
-    progress.limits("sweep", ++done, left.size());
+    progress.limits("sweep", ++done, rows_left);
     observer(table);
-  });
+  };
+  for (const std::vector<std::size_t>& round : rounds) {
+    parallel_for(round.size(), threads, [&](std::size_t i) {
+      const std::size_t k = round[i];
+      if (interrupted() || !needed[k]) return;
+      const Experiment* e = scenes[k].experiment;
+      if (e == nullptr) return finish(k, refused[k]);
+      SweepRow row = refused[k];
+      try {
+        PreparedVariant variant = scenes[k].prepared;
+        for (const std::size_t donor : donors[k]) {
+          std::vector<GivenState> given = given_by(scenes[donor], states[donor], scenes[k], donor);
+          std::move(given.begin(), given.end(), std::back_inserter(variant.settings.given));
+        }
+        VariantLimits solved = solve_variant(*e, variant, 1);
+        states[k] = solved.states;
+        RunResult run = variant_result(*e, std::move(variant), std::move(solved));
+        for (LimitResult& limit : run.limits) limit.load_case = e->load_case_plugin;
+        enter_result(table, row, run, write_json(e->resolved), names);
+      } catch (const InputError& error) {
+        refuse(row, RowStatus::refused, error.what());
+      } catch (const std::exception& error) {
+        refuse(row, RowStatus::failed, error.what());
+      }
+      finish(k, std::move(row));
+    });
+  }
 }
 
 bool any_failed(const SweepTable& table)

@@ -35,20 +35,26 @@ VariantLimits solve_variant(const Experiment& experiment, const PreparedVariant&
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   observer.on_unreported = [&out](const std::vector<LimitResult>& limits) { out.unreported = limits; };
+  observer.on_states = [&out](const auto& states) { out.states = states; };
   out.limits = compute_limits(model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
   return out;
 }
 
-RunResult run_variant(const Experiment& experiment)
+RunResult variant_result(const Experiment& experiment, PreparedVariant prepared, VariantLimits solved)
 {
-  PreparedVariant prepared = prepare_variant(experiment);
-  VariantLimits solved = solve_variant(experiment, prepared, 1);
   RunResult run;
   run.limits = std::move(solved.limits);
   run.profiles = profiles(run.limits, *experiment.load_case);
   run.boundary = boundary_of(experiment, prepared.settings, solved.length, run.limits);
   run.scene = std::move(prepared.scene);
   return run;
+}
+
+RunResult run_variant(const Experiment& experiment)
+{
+  PreparedVariant prepared = prepare_variant(experiment);
+  VariantLimits solved = solve_variant(experiment, prepared, 1);
+  return variant_result(experiment, std::move(prepared), std::move(solved));
 }
 
 }  // namespace hauberk::command

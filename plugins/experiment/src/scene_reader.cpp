@@ -172,6 +172,7 @@ class SceneReader {
     if (placed.empty()) return;
     for (std::size_t k = 0; k < v.size(); ++k) spec_.lattice.emplace_back(repeat[k] * v[k]);
     v.resize(3, Vec3::Zero());
+    spec_.repeat = repeat;
     // Element k = ((l n + j) m + i) |place| + index in place.
     for (int cell_index = 0; cell_index < repeat[0] * repeat[1] * repeat[2]; ++cell_index) {
       const int i = cell_index % repeat[0], j = cell_index / repeat[0] % repeat[1],

@@ -7,7 +7,7 @@ namespace {
 /// nanoseconds to the call itself.
 class GuardedLoadCase final : public LoadCase {
  public:
-  GuardedLoadCase(std::unique_ptr<LoadCase> inner, const Guard& guard)
+  GuardedLoadCase(std::unique_ptr<const LoadCase> inner, const Guard& guard)
       : inner_(std::move(inner)),
         guard_(guard),
         macros_(guard_("macros", [&] { return inner_->macros(); })),
@@ -103,8 +103,22 @@ class GuardedLoadCase final : public LoadCase {
     return guard_("not_a_sheet", [&] { return inner_->not_a_sheet(state); });
   }
 
+  std::vector<StricterLoadCase> do_stricter() const override
+  {
+    std::vector<StricterLoadCase> out = guard_("stricter", [&] { return inner_->stricter(); });
+    for (StricterLoadCase& s : out) s.load = std::make_unique<GuardedLoadCase>(std::move(s.load), guard_);
+    return out;
+  }
+  bool do_contains(const LoadCase& other) const override
+  {
+    // Plugins know their own load cases, not what guards them.
+    const auto* guarded = dynamic_cast<const GuardedLoadCase*>(&other);
+    const LoadCase& inner = guarded == nullptr ? other : *guarded->inner_;
+    return guard_("contains", [&] { return inner_->contains(inner); });
+  }
+
  private:
-  std::unique_ptr<LoadCase> inner_;
+  std::unique_ptr<const LoadCase> inner_;
   Guard guard_;
   std::vector<MacroInfo> macros_;
   int coordinate_count_;

@@ -104,6 +104,18 @@ class Odd final : public LoadCase {
     maybe_fail();
     return state.X.size() == 2 && state.linked.size() == 1 ? "torn" : "";
   }
+  std::vector<StricterLoadCase> do_stricter() const override
+  {
+    maybe_fail();
+    std::vector<StricterLoadCase> out;
+    out.push_back({"more", std::make_unique<Odd>(false)});
+    return out;
+  }
+  bool do_contains(const LoadCase& other) const override
+  {
+    maybe_fail();
+    return dynamic_cast<const Odd*>(&other) != nullptr;
+  }
 
  private:
   void maybe_fail() const

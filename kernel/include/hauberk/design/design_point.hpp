@@ -32,6 +32,7 @@ struct DesignPoint {
   bool continued = false;       ///< some state of it continues one of the iterate before
   int unchecked = 0;            ///< steps since all states were looked for from rest
   bool checked = false;         ///< they were, after this one was accepted
+  bool thorough = false;        ///< and with all searches that limits are recomputed with in the end
   std::string why;              ///< why it could not be evaluated
 };
 

@@ -98,11 +98,13 @@ class DesignProblem final : public OptimizationProblem {
     std::string problem;    ///< why it, or its gradient, could not be computed
   };
   /// Locked state of one task: the continuation of the one that is known of `from`; if that is p itself, the
-  /// furthest that rest leads to.
+  /// furthest that rest leads to, or that `known` does.
   LockedTarget lock_target(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
-                           const std::vector<WarmStart>& warm) const;
+                           const std::vector<WarmStart>& warm, const std::optional<State>& known) const;
+  /// The furthest states of a design that limits come to when they are computed by themselves, per task.
+  std::vector<std::optional<State>> thorough_states(const DesignPoint& p);
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
-  /// another that is further along its direction, until there is none.
+  /// another that is further along its direction and keeps what it holds, until there is none.
   void learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
              std::vector<LockedTarget>& targets) const;
   void list_constraints();

@@ -12,6 +12,14 @@
 
 namespace hauberk {
 
+/// A locked state of a scene that this one contains (relatives.hpp), carried over, with the unknowns of this one.
+struct GivenState {
+  Direction direction;
+  Sense sense = Sense::positive;
+  State state;
+  std::string origin;  ///< for people: "one cell"
+};
+
 /// How limits are computed.
 struct LimitSettings {
   ContactChoice contact = ContactChoice::automatic;
@@ -20,13 +28,17 @@ struct LimitSettings {
   double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
   double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
-  /// Whether limits learn from each other, from symmetric images and from loads beside their own; otherwise
-  /// each stands alone, and what contradicts it is told.
+  /// Whether limits learn from each other, from symmetric images, from loads beside their own and from scenes
+  /// that this one contains; otherwise each stands alone, and what contradicts it is told.
   bool lessons = true;
+  /// Starts of compressions of periodic cells of up to eight elements, at least, where limits learn; of larger
+  /// cells inversely fewer.
+  int fold_starts = 32;
   int tilts = 0;                      ///< random loads beside the task's own, from whose states it learns
   double tilt = 20.0;                 ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;
   std::optional<State> start;  ///< where starts begin; null: at rest
+  std::vector<GivenState> given;  ///< with which limits of their direction and sense begin once more
 };
 
 /// One limit to be found.
@@ -93,6 +105,8 @@ struct LimitsObserver {
   std::function<void(std::size_t done, std::size_t total)> on_start;
   /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
   std::function<void(const std::vector<LimitResult>&)> on_limit;
+  /// At the end: the furthest locked state of every task that was asked for; null where there is none.
+  std::function<void(const std::vector<std::optional<State>>&)> on_states;
   /// At the end: limits that were solved for their states alone and are not reported (neighbours).
   std::function<void(const std::vector<LimitResult>&)> on_unreported;
 };
@@ -108,12 +122,14 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
-/// After its starts each task learns from tilted loads. Then limits learn from each other: a locked state of
+/// After its starts each task learns from tilted loads. Compressions of periodic cells then begin once more from
+/// where those of every scene lock that this one contains (relatives.hpp), and all tasks from what
+/// `settings.given` has for them. Then limits learn from each other: a locked state of
 /// any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that hold
 /// nothing that it breaks, so where its value along another task's direction is further than that task's own
 /// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
-/// folds keep from their furthest state, are searched twice from rest, with the widest stage and without, and
-/// walk: each begins again from the states of the loads beside its own, as long as these come to further ones.
+/// folds keep from their furthest state, are searched from `fold_starts` starts and once more without the widest
+/// stage, and walk: each begins again from the states of the loads beside its own, as long as these come to further ones.
 /// A limit that has no other of its sense within `settings.neighbours` learns from limits at that angle to
 /// either side, which are not reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
 /// result (status failed) and does not stop the others. Tasks that were not finished when `keep_going` said

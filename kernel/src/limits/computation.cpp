@@ -368,7 +368,7 @@ class Computation {
     for (const std::size_t k : unknown) states_[k].known = false;
   }
 
-  /// The states that the limits of a relative end in, one search each; no tasks: it has no use for any.
+  /// The states that the limits of a relative end in when each stands alone; no tasks: it has no use for any.
   Solved solved(const Relative& relative, unsigned threads) const
   {
     Solved s;
@@ -383,12 +383,13 @@ class Computation {
     }
     LimitSettings settings = settings_;
     settings.lessons = false;  // its states begin a search, they are no answers
-    settings.starts = 1;
+    // A cell's own start is one of its multiple's, which moves copies alike; the others are new.
+    const bool cell = relative.scene.elements.size() != spec_.elements.size();
+    settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
     settings.given.clear();
     if (settings_.start && !s.tasks.empty()) {
-      if (relative.scene.elements.size() == spec_.elements.size())
-        settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
-      if (relative.scene.elements.size() != spec_.elements.size() || !settings.start) s.tasks.clear();
+      if (!cell) settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
+      if (cell || !settings.start) s.tasks.clear();
     }
     if (s.tasks.empty()) return s;
     LimitsObserver observer;

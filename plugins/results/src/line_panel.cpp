@@ -32,6 +32,9 @@ Range values_of(const LinePanel& panel)
   }
   if (low > high) return {};
   if (panel.from_zero && low >= 0.0) low = 0.0;
+  // Values that differ by less are one line: ticks between them would have no digits that tell them apart.
+  constexpr double same = 1e-6;
+  if (high - low <= same * std::max(std::abs(low), std::abs(high))) low = high = 0.5 * (low + high);
   const double span = high > low ? high - low : std::max(std::abs(high), 1.0);
   for (const Level& level : panel.levels) {
     const double y = scaled(panel, level.value);

@@ -108,7 +108,8 @@ LineFrame frame_of(const SweepTable& table)
     frame.x_to = first ? x : std::max(frame.x_to, x);
     first = false;
   }
-  if (!(frame.x_to > frame.x_from)) {
+  // Also where values differ by rounding alone: between them there is no place for a tick.
+  if (!(frame.x_to - frame.x_from > 1e-9 * std::max(std::abs(frame.x_from), std::abs(frame.x_to)))) {
     frame.x_from -= 0.5;
     frame.x_to += 0.5;
   }

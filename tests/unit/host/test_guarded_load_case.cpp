@@ -181,6 +181,10 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   const std::array<std::array<int, 2>, 1> linked{{{0, 1}}};
   EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, linked}), "torn");
   EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, {}}), "");
+  ASSERT_EQ(load_case->stricter().size(), 1U);
+  EXPECT_EQ(load_case->stricter()[0].name, "more");
+  EXPECT_TRUE(load_case->contains(*load_case->stricter()[0].load)) << "guards know what they guard";
+  EXPECT_TRUE(load_case->contains(Odd(false)));
 }
 
 TEST(GuardedLoadCase, EveryCallIsGuarded)
@@ -203,6 +207,8 @@ TEST(GuardedLoadCase, EveryCallIsGuarded)
   expect("sense_names", [&] { load_case->sense_names(); });
   expect("metric", [&] { load_case->metric(out); });
   expect("not_a_sheet", [&] { load_case->not_a_sheet({}); });
+  expect("stricter", [&] { load_case->stricter(); });
+  expect("contains", [&] { load_case->contains(Odd(false)); });
   expect("inequalities", [&] { load_case->inequalities(both); });
   expect("equalities", [&] { load_case->equalities(both); });
   expect("boundedness", [&] { load_case->boundedness(std::array{1.0}, both); });

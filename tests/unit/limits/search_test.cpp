@@ -29,6 +29,7 @@ struct Sheet4in1 {
   {
     settings.schedule.last = 1e-4;
     settings.neighbours = 0.0;
+    settings.fold_starts = 1;
   }
   std::vector<LimitResult> limits(const std::vector<double>& directions, const LimitsObserver& observer = {},
                                   const std::vector<std::optional<LimitResult>>& known = {}) const

@@ -68,6 +68,7 @@ SceneSpec repeated(const SceneSpec& cell, int m, int n)
     }
   }
   s.lattice = {m * cell.lattice[0], n * cell.lattice[1]};
+  s.repeat = {m, n, 1};
   return s;
 }
 

@@ -83,6 +83,19 @@ TEST(SweepPlot, RowsThatFailedAreGaps)
   EXPECT_EQ(failed, sweep_svg(table, "t", "s")) << "neither a point nor a scale follows from it";
 }
 
+/// No axis has ticks between neighbouring numbers: their places would never be reached.
+TEST(SweepPlot, ValuesThatDifferByRoundingAreOneLine)
+{
+  SweepTable table;
+  table.axes.push_back({"z", {}, false});
+  table.measures.push_back({"compress 45", "/limits/0/value"});
+  for (const double d : {0.0, 1.0, 2.0}) {
+    const double y = -0.6590 + d * 1.1e-16, x = 1e9 + d * 1.2e-7;
+    table.rows.push_back({{x}, RowStatus::done, "", {y}, nullptr});
+  }
+  EXPECT_LT(sweep_svg(table, "t", "s").size(), 20000U);
+}
+
 TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
 {
   char name[] = "/tmp/hauberk-test-XXXXXX";

@@ -59,10 +59,8 @@ void register_limits(Scenes& scenes)
         17.2 / 12.0 - 1.0);
   }
   for (const char* material : materials) {
-    for (const char* preset : {"accurate", "fast"}) {
-      add(scenes, fmt::format("{}/{}", material, preset),
-          published_limits(material, one_limit("stretch", {fmt::format("/solver/preset={}", preset)})));
-    }
+    add(scenes, fmt::format("{}/accurate", material),
+        published_limits(material, one_limit("stretch", {"/solver/preset=accurate"})));
   }
   add(scenes, "bending/7_threefold", {"loadcases/paraboloid_bending/example.json", one_limit("up")});
 }

@@ -193,7 +193,7 @@ TEST(BoundaryList, CurvaturesHaveTheirOwnMetric)
   text = with(text, "in_plane_periodic", "paraboloid_bending");
   text = with(text, R"("vectors": [[9.59123136, 5.5375], [0, 11.075]])",
               R"("patch": { "vectors": [[9.59123136, 5.5375], [0, 11.075]], "outline": { "hexagon": 1 } })");
-  text = with(text, "accurate", "fast");
+  text = with(text, R"("preset": "accurate")", R"("tolerance": 1e-3)");
   const Outcome o = run_program({"run", folder.write("p.json", text), "-o", folder / "out"});
   ASSERT_EQ(o.code, 0) << o.out << o.err;
   const json::value r = read_results(folder / "out");

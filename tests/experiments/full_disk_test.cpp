@@ -115,7 +115,7 @@ TEST(FullDisk, FormerResultsStay)
   const Contents before = contents(out);
   for (const rlim_t bytes : {1200, 4096}) {
     const Outcome o = run_on_small_disk(
-        {"run", file, "-o", out, "--force", "--set", "/solver/preset=fast", "--set", "/expect=[]"}, bytes);
+        {"run", file, "-o", out, "--force", "--set", "/solver/tolerance=1e-3", "--set", "/expect=[]"}, bytes);
     EXPECT_EQ(o.code, 1) << o.err;
     EXPECT_EQ(contents(out), before);
     EXPECT_FALSE(fs::exists(out + "/.hauberk-previous"));

@@ -96,8 +96,8 @@ TEST(Mesh, Refusals)
           "is so coarse that the curve at the middle of its tube leaves it; use more than 4 facets");
   // Chords cut across holes: surfaces leave room, coarse meshes do not, and relaxation cannot tell on which
   // side they are.
-  const std::string mail = with(chainmail_text(), "\"preset\": \"fast\"",
-                                "\"preset\": \"fast\", \"contact\": \"mesh\", \"facets\": 10");
+  const std::string mail = with(chainmail_text(), "\"tolerance\": 1e-3",
+                                "\"tolerance\": 1e-3, \"contact\": \"mesh\", \"facets\": 10");
   refused(mail, "other pairs; use more facets, or give them more room");
   refused(with(mail, "\"cell\": {", "\"cell\": { \"relax\": true,"), "meet at rest");
 }
@@ -126,17 +126,17 @@ class MeshFiles : public testing::Test {
 
 TEST_F(MeshFiles, LimitOfFramesIsExact)
 {
-  for (const auto& [preset, tolerance] : {std::pair{"fast", 1e-3}, std::pair{"accurate", 1e-8}}) {
-    ASSERT_EQ(run_program({"run", folder_.write("m.json", text_), "-o", folder_ / preset, "--set",
-                           "/expect=[]", "--set", std::string("/solver/preset=") + preset})
+  for (const auto& [asked, tolerance] : {std::pair{"1e-3", 1e-3}, std::pair{"2e-9", 1e-8}}) {
+    ASSERT_EQ(run_program({"run", folder_.write("m.json", text_), "-o", folder_ / asked, "--set",
+                           "/expect=[]", "--set", std::string("/solver/tolerance=") + asked})
                   .code,
               0);
-    const json::value results = read_results(folder_ / preset);
+    const json::value results = read_results(folder_ / asked);
     EXPECT_NEAR(number_at(results, "/limits/0/value"), exact(8), tolerance);
     EXPECT_EQ(number_at(results, "/scene/elements/1/primitives/0/surface"), 0.0);
     EXPECT_EQ(results.at_pointer("/scene/surfaces").as_array().size(), 1U);
     EXPECT_EQ(results.at_pointer("/scene/surfaces/0/triangles").as_array().size(), 128U);
-    const Outcome verified = run_program({"verify", folder_ / (std::string(preset) + "/results.json")});
+    const Outcome verified = run_program({"verify", folder_ / (std::string(asked) + "/results.json")});
     EXPECT_EQ(verified.code, 0) << verified.out;
   }
 }
@@ -210,7 +210,7 @@ TEST_F(MeshFiles, RowsOfSweepsFindTheFile)
            "\"task\": \"sweep\", \"sweep\": { \"vary\": [ { \"name\": \"scale\", \"values\": "
            "[1, 1.05], \"pointers\": [\"/elements/link/parameters/scale\"] } ] }");
   const Outcome o = run_program({"run", folder_.write("s.json", sweep), "-o", folder_ / "out", "--set",
-                                 "/solver/preset=fast", "--set", "/expect=[]"});
+                                 "/solver/tolerance=1e-3", "--set", "/expect=[]"});
   ASSERT_EQ(o.code, 0) << o.err;
   const json::value results = read_results(folder_ / "out");
   EXPECT_NEAR(number_at(results, "/sweep/rows/1/result/limits/0/value"), 1.05 * (exact(8) + 1.0) - 1.0, 1e-3);
@@ -229,7 +229,7 @@ TEST_F(MeshFiles, ResumedOnlyWithTheSameFile)
     for (const char* name : {"frame.obj", "other.obj"}) folder_.write(name, frame);
     const std::string out = folder_ / (std::string("results of ") + other);
     const std::vector<std::string> run{"run",     folder_.write("m.json", text), "-o",    out,
-                                       "--set",   "/solver/preset=fast",         "--set", "/expect=[]",
+                                       "--set",   "/solver/tolerance=1e-3",         "--set", "/expect=[]",
                                        "--resume"};
     ASSERT_EQ(run_program(run).code, 0);
     EXPECT_TRUE(read_results(out).at_pointer("/provenance/files").as_object().contains(other));

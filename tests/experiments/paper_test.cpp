@@ -110,8 +110,8 @@ TEST(Paper, WhatItCannotDoIsRefused)
       ":9: /solver/closest_points: sampled closest points belong to contact 'published'; remove this or "
       "choose that contact\n");
   EXPECT_EQ(
-      refusal(with(design_text(), R"("preset": "fast")", R"("preset": "paper")")),
-      ":12: /solver/preset: preset 'paper' computes limits only in this version; use fast or accurate for a "
+      refusal(with(design_text(), R"("tolerance": 1e-3)", R"("preset": "paper")")),
+      ":12: /solver/preset: preset 'paper' computes limits only in this version; use accurate for a "
       "design\n");
 }
 

@@ -158,7 +158,7 @@ std::string chainmail_text()
       { "element": "ring", "position": [0, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": -36.5 } },
       { "element": "ring", "position": [6.1, 3, 0], "rotation": { "axis": [1, 0, 0], "degrees": 36.5 } } ] },
   "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0, 30, 90] },
-  "solver": { "preset": "fast", "starts": 2 }
+  "solver": { "tolerance": 1e-3, "starts": 2 }
 })";
 }
 
@@ -180,7 +180,7 @@ std::string map_text()
                    R"([ { "pointer": "/stability/counts/silent_wrong", "value": 2 } ])"),
               R"("solver": { "preset": "accurate" },)", R"("stability": {
     "methods": [
-      { "name": "fast", "set": { "/solver/preset": "fast", "/solver/contact": "nearest" } },
+      { "name": "wide", "set": { "/solver/tolerance": 1e-3, "/solver/contact": "nearest" } },
       { "name": "accurate", "set": { "/solver/preset": "accurate" } } ],
     "families": [
       { "name": "thickness", "why": "until it overlaps",

@@ -124,7 +124,7 @@ TEST(Run, LimitsOnTheWrongSideOfRestAreNone)
       folder.write("c.json", with(with(chain_text(), "[12, 0]", "[17.199999, 0]"), R"("position": [6, 0, 0])",
                                   R"("position": [8.5999995, 0, 0])"));
   const Outcome fast = run_program(
-      {"run", file, "-o", folder / "fast", "--set", "/solver/preset=fast", "--set", "/expect=[]"});
+      {"run", file, "-o", folder / "fast", "--set", "/solver/tolerance=1e-3", "--set", "/expect=[]"});
   EXPECT_EQ(fast.code, 1) << fast.out;
   EXPECT_NE(
       fast.out.find("stretch at 0 degrees: stalled: rest is nearer to the limit than the gaps that this "
@@ -162,13 +162,13 @@ TEST(Run, FolderWithResultsIsRefusedWithoutForce)
   const std::string file = folder.write("c.json", chain_text());
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
   const std::string before = read_text(folder / "out/results.json");
-  const Outcome refused = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=fast"});
+  const Outcome refused = run_program({"run", file, "-o", folder / "out", "--set", "/solver/tolerance=1e-3"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.err,
             "hauberk: " + (folder / "out") +
                 ": holds results already (results.json); give another folder with -o, or --force\n");
   EXPECT_EQ(read_text(folder / "out/results.json"), before);
-  EXPECT_EQ(run_program({"run", file, "-o", folder / "out", "--force", "--set", "/solver/preset=fast",
+  EXPECT_EQ(run_program({"run", file, "-o", folder / "out", "--force", "--set", "/solver/tolerance=1e-3",
                          "--set", "/expect=[]"})
                 .code,
             0);

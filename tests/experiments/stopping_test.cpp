@@ -161,7 +161,7 @@ TEST(Resuming, RefusesOtherExperiments)
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
   const std::string results = folder / "out/results.json", before = read_text(results);
   const Outcome o =
-      run_program({"run", file, "-o", folder / "out", "--resume", "--set", "/solver/preset=fast"});
+      run_program({"run", file, "-o", folder / "out", "--resume", "--set", "/solver/tolerance=1e-3"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(
       o.err,

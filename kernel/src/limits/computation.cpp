@@ -18,7 +18,7 @@ namespace hauberk {
 namespace {
 
 /// Elements of the largest cell that has all LimitSettings::fold_starts.
-constexpr int cell_of_all_starts = 8;
+constexpr int cell_of_all_starts = 4;
 
 /// One start of one task.
 struct Attempt {

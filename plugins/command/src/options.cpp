@@ -31,7 +31,7 @@ Options::Options(std::string synopsis, std::string summary, std::string position
 void Options::add_experiment_options()
 {
   shown_.add_options()("set", po::value<std::vector<std::string>>()->composing()->value_name("path=value"),
-                       "replace a value of the file, e.g. /solver/preset=fast; may be repeated");
+                       "replace a value of the file, e.g. /solver/tolerance=1e-3; may be repeated");
   shown_.add_options()("plugin-path", po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
                        "folder that is searched for plugins first; may be repeated");
 }

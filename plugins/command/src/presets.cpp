@@ -8,10 +8,8 @@
 namespace hauberk::command {
 namespace {
 
-/// Last activation distance of preset fast, L.
-constexpr double fast_last = 1e-3;
 /// Contacts that are farther apart than tubes are thick have no direction of their own.
-constexpr double fast_last_tubes = 0.25;
+constexpr double last_of_tubes = 0.25;
 /// Below this rounding of positions would show in gaps (L).
 constexpr double least_last = 1e-11;
 
@@ -40,9 +38,6 @@ double paper_activation_in(const SceneSpec& scene, const std::string& unit)
 Schedule preset_schedule(const ExperimentSolver& solver, const SceneSpec& scene, const std::string& unit)
 {
   Schedule schedule;  // accurate
-  if (solver.preset == "fast")
-    schedule.last =
-        std::min(fast_last, fast_last_tubes * thinnest_tube(scene) / characteristic_length(scene));
   if (solver.preset == "paper") {
     schedule.first = schedule.last = paper_activation_in(scene, unit);
     schedule.ccd = CollisionCheck::sampled;
@@ -69,13 +64,13 @@ std::string paper_problem(const SceneSpec& scene, const std::string& unit)
   if (activation > largest_activation || activation < least_last) {
     return fmt::format(
         "the activation distance of preset 'paper' is 0.1 mm, {:.3g} times the median ring radius of this "
-        "scene; expected {:g} .. {:g}: use fast or accurate, or correct length_unit",
+        "scene; expected {:g} .. {:g}: use preset accurate, or correct length_unit",
         activation, least_last, largest_activation);
   }
   if (const double thinnest = thinnest_tube(scene) / length; thinnest < activation) {
     return fmt::format(
         "the activation distance of preset 'paper' is 0.1 mm, but the thinnest tube has a half-axis of "
-        "{:.3g} mm: contacts would act through it; use fast or accurate, or correct length_unit",
+        "{:.3g} mm: contacts would act through it; use preset accurate, or correct length_unit",
         thinnest * length * metres(unit) * 1e3);
   }
   return {};
@@ -127,7 +122,7 @@ std::vector<Problem> solver_problems(const Experiment& e)
     if (e.task == Task::design) {
       out.push_back(
           {"/solver/preset", 0,
-           "preset 'paper' computes limits only in this version; use fast or accurate for a design"});
+           "preset 'paper' computes limits only in this version; use accurate for a design"});
     }
     const std::string problem = paper_problem(e.scene, e.length_unit);
     if (!problem.empty()) out.push_back({"/solver/preset", 0, problem});
@@ -178,7 +173,10 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
   Schedule& schedule = settings.schedule;
   // Gaps at equilibrium are about a tenth of the activation distance, so 1 + value is as exact as the last
   // one.
-  if (solver.tolerance) schedule.last = std::clamp(*solver.tolerance, least_last, schedule.first);
+  if (solver.tolerance) {
+    const double most = std::min(schedule.first, last_of_tubes * thinnest_tube(scene) / characteristic_length(scene));
+    schedule.last = std::clamp(*solver.tolerance, least_last, std::max(most, least_last));
+  }
   if (solver.max_stages)
     schedule.last =
         std::max(schedule.last, schedule.first * std::pow(schedule.ratio, *solver.max_stages - 1));

@@ -115,7 +115,7 @@ void apply_override(Node& root, const std::string& assignment, Diagnostics& diag
   };
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || assignment[0] != '/') {
-    refuse("", "--set expects POINTER=VALUE, as in /solver/preset=fast; found '" + assignment + "'");
+    refuse("", "--set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found '" + assignment + "'");
     return;
   }
   const Reached reached = reach(root, assignment.substr(0, equals));

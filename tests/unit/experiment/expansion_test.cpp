@@ -102,7 +102,8 @@ TEST(Expansion, ResolvesSettingsAndDefaults)
   EXPECT_EQ(e.load_case->measure(), "tensor");
   EXPECT_EQ(e.directions_deg, (std::vector<double>{0, 30}));
   EXPECT_EQ(e.senses, (std::vector<Sense>{Sense::positive, Sense::negative}));
-  EXPECT_EQ(e.solver.preset, "fast");
+  EXPECT_EQ(e.solver.preset, "accurate");
+  EXPECT_EQ(e.solver.tolerance, 1e-3);
   EXPECT_EQ(e.solver.contact, "auto");
   EXPECT_EQ(e.solver.starts, 1);
   EXPECT_EQ(e.solver.start_seed, 1u);

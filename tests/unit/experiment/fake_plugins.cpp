@@ -230,7 +230,7 @@ std::string valid_text()
       { "element": "link", "position": [6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } },
     ] },
   "load_case": { "plugin": "plane", "directions_deg": [0, 30] }, // a comment
-  "solver": { "preset": "fast" },
+  "solver": { "tolerance": 1e-3 },
   "design": {
     "optimizer": { "plugin": "search" }, "quantity": "eta",
     "variables": [ { "parameters": "ring.R", "lower": 4.0, "upper": 6.5 } ],

@@ -153,7 +153,7 @@ TEST(Meaning, DesignQuantityAndTargets)
 
 TEST(Meaning, DesignClearances)
 {
-  const std::string text = with(valid_text(), "\"preset\": \"fast\"", "\"clearance\": 0.2");
+  const std::string text = with(valid_text(), "\"tolerance\": 1e-3", "\"clearance\": 0.2");
   EXPECT_EQ(
       problems_of(with(text, "\"quantity\": \"eta\",",
                        "\"quantity\": \"eta\", \"hole_clearance\": 0.1, "

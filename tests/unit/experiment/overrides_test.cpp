@@ -32,15 +32,15 @@ TEST(Overrides, ReplaceCreateAndAppend)
 
 TEST(Overrides, CreatesSectionsOnTheWay)
 {
-  const std::string text = with(valid_text(), "\"solver\": { \"preset\": \"fast\" },", "");
-  EXPECT_EQ(read_ok(text, {"/solver/preset=fast"}).solver.preset, "fast");
+  const std::string text = with(valid_text(), "\"solver\": { \"tolerance\": 1e-3 },", "");
+  EXPECT_EQ(read_ok(text, {"/solver/tolerance=1e-3"}).solver.tolerance, 1e-3);
 }
 
 TEST(Overrides, AreCheckedLikeTheFile)
 {
-  EXPECT_EQ(with_set({"/solver/preset=fats"}),
-            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; did you "
-            "mean 'fast'?");
+  EXPECT_EQ(with_set({"/solver/preset=papr"}),
+            "command line: /solver/preset: expected one of accurate, paper, found \"papr\"; did you "
+            "mean 'paper'?");
   EXPECT_EQ(with_set({"/sovler/preset=fast"}),
             "command line: /sovler: unknown key 'sovler'; did you mean 'solver'?");
   EXPECT_EQ(with_set({"/elements/link/parameters/ring.R=-1"}),
@@ -58,10 +58,10 @@ TEST(Overrides, RefusesWhatCannotBeApplied)
 {
   EXPECT_EQ(
       with_set({"solver.preset=fast"}),
-      "command line: --set expects POINTER=VALUE, as in /solver/preset=fast; found 'solver.preset=fast'");
+      "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found 'solver.preset=fast'");
   EXPECT_EQ(with_set({"/solver"}),
-            "command line: --set expects POINTER=VALUE, as in /solver/preset=fast; found '/solver'");
-  EXPECT_EQ(with_set({""}), "command line: --set expects POINTER=VALUE, as in /solver/preset=fast; found ''");
+            "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found '/solver'");
+  EXPECT_EQ(with_set({""}), "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found ''");
   EXPECT_EQ(with_set({"/cell/place/5/element=x"}),
             "command line: /cell/place: --set cannot reach '5': expected an index from 0 to 2");
   EXPECT_EQ(with_set({"/cell/place/first=1"}),

@@ -20,8 +20,8 @@ TEST(Structure, WrongTypes)
 {
   EXPECT_EQ(problems_of("[]"), "t.json:1: expected an object, found an empty array");
   EXPECT_EQ(after("\"pair\"", "5"), "t.json:2: /name: expected a string, found 5");
-  EXPECT_EQ(after("\"fast\"", "{}"),
-            "t.json:14: /solver/preset: expected one of fast, accurate, paper, found an object");
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"preset\": {}"),
+            "t.json:14: /solver/preset: expected one of accurate, paper, found an object");
   EXPECT_EQ(after("\"lower\": 4.0", "\"lower\": \"4\""),
             "t.json:17: /design/variables/0/lower: expected a number, found \"4\"");
   EXPECT_EQ(after("\"parameters\": \"ring.R\"", "\"parameters\": null"),
@@ -34,16 +34,19 @@ TEST(Structure, WrongTypes)
 
 TEST(Structure, RangesAndChoices)
 {
-  EXPECT_EQ(after("\"fast\"", "\"fats\""),
-            "t.json:14: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; did you "
-            "mean 'fast'?");
-  EXPECT_EQ(after("\"preset\": \"fast\"", "\"clearance\": -0.1"),
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"preset\": \"papr\""),
+            "t.json:14: /solver/preset: expected one of accurate, paper, found \"papr\"; did you "
+            "mean 'paper'?");
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"preset\": \"fast\""),
+            "t.json:14: /solver/preset: expected one of accurate, paper, found \"fast\"; it took as long as "
+            "accurate: leave preset away, or set tolerance to 1e-3 for gaps as wide");
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"clearance\": -0.1"),
             "t.json:14: /solver/clearance: expected a number >= 0, found -0.1");
-  EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 0"),
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"starts\": 0"),
             "t.json:14: /solver/starts: expected an integer >= 1, found 0");
-  EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 1.5"),
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"starts\": 1.5"),
             "t.json:14: /solver/starts: expected an integer >= 1, found 1.5");
-  EXPECT_EQ(after("\"preset\": \"fast\"", "\"starts\": 1e300"),
+  EXPECT_EQ(after("\"tolerance\": 1e-3", "\"starts\": 1e300"),
             "t.json:14: /solver/starts: expected an integer >= 1, found 1e+300");
   EXPECT_EQ(after("\"value\": 0.05", "\"value\": 0.05, \"weight\": 0"),
             "t.json:18: /design/targets/0/weight: expected a number > 0, found 0");
@@ -154,7 +157,7 @@ TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)
   text = with(text, "\"link\", \"position\": [6", "\"lnk\", \"position\": [6");
   text = with(text, "[0, 30]", "[0, 30, 210]");
   text =
-      with(text, "\"preset\": \"fast\"", "\"preset\": \"fast\", \"preset\": \"paper\", \"contakt\": \"arc\"");
+      with(text, "\"tolerance\": 1e-3", "\"preset\": \"accurate\", \"preset\": \"paper\", \"contakt\": \"arc\"");
   text = with(text, "\"lower\": 4.0", "\"lower\": 7.0");
   text = with(text, "\"value\": 0.05", "\"value\": -0.05");
   EXPECT_EQ(problems_of(text),

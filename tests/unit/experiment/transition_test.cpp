@@ -45,7 +45,7 @@ TEST(Transition, ReadsPathsAndFillsDefaults)
 TEST(Transition, RangeIsBeyondTheClearance)
 {
   const Experiment e =
-      read_ok(with(text(), "\"preset\": \"fast\"", "\"preset\": \"fast\", \"clearance\": 0.5"));
+      read_ok(with(text(), "\"tolerance\": 1e-3", "\"tolerance\": 1e-3, \"clearance\": 0.5"));
   EXPECT_DOUBLE_EQ(e.transition->range, 0.8);
 }
 

@@ -31,7 +31,7 @@ struct LimitSettings {
   /// Whether limits learn from each other, from symmetric images, from loads beside their own and from scenes
   /// that this one contains; otherwise each stands alone, and what contradicts it is told.
   bool lessons = true;
-  /// Starts of compressions of periodic cells of up to eight elements, at least, where limits learn; of larger
+  /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn; of larger
   /// cells inversely fewer.
   int fold_starts = 32;
   int tilts = 0;                      ///< random loads beside the task's own, from whose states it learns

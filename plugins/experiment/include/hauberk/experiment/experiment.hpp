@@ -29,7 +29,7 @@ enum class Task { limits, design, stability, transition, sweep, chart };
 
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
-  std::string preset;                              ///< "fast", "accurate", "paper"
+  std::string preset;                              ///< "accurate", "paper"
   double clearance = 0.0;                          ///< file units
   std::string contact;                             ///< "auto", or as contact_named
   std::optional<int> facets;                       ///< of contact "mesh"

@@ -157,11 +157,11 @@ TEST(BadInput, ValuesOfTheCommandLineAreNamedAsSuch)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("c.json", chain_text());
-  const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=fats"});
+  const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=papr"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.err,
-            "command line: /solver/preset: expected one of fast, accurate, paper, found \"fats\"; did you "
-            "mean 'fast'?\n");
+            "command line: /solver/preset: expected one of accurate, paper, found \"papr\"; did you "
+            "mean 'paper'?\n");
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

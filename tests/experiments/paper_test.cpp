@@ -104,7 +104,7 @@ TEST(Paper, WhatItCannotDoIsRefused)
   EXPECT_EQ(
       refusal(chain_in("um", 1.0, R"("preset": "paper")")),
       ":9: /solver/preset: the activation distance of preset 'paper' is 0.1 mm, 20 times the median ring "
-      "radius of this scene; expected 1e-11 .. 0.1: use fast or accurate, or correct length_unit\n");
+      "radius of this scene; expected 1e-11 .. 0.1: use preset accurate, or correct length_unit\n");
   EXPECT_EQ(
       refusal(chain_in("mm", 1.0, R"("closest_points": "sampled")")),
       ":9: /solver/closest_points: sampled closest points belong to contact 'published'; remove this or "

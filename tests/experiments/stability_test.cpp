@@ -42,7 +42,7 @@ TEST(StabilityRun, ClassifiesEveryCase)
   EXPECT_EQ(r.at_pointer("/files/picture").as_string(), "stability.svg");
   for (const char* file : {"stability.csv", "stability.svg"})
     EXPECT_GT(fs::file_size(folder.path() / "out" / file), 0U);
-  EXPECT_NE(o.out.find("thickness  fast             1      1        1       1\n"), std::string::npos)
+  EXPECT_NE(o.out.find("thickness  wide             1      1        1       1\n"), std::string::npos)
       << o.out;
   EXPECT_NE(o.out.find("all 1 expected results are met\n"), std::string::npos) << o.out;
   EXPECT_NE(o.err.find("stability: 10/10"), std::string::npos) << o.err;
@@ -94,7 +94,7 @@ TEST(StabilityRun, MistakesOfFormAreBadInput)
       with(map_text(), R"("/solver/contact": "nearest")", R"("/solver/contact": "nearst")");
   const Outcome o = run_program({"run", folder.write("map.json", text), "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("family 'thickness', member '0.7', method 'fast': expected one of auto, nearest, arc, "
+  EXPECT_NE(o.err.find("family 'thickness', member '0.7', method 'wide': expected one of auto, nearest, arc, "
                        "published, mesh, constrained, found \"nearst\"; did you mean 'nearest'?"),
             std::string::npos)
       << o.err;

@@ -151,6 +151,7 @@ std::vector<std::optional<State>> DesignProblem::thorough_states(const DesignPoi
   LimitSettings settings = limits_;
   settings.start = p.rest;
   settings.schedule = schedule_;
+  settings.neighbours = 0.0;  // targets are neighbours of each other; others would be most of the cost
   std::vector<std::optional<State>> states;
   LimitsObserver observer;
   observer.on_states = [&states](const auto& found) { states = found; };

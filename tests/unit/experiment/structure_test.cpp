@@ -77,8 +77,8 @@ TEST(Structure, PublishedResultsOfADesign)
 
 TEST(Structure, UnknownKeysNameTheNearest)
 {
-  EXPECT_EQ(after("\"preset\"", "\"prest\""),
-            "t.json:14: /solver/prest: unknown key 'prest'; did you mean 'preset'?");
+  EXPECT_EQ(after("\"tolerance\"", "\"tolerence\""),
+            "t.json:14: /solver/tolerence: unknown key 'tolerence'; did you mean 'tolerance'?");
   EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"Seed\": 1"),
             "t.json:2: /Seed: unknown key 'Seed'; did you mean 'seed'?");
   // A key of a plugin counts as known.

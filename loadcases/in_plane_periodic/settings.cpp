@@ -10,7 +10,8 @@ void in_plane_periodic_fields(std::vector<Field>& out)
   measure.name = "measure";
   measure.kind = Field::Kind::choice;
   measure.doc =
-      "Reported value: tensor is n^T eps n; equation_12 is (d . eps)/(d . d) with d = (c^2, s^2, c s), equation "
+      "Reported value: tensor is n^T eps n; equation_12 is (d . eps)/(d . d) with d = (c^2, s^2, c s), "
+      "equation "
       "(12) of the paper read literally, which goes with hold [].";
   measure.default_json = "\"tensor\"";
   measure.choices = {"tensor", "equation_12"};
@@ -58,7 +59,8 @@ std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double len
   out_of_plane.free = height.is(Node::Type::string);
   if (!out_of_plane.free) out_of_plane.half_height = height.number / length;
   InPlanePeriodic::Hold hold{false, false};
-  for (const Node& name : section.at("hold").items) (name.string == "shear" ? hold.shear : hold.lateral) = true;
+  for (const Node& name : section.at("hold").items)
+    (name.string == "shear" ? hold.shear : hold.lateral) = true;
   return std::make_unique<InPlanePeriodic>(measure, out_of_plane, hold);
 }
 

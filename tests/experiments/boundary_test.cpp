@@ -167,8 +167,8 @@ TEST(BoundaryList, GivesTheLimitsOfAnglesAndLeavesNoFaces)
       << plan.out;
 }
 
-/// A chain holds its own direction only: shear would be approached as the chain turns, were there no contact on
-/// the way; spreading is unbounded.
+/// A chain holds its own direction only: shear would be approached as the chain turns, were there no contact
+/// on the way; spreading is unbounded.
 TEST(BoundaryList, SaysWhichDirectionsLinksDoNotHold)
 {
   const TemporaryFolder folder;

@@ -229,7 +229,7 @@ TEST_F(MeshFiles, ResumedOnlyWithTheSameFile)
     for (const char* name : {"frame.obj", "other.obj"}) folder_.write(name, frame);
     const std::string out = folder_ / (std::string("results of ") + other);
     const std::vector<std::string> run{"run",     folder_.write("m.json", text), "-o",    out,
-                                       "--set",   "/solver/tolerance=1e-3",         "--set", "/expect=[]",
+                                       "--set",   "/solver/tolerance=1e-3",      "--set", "/expect=[]",
                                        "--resume"};
     ASSERT_EQ(run_program(run).code, 0);
     EXPECT_TRUE(read_results(out).at_pointer("/provenance/files").as_object().contains(other));

@@ -109,10 +109,9 @@ TEST(Paper, WhatItCannotDoIsRefused)
       refusal(chain_in("mm", 1.0, R"("closest_points": "sampled")")),
       ":9: /solver/closest_points: sampled closest points belong to contact 'published'; remove this or "
       "choose that contact\n");
-  EXPECT_EQ(
-      refusal(with(design_text(), R"("tolerance": 1e-3)", R"("preset": "paper")")),
-      ":12: /solver/preset: preset 'paper' computes limits only in this version; use accurate for a "
-      "design\n");
+  EXPECT_EQ(refusal(with(design_text(), R"("tolerance": 1e-3)", R"("preset": "paper")")),
+            ":12: /solver/preset: preset 'paper' computes limits only in this version; use accurate for a "
+            "design\n");
 }
 
 }  // namespace

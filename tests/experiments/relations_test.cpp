@@ -55,8 +55,10 @@ TEST_P(Relations, HoldBetweenRows)
 {
   const auto& [name, pointer, values] = GetParam();
   const TemporaryFolder folder;
-  ASSERT_EQ(run_program({"run", folder.write("off.json", loose_text(pointer, values, false)), "-o", folder / "off"}).code,
-            0);
+  ASSERT_EQ(
+      run_program({"run", folder.write("off.json", loose_text(pointer, values, false)), "-o", folder / "off"})
+          .code,
+      0);
   const std::vector<double> alone = values_of(read_results(folder / "off"));
   EXPECT_FALSE(std::is_sorted(alone.begin(), alone.end())) << "without lessons nothing is violated: no test";
   const Outcome o =
@@ -69,12 +71,11 @@ TEST_P(Relations, HoldBetweenRows)
   EXPECT_EQ(run_program({"verify", folder / "on"}).code, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sweep, Relations,
-    testing::Values(Relation{"clearance", "/solver/clearance", "[0, 0.1, 0.2]"},
-                    Relation{"z", "/load_case/out_of_plane", R"(["free", 0])"},
-                    Relation{"hold", "/load_case/hold", R"([[], ["shear"]])"}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Sweep, Relations,
+                         testing::Values(Relation{"clearance", "/solver/clearance", "[0, 0.1, 0.2]"},
+                                         Relation{"z", "/load_case/out_of_plane", R"(["free", 0])"},
+                                         Relation{"hold", "/load_case/hold", R"([[], ["shear"]])"}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 /// Rows that teach are solved again where a run goes on, so that it ends where an uninterrupted one does.
 TEST(RelationsResumed, EndAtTheSame)

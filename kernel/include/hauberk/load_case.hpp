@@ -147,8 +147,8 @@ class LoadCase {
   /// Further values reported beside that of an angle, e.g. {"line_stretch", |F n| - 1}; none for components.
   std::vector<std::pair<std::string, double>> companions(const Direction& direction,
                                                          std::span<const double> macro) const;
-  /// Names of all that a limit holds: conditions on macroscopic unknowns, which angles alone have, and what no
-  /// motion changes (the places of elements).
+  /// Names of all that a limit holds: conditions on macroscopic unknowns, which angles alone have, and what
+  /// no motion changes (the places of elements).
   std::vector<std::string> hold(const Direction& direction) const;
   /// The conditions on the macroscopic unknowns among what is held, linearly independent. The path from rest
   /// may break them, the locked state keeps them. Rest keeps all of them (they are homogeneous). Throws
@@ -174,8 +174,8 @@ class LoadCase {
   bool transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const;
 
   /// Load cases that leave less freedom, one step each: `contains` holds for every one of them, and two steps
-  /// in either order make the same load case. Their locked states are where limits of this one begin once more.
-  /// Empty where there is none, or none is known.
+  /// in either order make the same load case. Their locked states are where limits of this one begin once
+  /// more. Empty where there is none, or none is known.
   std::vector<StricterLoadCase> stricter() const { return do_stricter(); }
 
   /// Whether every state that a limit of `other` may end in is one that the limit of this one at the same

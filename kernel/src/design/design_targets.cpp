@@ -15,7 +15,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double same_value = 1e-9;    ///< two locked states closer than that are taken for one
+constexpr double same_value = 1e-9;  ///< two locked states closer than that are taken for one
 constexpr double keeps_conditions = 1e-9;
 constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 
@@ -168,7 +168,8 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<MacroLoad>& lo
 {
   Lessons rounds(targets.size(), targets.size(), std::max(1e-8, schedule_.last));
   const auto given = [&](std::size_t donor, std::size_t k) -> std::optional<double> {
-    // A state that breaks what k holds is none of its own: searches from there are many steps, and seldom lead on.
+    // A state that breaks what k holds is none of its own: searches from there are many steps, and seldom
+    // lead on.
     const Locked& l = targets[donor].locked;
     if (l.status != LockStatus::locked || missed(loads[k].held, l.state.macro) > keeps_conditions)
       return std::nullopt;

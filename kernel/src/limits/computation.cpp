@@ -119,7 +119,8 @@ class Computation {
       std::vector<std::optional<State>> states(asked_);
       for (std::size_t k = 0; k < asked_; ++k) {
         const std::vector<FoundState> found = found_of(k);
-        if (const auto best = furthest(model_, tasks_[k], settings_, found)) states[k] = found[*best].locked.state;
+        if (const auto best = furthest(model_, tasks_[k], settings_, found))
+          states[k] = found[*best].locked.state;
       }
       observer_.on_states(states);
     }
@@ -156,13 +157,13 @@ class Computation {
     const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
     try {
-      out.locked = !states_[task].is_narrow(start)
-                       ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
-                       : limit_from_state(model_, tasks_[task], settings_,
-                                                      perturbed(model_, start_state(model_, settings_),
-                                                                settings_.perturbation, settings_.seed,
-                                                                Copies::alike),
-                                                      keep_going);
+      out.locked =
+          !states_[task].is_narrow(start)
+              ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
+              : limit_from_state(model_, tasks_[task], settings_,
+                                 perturbed(model_, start_state(model_, settings_), settings_.perturbation,
+                                           settings_.seed, Copies::alike),
+                                 keep_going);
     } catch (const std::exception& error) {
       out.error = error.what();
     }
@@ -231,8 +232,9 @@ class Computation {
         const std::vector<FoundState> known = found_of(task);
         const std::optional<std::size_t> best = furthest(model_, limit, settings_, known);
         if (found.status != LockStatus::locked ||
-            (load.held.cols() == 0 && best && reached(model_, limit, found.state) <
-                         reached(model_, limit, known[*best].locked.state) + further_than(settings_))) {
+            (load.held.cols() == 0 && best &&
+             reached(model_, limit, found.state) <
+                 reached(model_, limit, known[*best].locked.state) + further_than(settings_))) {
           t.iterations += found.iterations;
           t.evaluations += found.evaluations;
           continue;
@@ -258,7 +260,7 @@ class Computation {
       if (!t.starts[s].locked) continue;
       if (s > 0 && runs_away(task)) break;  // whatever the order in which starts were done
       found.push_back(!t.is_narrow(s) ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
-                                  : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
+                                      : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
     }
     found.insert(found.end(), t.further.begin(), t.further.end());
     return found;
@@ -333,9 +335,9 @@ class Computation {
     try {
       const std::optional<State> start = donors.state(donor, states[*best].locked);
       if (start) {
-        out = FoundState{
-            limit_from_state(model_, tasks_[task], settings_, *start, [this] { return going(); }),
-            learnt_origin + learnt_from(donors, donor), states[*best].seed};
+        out =
+            FoundState{limit_from_state(model_, tasks_[task], settings_, *start, [this] { return going(); }),
+                       learnt_origin + learnt_from(donors, donor), states[*best].seed};
       }
     } catch (const std::exception& failure) {
       problem = fmt::format("from the state at {}: {}", learnt_from(donors, donor), failure.what());
@@ -440,8 +442,9 @@ class Computation {
       if (!going()) return;
       const auto t0 = std::chrono::steady_clock::now();
       try {
-        found[i] = FoundState{limit_from_state(model_, tasks_[k], settings_, from->state, [this] { return going(); }),
-                              learnt_origin + from->origin, settings_.seed};
+        found[i] = FoundState{
+            limit_from_state(model_, tasks_[k], settings_, from->state, [this] { return going(); }),
+            learnt_origin + from->origin, settings_.seed};
       } catch (const std::exception& failure) {
         const std::lock_guard lock(mutex_);
         states_[k].remark = fmt::format("from the state of {}: {}", from->origin, failure.what());
@@ -452,7 +455,8 @@ class Computation {
       const std::size_t k = items[i].first;
       if (!going()) {
         results_[k].status = LimitStatus::interrupted;
-        results_[k].message = fmt::format("what the state of {} leads to was not found", items[i].second->origin);
+        results_[k].message =
+            fmt::format("what the state of {} leads to was not found", items[i].second->origin);
         continue;
       }
       if (found[i]) states_[k].further.push_back(std::move(*found[i]));

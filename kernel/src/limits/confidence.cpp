@@ -70,9 +70,9 @@ void enter_searches(Confidence& out, const Model& m, const LimitTask& task, cons
     }
     FailedSearch failed{found[k].origin, found[k].seed, name_of(l.status), std::nullopt};
     if (!l.stages.empty()) {
-      failed.reached = m.load->value(task.direction, {l.state.macro.data(),
-                                                      static_cast<std::size_t>(m.macro_count)}) *
-                       scale_of(m);
+      failed.reached =
+          m.load->value(task.direction, {l.state.macro.data(), static_cast<std::size_t>(m.macro_count)}) *
+          scale_of(m);
       if (there > furthest + same)
         out.contradicted_by.push_back(fmt::format("a search that failed came to {:.9g}", *failed.reached));
     }
@@ -97,11 +97,9 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
       const std::size_t d = donors.task(donor);
       const LimitResult& other = results[d];
       if (d == k || other.status != LimitStatus::locked || !other.value) continue;
-      const std::string by =
-          fmt::format("{}, {}{}", other.direction.text(), other.sense,
-                      donors.is_own(donor) ? "" : ", by a symmetry of the scene");
-      const double margin =
-          compared_to + uncertainty(m, settings, own) + uncertainty(m, settings, other);
+      const std::string by = fmt::format("{}, {}{}", other.direction.text(), other.sense,
+                                         donors.is_own(donor) ? "" : ", by a symmetry of the scene");
+      const double margin = compared_to + uncertainty(m, settings, own) + uncertainty(m, settings, other);
       std::optional<double> there;
       if (donors.same_load(donor, tasks[k])) {
         there = towards(m, tasks[d], other);
@@ -126,7 +124,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
     auto& by = own.confidence.confirmed_by;
     std::sort(by.begin(), by.end());
     by.erase(std::unique(by.begin(), by.end()), by.end());
-    own.confidence.word = !own.confidence.contradicted_by.empty() ? "contradicted"
+    own.confidence.word = !own.confidence.contradicted_by.empty()        ? "contradicted"
                           : own.confidence.ended_here > 1 || !by.empty() ? "confirmed"
                                                                          : "single";
   }

@@ -23,8 +23,8 @@ class Donors {
   bool is_own(std::size_t donor) const { return donor % symmetries_.size() == 0; }
 
   /// A locked state of the donor's task as the donor has it; null where the symmetry makes none of it. A
-  /// scene is symmetric up to the digits that it is written with, and a locked state has no room for those: an
-  /// image is that of the last stage that has.
+  /// scene is symmetric up to the digits that it is written with, and a locked state has no room for those:
+  /// an image is that of the last stage that has.
   std::optional<State> state(std::size_t donor, const Locked& own) const;
 
   /// Whether the donor's load, carried over, is that of a task: their limits are equal then.
@@ -34,8 +34,8 @@ class Donors {
   /// does not keep what that task holds.
   std::optional<double> reached(std::size_t donor, const Vector& macro, const LimitTask& along) const;
 
-  /// Each task that may fold with the donors whose loads are the next two to either side of its own, among loads
-  /// of its sense within 30 degrees: a longer stride at times leaves a fold that a short one keeps.
+  /// Each task that may fold with the donors whose loads are the next two to either side of its own, among
+  /// loads of its sense within 30 degrees: a longer stride at times leaves a fold that a short one keeps.
   std::vector<Lesson> beside() const;
 
  private:

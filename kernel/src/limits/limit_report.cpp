@@ -302,7 +302,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
         "contact forces miss the load by {:.1e} of it: an error of that order is possible", *r.force_balance);
   }
   r.contact = l.pressed ? "constrained" : name_of(l.stage.contact.formulation);
-  if (l.stage.contact.formulation == Formulation::arc) r.quadrature_error = quadrature_error(m, load.held, l, e) / full;
+  if (l.stage.contact.formulation == Formulation::arc)
+    r.quadrature_error = quadrature_error(m, load.held, l, e) / full;
   // E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
   const double sign = task.sense == Sense::positive ? -1.0 : 1.0;
   r.sensitivity_clearance = sign * l.stage.mu * e.d_clearance * scale / m.length;
@@ -362,8 +363,8 @@ LockedState locked_state(const Model& m, const LimitTask& task, const FoundState
 {
   const Locked& l = found.locked;
   LockedState s;
-  s.value = m.load->value(task.direction, macro_span(m, l.state)) *
-            power(m.length, m.load->value_length_power());
+  s.value =
+      m.load->value(task.direction, macro_span(m, l.state)) * power(m.length, m.load->value_length_power());
   for (int k = 0; k < m.macro_count; ++k) {
     s.macro.push_back(l.state.macro[k] *
                       power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));

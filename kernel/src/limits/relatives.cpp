@@ -16,7 +16,8 @@ constexpr double same = 1e-11;
 
 int cells(const std::array<int, 3>& repeat) { return repeat[0] * repeat[1] * repeat[2]; }
 
-/// Index of a cell among those of `repeat`, and the lattice translation of the repeated cell that leads to it.
+/// Index of a cell among those of `repeat`, and the lattice translation of the repeated cell that leads to
+/// it.
 struct CellPlace {
   int cell;
   Image image;
@@ -39,8 +40,8 @@ std::array<int, 3> cell_at(int cell, const std::array<int, 3>& repeat)
   return {cell % repeat[0], cell / repeat[0] % repeat[1], cell / (repeat[0] * repeat[1])};
 }
 
-/// The elements of one cell, if all copies of it are alike: same parameters, same pose, one lattice translation
-/// further.
+/// The elements of one cell, if all copies of it are alike: same parameters, same pose, one lattice
+/// translation further.
 bool copies_alike(const SceneSpec& spec, double length)
 {
   const auto n = spec.elements.size() / static_cast<std::size_t>(cells(spec.repeat));
@@ -64,9 +65,9 @@ bool same_body(const Body& a, const Body& b)
       (a.axes - b.axes).norm() > same)
     return false;
   if (!a.curve) return true;
-  return std::ranges::equal(a.curve->harmonics(), b.curve->harmonics(), [](const Harmonic& x, const Harmonic& y) {
-    return (x.c - y.c).norm() + (x.s - y.s).norm() <= same;
-  });
+  return std::ranges::equal(
+      a.curve->harmonics(), b.curve->harmonics(),
+      [](const Harmonic& x, const Harmonic& y) { return (x.c - y.c).norm() + (x.s - y.s).norm() <= same; });
 }
 
 /// Element i of one model and element j of another one are the same, wherever they are.
@@ -95,7 +96,8 @@ std::vector<Relative> relatives(const Model& m, const SceneSpec& spec)
   return out;
 }
 
-bool contains(const Model& outer, const SceneSpec& outer_spec, const Model& inner, const SceneSpec& inner_spec)
+bool contains(const Model& outer, const SceneSpec& outer_spec, const Model& inner,
+              const SceneSpec& inner_spec)
 {
   if (std::abs(outer.length / inner.length - 1.0) > same || outer.clearance > inner.clearance + same ||
       outer.lattice.size() != inner.lattice.size() || outer_spec.facets != inner_spec.facets ||
@@ -143,7 +145,8 @@ std::optional<State> Carrier::state(const State& from) const
     auto e = out.e.segment(k * to_.coordinate_count, to_.coordinate_count);
     double missed = 0.0;
     for (int step = 0; step < 4; ++step) {
-      to_.load->position(macro, {e.data(), nc}, to_.rest[static_cast<std::size_t>(k)].position, Vec3::Zero(), map);
+      to_.load->position(macro, {e.data(), nc}, to_.rest[static_cast<std::size_t>(k)].position, Vec3::Zero(),
+                         map);
       const Vec3 left = pose.position - map.x;
       missed = left.norm();
       if (nc == 0 || missed < 1e-15) break;

@@ -98,8 +98,8 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
   // Where links do not stop a load, the way from rest shows whether anything does.
   schedule.keep_path = !settings.start && bounded_by_links(m, task) != Boundedness::attained;
   Locked out;
-  // Where steps are not certified, or a finite target holds what no contact does, a barrier is asked first whether
-  // anything stops the load at all.
+  // Where steps are not certified, or a finite target holds what no contact does, a barrier is asked first
+  // whether anything stops the load at all.
   const bool witnesses = settings.contact != ContactChoice::constrained &&
                          settings.contact != ContactChoice::published && !std::isfinite(schedule.target) &&
                          schedule.ccd == CollisionCheck::certified;

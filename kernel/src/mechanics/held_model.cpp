@@ -99,8 +99,7 @@ class SubspaceLoadCase final : public LoadCase {
       const Eigen::Map<const Square> from(map.H[c][0].data());
       Eigen::Map<Square> to(out.H[c][0].data());
       to.setZero();
-      to.topLeftCorner(nq_ + nc, nq_ + nc) =
-          P.transpose() * from.topLeftCorner(nm_ + nc, nm_ + nc) * P;
+      to.topLeftCorner(nq_ + nc, nq_ + nc) = P.transpose() * from.topLeftCorner(nm_ + nc, nm_ + nc) * P;
     }
   }
 

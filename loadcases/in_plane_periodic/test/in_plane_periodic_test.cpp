@@ -157,7 +157,8 @@ TEST(InPlanePeriodic, PaperValueIsTheLeastSquaresMultiple)
                 d.dot(Vec3(strain.data())) / d.squaredNorm(), 1e-15);
     // The published strain of size e along theta is e d: its value is e.
     const Vec3 e = 0.37 * d;
-    EXPECT_NEAR(equation_12.value(Direction::at_radians(theta), std::span<const double>(e.data(), 3)), 0.37, 1e-15);
+    EXPECT_NEAR(equation_12.value(Direction::at_radians(theta), std::span<const double>(e.data(), 3)), 0.37,
+                1e-15);
   }
 }
 

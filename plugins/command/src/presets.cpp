@@ -120,9 +120,8 @@ std::vector<Problem> solver_problems(const Experiment& e)
   std::vector<Problem> out;
   if (solver.preset == "paper") {
     if (e.task == Task::design) {
-      out.push_back(
-          {"/solver/preset", 0,
-           "preset 'paper' computes limits only in this version; use accurate for a design"});
+      out.push_back({"/solver/preset", 0,
+                     "preset 'paper' computes limits only in this version; use accurate for a design"});
     }
     const std::string problem = paper_problem(e.scene, e.length_unit);
     if (!problem.empty()) out.push_back({"/solver/preset", 0, problem});
@@ -174,7 +173,8 @@ LimitSettings limit_settings(const ExperimentSolver& solver, const SceneSpec& sc
   // Gaps at equilibrium are about a tenth of the activation distance, so 1 + value is as exact as the last
   // one.
   if (solver.tolerance) {
-    const double most = std::min(schedule.first, last_of_tubes * thinnest_tube(scene) / characteristic_length(scene));
+    const double most =
+        std::min(schedule.first, last_of_tubes * thinnest_tube(scene) / characteristic_length(scene));
     schedule.last = std::clamp(*solver.tolerance, least_last, std::max(most, least_last));
   }
   if (solver.max_stages)

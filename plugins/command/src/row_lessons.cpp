@@ -13,7 +13,8 @@ std::vector<std::vector<std::size_t>> row_donors(const std::vector<SweepScene>& 
   const std::size_t n = rows.size();
   std::vector<std::vector<std::size_t>> contained(n);
   const auto has = [&](std::size_t outer, std::size_t inner) {
-    return contains(rows[outer].model, rows[outer].prepared.scene, rows[inner].model, rows[inner].prepared.scene);
+    return contains(rows[outer].model, rows[outer].prepared.scene, rows[inner].model,
+                    rows[inner].prepared.scene);
   };
   for (std::size_t k = 0; k < n; ++k) {
     if (rows[k].experiment == nullptr || !rows[k].prepared.settings.lessons) continue;
@@ -40,7 +41,8 @@ std::vector<std::vector<std::size_t>> row_rounds(const std::vector<std::vector<s
   for (std::size_t left = donors.size(); left > 0;) {
     std::vector<std::size_t> round;
     for (std::size_t k = 0; k < donors.size(); ++k) {
-      if (!placed[k] && std::all_of(donors[k].begin(), donors[k].end(), [&](std::size_t d) { return placed[d]; }))
+      if (!placed[k] &&
+          std::all_of(donors[k].begin(), donors[k].end(), [&](std::size_t d) { return placed[d]; }))
         round.push_back(k);
     }
     for (const std::size_t k : round) placed[k] = true;

@@ -1,6 +1,6 @@
 #pragma once
-/// Rows of a sweep that contain each other learn from each other: what a row with more clearance, with more held, or
-/// of a smaller cell locks in is a state of the row that contains it.
+/// Rows of a sweep that contain each other learn from each other: what a row with more clearance, with more
+/// held, or of a smaller cell locks in is a state of the row that contains it.
 
 #include "variant_run.hpp"
 
@@ -18,8 +18,8 @@ struct SweepScene {
   Model model;
 };
 
-/// For every row those whose states it begins from: of the rows that it contains the ones that no other of them
-/// contains. Of rows that contain each other the later one learns. So there are no circles.
+/// For every row those whose states it begins from: of the rows that it contains the ones that no other of
+/// them contains. Of rows that contain each other the later one learns. So there are no circles.
 std::vector<std::vector<std::size_t>> row_donors(const std::vector<SweepScene>& rows);
 
 /// Rows by rounds: all donors of a row are in rounds before its own.

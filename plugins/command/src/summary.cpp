@@ -26,8 +26,7 @@ std::string limit_cell(const std::vector<LimitResult>& limits, double direction,
 {
   for (const LimitResult& l : limits) {
     if (!l.direction.is_angle() || l.direction.degrees() != direction || l.sense != sense) continue;
-    if (l.status == LimitStatus::locked && l.value)
-      return fmt::format("{:.8f}", *l.value) + mark(l);
+    if (l.status == LimitStatus::locked && l.value) return fmt::format("{:.8f}", *l.value) + mark(l);
     return to_string(l.status);
   }
   return "-";
@@ -132,7 +131,8 @@ std::string variables_table(const DesignResult& d, const std::string& unit)
   return text;
 }
 
-/// A line for each limit that is not an answer, that has a reservation, or whose state tells why there is none.
+/// A line for each limit that is not an answer, that has a reservation, or whose state tells why there is
+/// none.
 std::string remarks(const RunResult& run)
 {
   std::string text;

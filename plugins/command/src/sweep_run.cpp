@@ -46,7 +46,8 @@ SweepScene prepared(const VariantReading& reading, SweepRow& row)
 }
 
 /// Rows that are to be computed: those that are left, and all whose states they begin from.
-std::vector<bool> needed_rows(const std::vector<bool>& left, const std::vector<std::vector<std::size_t>>& donors,
+std::vector<bool> needed_rows(const std::vector<bool>& left,
+                              const std::vector<std::vector<std::size_t>>& donors,
                               const std::vector<std::vector<std::size_t>>& rounds)
 {
   std::vector<bool> needed = left;
@@ -107,7 +108,8 @@ void run_sweep(const Loaded& loaded, unsigned threads, Progress& progress, Sweep
   progress.limits("sweep", 0, rows_left);
   if (rows_left == 0) return;
 
-  // Scenes first: they say which row learns from which. A row that is done already and teaches is solved again.
+  // Scenes first: they say which row learns from which. A row that is done already and teaches is solved
+  // again.
   std::vector<SweepRow> refused = table.rows;
   std::vector<SweepScene> scenes(n);
   parallel_for(n, threads, [&](std::size_t k) {

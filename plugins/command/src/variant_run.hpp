@@ -20,10 +20,10 @@ struct PreparedVariant {
 PreparedVariant prepare_variant(const Experiment& experiment);
 
 struct VariantLimits {
-  std::vector<LimitResult> limits;      ///< those that a signal stopped have status interrupted
-  std::vector<LimitResult> unreported;  ///< solved for their states alone
+  std::vector<LimitResult> limits;           ///< those that a signal stopped have status interrupted
+  std::vector<LimitResult> unreported;       ///< solved for their states alone
   std::vector<std::optional<State>> states;  ///< furthest locked state, by task
-  double length = 1.0;                  ///< L
+  double length = 1.0;                       ///< L
 };
 
 /// The solve. Its result depends on the variant alone, whatever `threads` (0: all processors).
@@ -32,8 +32,8 @@ VariantLimits solve_variant(const Experiment& experiment, const PreparedVariant&
 /// What follows from limits.
 RunResult variant_result(const Experiment& experiment, PreparedVariant prepared, VariantLimits solved);
 
-/// All of it. Uses one thread: variants are what is done in parallel. Throws InputError where there is no such
-/// scene.
+/// All of it. Uses one thread: variants are what is done in parallel. Throws InputError where there is no
+/// such scene.
 RunResult run_variant(const Experiment& experiment);
 
 }  // namespace hauberk::command

@@ -11,7 +11,8 @@ namespace hauberk {
 
 namespace {
 
-/// What to take instead of a word that a field does not know: one that people may remember, or one that they meant.
+/// What to take instead of a word that a field does not know: one that people may remember, or one that they
+/// meant.
 std::string instead_of(const Field& field, const std::string& word)
 {
   if (field.name == "preset" && word == "fast")

@@ -130,9 +130,8 @@ Field solver_field()
   return with_default(
       object(
           "solver", "How limits are computed.",
-          {with_default(
-               choice("preset", "Goal of the settings that are not given.", {"accurate", "paper"}),
-               "\"accurate\""),
+          {with_default(choice("preset", "Goal of the settings that are not given.", {"accurate", "paper"}),
+                        "\"accurate\""),
            with_default(at_least(number("clearance", "Surface distance at which surfaces count as touching.",
                                         "length"),
                                  0.0),
@@ -163,9 +162,12 @@ Field solver_field()
                            "unknowns to T times the load; absent: as the preset says.",
                            "1"),
                     0.0, true),
-           with_default(at_least(integer("starts",
-                                        "Perturbed starts per limit; compressions of small periodic cells have "
-                                        "at least 32."), 1), "1"),
+           with_default(
+               at_least(integer("starts",
+                                "Perturbed starts per limit; compressions of small periodic cells have "
+                                "at least 32."),
+                        1),
+               "1"),
            with_default(
                at_least(number("perturbation",
                                "Size of the random displacement of the first start, in characteristic "
@@ -173,11 +175,12 @@ Field solver_field()
                                "1"),
                         0.0),
                "0.01"),
-           with_default(boolean("lessons",
-                                "Whether limits learn from each other, from symmetric images, from the loads beside "
-                                "their own and from scenes that theirs contains, and compressions have many "
-                                "starts; false: each stands alone."),
-                        "true"),
+           with_default(
+               boolean("lessons",
+                       "Whether limits learn from each other, from symmetric images, from the loads beside "
+                       "their own and from scenes that theirs contains, and compressions have many "
+                       "starts; false: each stands alone."),
+               "true"),
            with_default(
                at_least(number("neighbours",
                                "A limit at an angle without another of its sense within this many degrees "

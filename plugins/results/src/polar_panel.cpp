@@ -61,8 +61,7 @@ class Diagram {
   {
     if (curve.joined) join(curve);
     for (const auto& [degrees, value] : curve.points) {
-      const bool hollow =
-          std::find(curve.hollow.begin(), curve.hollow.end(), degrees) != curve.hollow.end();
+      const bool hollow = std::find(curve.hollow.begin(), curve.hollow.end(), degrees) != curve.hollow.end();
       for (const double turn : {0.0, 180.0}) {
         if (hollow)
           svg_.circle(at(degrees + turn, value), 3.6, "#fff", {curve.stroke.colour, 1.4, ""});
@@ -161,7 +160,8 @@ void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves)
   for (const Curve& curve : curves) {
     if (curve.joined) svg.line({corner.x, y}, {corner.x + 44.0, y}, curve.stroke);
     Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve);
-    svg.text({corner.x + 54.0, y + 4.0}, curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)") +
+    svg.text({corner.x + 54.0, y + 4.0},
+             curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)") +
                  (curve.hollow.empty() ? "" : " (hollow: in doubt)"),
              12);
     y += legend_line;

@@ -128,8 +128,8 @@ bool check_contacts(const Scene& scene, const Setting& setting, const Limit& lim
       continue;
     }
     const Slack allowed = slack(scene, limit, contact, tolerances);
-    check_surfaces(scene, limit, contact, allowed, name, fmt::format("{}/contacts/{}", limit.where, i), problems,
-                   record);
+    check_surfaces(scene, limit, contact, allowed, name, fmt::format("{}/contacts/{}", limit.where, i),
+                   problems, record);
     const double gap = (contact.points[1] - contact.points[0]).dot(contact.normal) - setting.clearance;
     const Vec3 aside = contact.points[1] - contact.points[0] - (gap + setting.clearance) * contact.normal;
     // Points are written with all digits, whatever surfaces they stand for.

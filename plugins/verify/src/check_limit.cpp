@@ -162,7 +162,8 @@ bool known_status(const std::string& status)
 VerifyLine check_witnessed(const Scene& scene, const Limit& limit, Record& record)
 {
   Sentences problems, found;
-  if (limit.value || !limit.contacts.empty()) problems.push_back("a value or contacts, though nothing stops it");
+  if (limit.value || !limit.contacts.empty())
+    problems.push_back("a value or contacts, though nothing stops it");
   check_witness(scene, limit, problems, found);
   for (const VerifyPart part :
        {VerifyPart::values, VerifyPart::witness, VerifyPart::gap, VerifyPart::balance, VerifyPart::held})

@@ -27,8 +27,8 @@ struct Further {
 ///    state without intersection, whose value is further than the limit's by more than closing its gaps could
 ///    gain (sum f g to first order; twice that is allowed for), is an answer.
 ///
-/// So what is found is certain, but not everything is found: with loose gaps (solver.tolerance 1e-3) weak instabilities
-/// stay below the threshold.
+/// So what is found is certain, but not everything is found: with loose gaps (solver.tolerance 1e-3) weak
+/// instabilities stay below the threshold.
 std::optional<Further> further_nearby(const Scene& scene, const Setting& setting, const Limit& limit);
 
 }  // namespace hauberk::verification

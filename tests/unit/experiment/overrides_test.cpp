@@ -61,7 +61,8 @@ TEST(Overrides, RefusesWhatCannotBeApplied)
       "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found 'solver.preset=fast'");
   EXPECT_EQ(with_set({"/solver"}),
             "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found '/solver'");
-  EXPECT_EQ(with_set({""}), "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found ''");
+  EXPECT_EQ(with_set({""}),
+            "command line: --set expects POINTER=VALUE, as in /solver/tolerance=1e-3; found ''");
   EXPECT_EQ(with_set({"/cell/place/5/element=x"}),
             "command line: /cell/place: --set cannot reach '5': expected an index from 0 to 2");
   EXPECT_EQ(with_set({"/cell/place/first=1"}),

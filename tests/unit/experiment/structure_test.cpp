@@ -156,8 +156,8 @@ TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)
   text = with(text, "\"ring.R\": 5.0", "\"ring.R\": -5.0");
   text = with(text, "\"link\", \"position\": [6", "\"lnk\", \"position\": [6");
   text = with(text, "[0, 30]", "[0, 30, 210]");
-  text =
-      with(text, "\"tolerance\": 1e-3", "\"preset\": \"accurate\", \"preset\": \"paper\", \"contakt\": \"arc\"");
+  text = with(text, "\"tolerance\": 1e-3",
+              "\"preset\": \"accurate\", \"preset\": \"paper\", \"contakt\": \"arc\"");
   text = with(text, "\"lower\": 4.0", "\"lower\": 7.0");
   text = with(text, "\"value\": 0.05", "\"value\": -0.05");
   EXPECT_EQ(problems_of(text),

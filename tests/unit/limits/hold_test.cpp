@@ -99,8 +99,8 @@ TEST(Hold, LessFreedomGoesLessFar)
   EXPECT_GT(axial, clamped + 1e-3);
 }
 
-/// The reaction is d value / d(shear): found with no conditions at all, by a stiff spring that holds the shear
-/// at +-x. A spring K (a . macro - x)^2 / 2 is a tether and the load K x a.
+/// The reaction is d value / d(shear): found with no conditions at all, by a stiff spring that holds the
+/// shear at +-x. A spring K (a . macro - x)^2 / 2 is a tether and the load K x a.
 TEST(Hold, ReactionIsTheDerivativeInWhatIsHeld)
 {
   const double degrees = 25.0, stiffness = 1e6, x = 1e-3;

@@ -1,4 +1,5 @@
-/// Scenes that contain each other: which do, what a state of the one is in the other, and what limits learn from it.
+/// Scenes that contain each other: which do, what a state of the one is in the other, and what limits learn
+/// from it.
 
 #include "symmetric_scenes.hpp"
 
@@ -41,7 +42,8 @@ LimitSettings few()
   return s;
 }
 
-LimitResult compressed(const SceneSpec& scene, const LoadCase& load, double angle, const LimitSettings& settings)
+LimitResult compressed(const SceneSpec& scene, const LoadCase& load, double angle,
+                       const LimitSettings& settings)
 {
   const Model m = make_model(scene, load, 0.0);
   const std::vector<LimitTask> tasks{{Direction::at_degrees(angle), Sense::negative}};
@@ -148,8 +150,8 @@ TEST(Relatives, RestsApartAreNotJoined)
   EXPECT_FALSE(Carrier(a, here, c, there).joined());
 }
 
-/// A limit with less held is no nearer than one with more, and one with z free than one in the plane: alone they
-/// are, here by 1 to 10 %.
+/// A limit with less held is no nearer than one with more, and one with z free than one in the plane: alone
+/// they are, here by 1 to 10 %.
 TEST(Relatives, MoreFreedomGoesNoLessFar)
 {
   struct Case {
@@ -163,7 +165,8 @@ TEST(Relatives, MoreFreedomGoesNoLessFar)
     LimitSettings alone = few();
     alone.lessons = false;
     const double inner = *compressed(c.scene, c.inner, c.angle, alone).value;
-    ASSERT_GT(*compressed(c.scene, c.outer, c.angle, alone).value, inner + 1e-3) << "this scene tests nothing";
+    ASSERT_GT(*compressed(c.scene, c.outer, c.angle, alone).value, inner + 1e-3)
+        << "this scene tests nothing";
     const LimitResult r = compressed(c.scene, c.outer, c.angle, few());
     EXPECT_LE(*r.value, inner + 1e-7);
     EXPECT_EQ(r.status, LimitStatus::locked);

@@ -18,8 +18,10 @@
 namespace hauberk::test {
 namespace {
 
-const InPlanePeriodic flat(StrainMeasure::tensor, {}, {false, false}), deep(StrainMeasure::tensor, {true, 0.0}, {false, false}),
-    layer(StrainMeasure::tensor, {false, 1.0}, {false, false}), equation_12(StrainMeasure::equation_12, {}, {false, false});
+const InPlanePeriodic flat(StrainMeasure::tensor, {}, {false, false}),
+    deep(StrainMeasure::tensor, {true, 0.0}, {false, false}),
+    layer(StrainMeasure::tensor, {false, 1.0}, {false, false}),
+    equation_12(StrainMeasure::equation_12, {}, {false, false});
 const ParaboloidBending bending({});
 const VolumetricPeriodic solid;
 

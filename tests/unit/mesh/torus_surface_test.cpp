@@ -115,7 +115,8 @@ TEST(TorusAsSurface, HasTheSameLimit)
     const LimitResult tori = limit(spec), solids = limit(as_surfaces(spec));
     ASSERT_EQ(tori.status, LimitStatus::locked) << tori.message;
     ASSERT_EQ(solids.status, LimitStatus::locked) << solids.message;
-    // Where a flat rests on a flat the path decides what the last stage leaves of the gap, a tenth of its 1e-6 L.
+    // Where a flat rests on a flat the path decides what the last stage leaves of the gap, a tenth of its
+    // 1e-6 L.
     constexpr double gap_of_last_stage = 1e-7;
     EXPECT_NEAR(*tori.value, *solids.value, gap_of_last_stage);
     fmt::print("{} facets: a torus as a surface differs by {:.1e} of {:.12f}\n", facets,

@@ -116,9 +116,11 @@ TEST(Csv, OneRowPerLimitWithExactNumbers)
   EXPECT_EQ(
       limits_csv(run.limits, {"exx", "eyy", "exy"}),
       "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
-      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,contacts\n"
+      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,"
+      "contacts\n"
       "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,0,1e-09,,true,0,false,none,,1,1\n"
-      "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,none,,1,1\n");
+      "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,none,,1,"
+      "1\n");
 }
 
 TEST(Csv, HasAllColumnsWhereNoLimitHasAState)
@@ -133,7 +135,8 @@ TEST(Csv, HasAllColumnsWhereNoLimitHasAState)
   EXPECT_EQ(
       limits_csv(run.limits, {"exx", "eyy", "exy"}),
       "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
-      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,contacts\n"
+      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,"
+      "contacts\n"
       "in_plane_periodic,0,,,,,,,,unbounded,0,0,0,,,false,0,false,none,,0,0\n");
 }
 

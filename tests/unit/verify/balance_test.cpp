@@ -48,7 +48,8 @@ TEST(States, WithoutPosesNeedAStatusThatSaysSo)
   limit["poses"].emplace_array();
   EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): locked, but no state is given");
   limit["status"] = "unbounded";
-  EXPECT_EQ(limit_line(document), "FAIL /limits/0 (0 deg, stretch): unbounded: a value or contacts, though nothing stops it; "
+  EXPECT_EQ(limit_line(document),
+            "FAIL /limits/0 (0 deg, stretch): unbounded: a value or contacts, though nothing stops it; "
             "no witness is given");
   for (const char* key : {"value", "line_stretch", "min_gap", "force_balance"}) limit[key] = nullptr;
   limit["contacts"].emplace_array();

@@ -12,7 +12,8 @@
 
 namespace hauberk {
 
-/// A locked state of a scene that this one contains (relatives.hpp), carried over, with the unknowns of this one.
+/// A locked state of a scene that this one contains (relatives.hpp), carried over, with the unknowns of this
+/// one.
 struct GivenState {
   Direction direction;
   Sense sense = Sense::positive;
@@ -34,10 +35,10 @@ struct LimitSettings {
   /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn; of larger
   /// cells inversely fewer.
   int fold_starts = 32;
-  int tilts = 0;                      ///< random loads beside the task's own, from whose states it learns
-  double tilt = 20.0;                 ///< degrees: by how much they differ from it
+  int tilts = 0;       ///< random loads beside the task's own, from whose states it learns
+  double tilt = 20.0;  ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;
-  std::optional<State> start;  ///< where starts begin; null: at rest
+  std::optional<State> start;     ///< where starts begin; null: at rest
   std::vector<GivenState> given;  ///< with which limits of their direction and sense begin once more
 };
 
@@ -82,8 +83,8 @@ inline constexpr const char* learnt_origin = "from ";
 /// A locked state and where it came from.
 struct FoundState {
   Locked locked;
-  /// "start", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the limit whose state it
-  /// began with
+  /// "start", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the limit whose state
+  /// it began with
   std::string origin;
   std::uint64_t seed = 0;  ///< of the start or tilt
 };
@@ -122,18 +123,19 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
-/// After its starts each task learns from tilted loads. Compressions of periodic cells then begin once more from
-/// where those of every scene lock that this one contains (relatives.hpp), and all tasks from what
+/// After its starts each task learns from tilted loads. Compressions of periodic cells then begin once more
+/// from where those of every scene lock that this one contains (relatives.hpp), and all tasks from what
 /// `settings.given` has for them. Then limits learn from each other: a locked state of
 /// any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that hold
 /// nothing that it breaks, so where its value along another task's direction is further than that task's own
 /// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
-/// folds keep from their furthest state, are searched from `fold_starts` starts and once more without the widest
-/// stage, and walk: each begins again from the states of the loads beside its own, as long as these come to further ones.
-/// A limit that has no other of its sense within `settings.neighbours` learns from limits at that angle to
-/// either side, which are not reported. `known`: results that are there already, by task; empty: none. What one limit throws is its
-/// result (status failed) and does not stop the others. Tasks that were not finished when `keep_going` said
-/// no are `interrupted`, with the best of the starts that were done. What the observer throws is rethrown.
+/// folds keep from their furthest state, are searched from `fold_starts` starts and once more without the
+/// widest stage, and walk: each begins again from the states of the loads beside its own, as long as these
+/// come to further ones. A limit that has no other of its sense within `settings.neighbours` learns from
+/// limits at that angle to either side, which are not reported. `known`: results that are there already, by
+/// task; empty: none. What one limit throws is its result (status failed) and does not stop the others. Tasks
+/// that were not finished when `keep_going` said no are `interrupted`, with the best of the starts that were
+/// done. What the observer throws is rethrown.
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,
                                         unsigned threads, const LimitsObserver& observer = {},

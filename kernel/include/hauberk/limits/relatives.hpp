@@ -25,7 +25,8 @@ std::vector<Relative> relatives(const Model& model, const SceneSpec& spec);
 /// Whether every state of a scene is one of another one, up to where its rest is: the same elements at the
 /// same places of one cell repeated at least as often, a multiple each way, in a load case that contains the
 /// other's, with no more clearance. Lengths are compared to rounding.
-bool contains(const Model& outer, const SceneSpec& outer_spec, const Model& inner, const SceneSpec& inner_spec);
+bool contains(const Model& outer, const SceneSpec& outer_spec, const Model& inner,
+              const SceneSpec& inner_spec);
 
 /// Carries states of a scene over to one that contains it: elements of every copy of its cell have the poses
 /// of their images. Models and specifications must outlive it. Immutable, thread safe.

@@ -55,7 +55,8 @@ using KeepGoing = std::function<bool()>;
 /// positive definite. The quadratic model is shifted by lambda * metric until it is positive definite and its
 /// step stays within the trust radius. A stationary point with negative curvature is left along it. Null
 /// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. A state that is no sheet
-/// any more (LoadCase::not_a_sheet) ends it. Thread safe; deterministic. `bounds`: what is known of gaps from stages before; otherwise nothing is at the beginning.
+/// any more (LoadCase::not_a_sheet) ends it. Thread safe; deterministic. `bounds`: what is known of gaps from
+/// stages before; otherwise nothing is at the beginning.
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going, GapBounds* bounds = nullptr);
 

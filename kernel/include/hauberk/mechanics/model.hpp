@@ -38,8 +38,8 @@ struct Model {
   Matrix held;  ///< dofs x equalities: orthonormal directions that no motion has
   /// Per element; none where no element has a loop that several of its primitives form together.
   std::vector<std::shared_ptr<const Spine>> spines;
-  std::vector<int> first_loop;  ///< per element, and one past the end, where there are spines
-  std::vector<Link> links;      ///< at rest
+  std::vector<int> first_loop;             ///< per element, and one past the end, where there are spines
+  std::vector<Link> links;                 ///< at rest
   std::vector<std::array<int, 2>> linked;  ///< elements of a patch with links between them, ascending
   /// Per body: d(position, R, r0, r1, harmonics)/d(element parameters), row-major, file units (dimensionless
   /// ratios).

@@ -38,7 +38,7 @@ struct ExperimentSolver {
   int starts = 1;
   double perturbation = 0.0;  ///< characteristic lengths and radians
   bool lessons = true;
-  double neighbours = 0.0;    ///< degrees
+  double neighbours = 0.0;  ///< degrees
   int tilts = 0;
   double tilt = 0.0;  ///< degrees
   std::uint64_t start_seed = 1;

@@ -1,5 +1,6 @@
 #pragma once
-/// Values put at places of the file: by --set /solver/tolerance=1e-3, or by members of a stability experiment.
+/// Values put at places of the file: by --set /solver/tolerance=1e-3, or by members of a stability
+/// experiment.
 
 #include <hauberk/settings.hpp>
 

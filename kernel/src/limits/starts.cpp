@@ -8,6 +8,11 @@
 namespace hauberk {
 namespace {
 
+/// First activation distances (L) of searches that keep a state which wider stages leave.
+constexpr double narrow_stages[] = {1e-4, 1e-6};
+/// Conditions missed by less are kept (strain, or curvature times L).
+constexpr double kept_conditions = 1e-9;
+
 /// Further starts take this many random moves, each as long as nothing collides.
 constexpr int moves = 4;
 
@@ -80,8 +85,23 @@ Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings,
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going)
 {
-  return lock(m, from, macro_load(m, task.direction, task.sense), settings.contact,
-              without_widest(settings.schedule), keep_going);
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  Schedule schedule = without_widest(settings.schedule);
+  Locked out = lock(m, from, load, settings.contact, schedule, keep_going);
+  if (missed(load.held, from.macro) > kept_conditions) return out;
+  // Wide stages may let a fold go that the state is in. It is further then than where they lead, and narrower
+  // ones hold it.
+  const double there = load.pull.dot(from.macro) - further_than(settings);
+  for (const double first : narrow_stages) {
+    const bool shorter = out.status == LockStatus::locked && load.pull.dot(out.state.macro) < there;
+    if (!shorter || first <= settings.schedule.last) break;
+    schedule.first = first;
+    Locked narrow = lock(m, from, load, settings.contact, schedule, keep_going);
+    narrow.iterations += out.iterations;
+    narrow.evaluations += out.evaluations;
+    out = std::move(narrow);
+  }
+  return out;
 }
 
 Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettings& settings, int start,

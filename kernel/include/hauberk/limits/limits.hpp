@@ -68,6 +68,8 @@ Vector tilted(const Model& model, const Vector& load, const LimitSettings& setti
 
 /// Locked state of one task from a state that another search has found, free of collisions. Stages begin
 /// with the second: the first would let the state go back to where it came from.
+/// Where they end less far than the state is, and it keeps what the task holds, narrower stages begin once
+/// more.
 Locked limit_from_state(const Model& model, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going);
 

@@ -15,8 +15,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double same_value = 1e-9;  ///< two locked states closer than that are taken for one
-constexpr double keeps_conditions = 1e-9;
+constexpr double same_value = 1e-9;    ///< two locked states closer than that are taken for one
 constexpr int attempts_from_rest = 2;  ///< per limit and evaluation, with different perturbations
 
 /// Stages of a locked state as warm starts.
@@ -171,8 +170,7 @@ void DesignProblem::learn(const DesignPoint& p, const std::vector<MacroLoad>& lo
     // A state that breaks what k holds is none of its own: searches from there are many steps, and seldom
     // lead on.
     const Locked& l = targets[donor].locked;
-    if (l.status != LockStatus::locked || missed(loads[k].held, l.state.macro) > keeps_conditions)
-      return std::nullopt;
+    if (l.status != LockStatus::locked || !keeps(loads[k].held, l.state.macro)) return std::nullopt;
     return loads[k].pull.dot(l.state.macro);
   };
   const auto own = [&](std::size_t k) { return given(k, k); };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -113,8 +114,11 @@ class Computation {
     }
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
-    if (observer_.on_unreported)
-      observer_.on_unreported({results_.begin() + static_cast<std::ptrdiff_t>(asked_), results_.end()});
+    if (observer_.on_unreported) {
+      unreported_.insert(unreported_.end(), results_.begin() + static_cast<std::ptrdiff_t>(asked_),
+                         results_.end());
+      observer_.on_unreported(unreported_);
+    }
     if (observer_.on_states) {
       std::vector<std::optional<State>> states(asked_);
       for (std::size_t k = 0; k < asked_; ++k) {
@@ -321,32 +325,44 @@ class Computation {
                        donors.is_own(donor) ? "" : ", by a symmetry of the scene");
   }
 
-  /// Locked state of a task from where a donor's best state is; null: there is none, or it threw, which the
-  /// task remarks, and what was known before stands.
-  std::optional<FoundState> taught(const Donors& donors, std::size_t task, std::size_t donor)
+  /// Locked state of a task from a state that `place` names; null: it threw, which the task remarks, and what
+  /// was known before stands.
+  std::optional<FoundState> begun_from(std::size_t task, const State& from, const std::string& place,
+                                       std::uint64_t seed)
   {
-    const std::size_t from = donors.task(donor);
-    const std::vector<FoundState> states = found_of(from);
-    const auto best = furthest(model_, tasks_[from], settings_, states);
-    if (!best) return std::nullopt;
     const auto t0 = std::chrono::steady_clock::now();
     std::optional<FoundState> out;
     std::string problem;
     try {
-      const std::optional<State> start = donors.state(donor, states[*best].locked);
-      if (start) {
-        out =
-            FoundState{limit_from_state(model_, tasks_[task], settings_, *start, [this] { return going(); }),
-                       learnt_origin + learnt_from(donors, donor), states[*best].seed};
-      }
+      out = FoundState{limit_from_state(model_, tasks_[task], settings_, from, [this] { return going(); }),
+                       learnt_origin + place, seed};
     } catch (const std::exception& failure) {
-      problem = fmt::format("from the state at {}: {}", learnt_from(donors, donor), failure.what());
+      problem = fmt::format("from the state of {}: {}", place, failure.what());
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     const std::lock_guard lock(mutex_);  // a task may have two lessons at a time
     if (!problem.empty()) states_[task].remark = std::move(problem);
     states_[task].seconds += seconds;
     return out;
+  }
+
+  /// Locked state of a task from where a donor's best state is; null where there is none, too.
+  std::optional<FoundState> taught(const Donors& donors, std::size_t task, std::size_t donor)
+  {
+    const std::size_t from = donors.task(donor);
+    const std::vector<FoundState> states = found_of(from);
+    const auto best = furthest(model_, tasks_[from], settings_, states);
+    if (!best) return std::nullopt;
+    const std::optional<State> start = donors.state(donor, states[*best].locked);
+    if (!start) return std::nullopt;
+    return begun_from(task, *start, learnt_from(donors, donor), states[*best].seed);
+  }
+
+  /// A limit whose lessons were stopped is no answer: a run that goes on has to ask again.
+  void stopped(std::size_t task, const std::string& place)
+  {
+    results_[task].status = LimitStatus::interrupted;
+    results_[task].message = fmt::format("what the state of {} leads to was not found", place);
   }
 
   /// Solves again what is needed of tasks whose results came with the call.
@@ -371,7 +387,7 @@ class Computation {
   }
 
   /// The states that the limits of a relative end in when each stands alone; no tasks: it has no use for any.
-  Solved solved(const Relative& relative, unsigned threads) const
+  Solved solved(const Relative& relative, unsigned threads)
   {
     Solved s;
     const LoadCase& load = relative.load ? *relative.load : *model_.load;
@@ -397,7 +413,9 @@ class Computation {
     LimitsObserver observer;
     observer.keep_going = observer_.keep_going;
     observer.on_states = [&s](const auto& states) { s.states = states; };
-    compute_limits(s.model, relative.scene, s.tasks, settings, threads, observer);
+    std::vector<LimitResult> limits =
+        compute_limits(s.model, relative.scene, s.tasks, settings, threads, observer);
+    std::move(limits.begin(), limits.end(), std::back_inserter(unreported_));
     return s;
   }
 
@@ -429,41 +447,30 @@ class Computation {
     std::vector<Lesson> learners;
     for (std::size_t k = 0; k < asked_; ++k) {
       for (const GivenState& g : given) {
-        if (g.sense != tasks_[k].sense || g.direction.text() != tasks_[k].direction.text()) continue;
+        if (g.sense != tasks_[k].sense || g.direction != tasks_[k].direction) continue;
         items.emplace_back(k, &g);
         learners.push_back({k, donors.own(k)});
       }
     }
     if (going()) find_states(donors, learners, threads);
     std::vector<std::optional<FoundState>> found(items.size());
-    std::vector<double> seconds(items.size(), 0.0);
     parallel_for(items.size(), threads, [&](std::size_t i) {
       const auto& [k, from] = items[i];
-      if (!going()) return;
-      const auto t0 = std::chrono::steady_clock::now();
-      try {
-        found[i] = FoundState{
-            limit_from_state(model_, tasks_[k], settings_, from->state, [this] { return going(); }),
-            learnt_origin + from->origin, settings_.seed};
-      } catch (const std::exception& failure) {
-        const std::lock_guard lock(mutex_);
-        states_[k].remark = fmt::format("from the state of {}: {}", from->origin, failure.what());
-      }
-      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+      if (going()) found[i] = begun_from(k, from->state, from->origin, settings_.seed);
     });
+    if (!going()) {
+      // Also where scenes were not solved that would have given a state.
+      for (std::size_t k = 0; k < asked_; ++k)
+        if (may_fold(model_, tasks_[k])) stopped(k, "a scene that this one contains");
+      for (const auto& [k, from] : items) stopped(k, from->origin);
+      return false;
+    }
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::size_t k = items[i].first;
-      if (!going()) {
-        results_[k].status = LimitStatus::interrupted;
-        results_[k].message =
-            fmt::format("what the state of {} leads to was not found", items[i].second->origin);
-        continue;
-      }
       if (found[i]) states_[k].further.push_back(std::move(*found[i]));
-      states_[k].seconds += seconds[i];
       results_[k] = result_of(k);
     }
-    return going();
+    return true;
   }
 
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
@@ -502,11 +509,7 @@ class Computation {
         if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor);
       });
       if (!going()) {
-        for (const auto& [task, donor] : lessons) {
-          results_[task].status = LimitStatus::interrupted;
-          results_[task].message =
-              fmt::format("what the state at {} leads to was not found", learnt_from(donors, donor));
-        }
+        for (const auto& [task, donor] : lessons) stopped(task, learnt_from(donors, donor));
         return;
       }
       for (std::size_t i = 0; i < lessons.size(); ++i) {
@@ -542,6 +545,7 @@ class Computation {
   std::vector<TaskState> states_;
   std::size_t unfinished_ = 0, unfinished_asked_ = 0;  ///< tasks
   std::vector<LimitResult> results_;
+  std::vector<LimitResult> unreported_;  ///< of scenes that this one contains
 };
 
 }  // namespace

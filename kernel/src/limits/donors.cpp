@@ -9,8 +9,6 @@ namespace {
 /// Angles (degrees) that differ by less are one direction; beside each other are those up to `widest` apart.
 constexpr double same_angle = 1e-7, widest = 30.0;
 constexpr int strides = 2;
-/// Conditions missed by less are kept: rounding of the symmetry that carries a state over.
-constexpr double kept = 1e-9;
 
 /// Activation distance (L) of a stage whose gaps, a tenth of it, have room for what a scene's symmetry is off
 /// by (symmetry_tolerance).
@@ -70,7 +68,7 @@ std::optional<double> Donors::reached(std::size_t donor, const Vector& macro, co
                                                 {there.data(), n}))
     return std::nullopt;
   const MacroLoad load = macro_load(model_, along.direction, along.sense);
-  if (missed(load.held, there) > kept) return std::nullopt;
+  if (!keeps(load.held, there)) return std::nullopt;
   const double v = model_.load->value(along.direction, {there.data(), n});
   return along.sense == Sense::positive ? v : -v;
 }

@@ -10,8 +10,6 @@ namespace {
 
 /// First activation distances (L) of searches that keep a state which wider stages leave.
 constexpr double narrow_stages[] = {1e-4, 1e-6};
-/// Conditions missed by less are kept (strain, or curvature times L).
-constexpr double kept_conditions = 1e-9;
 
 /// Further starts take this many random moves, each as long as nothing collides.
 constexpr int moves = 4;
@@ -88,18 +86,23 @@ Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettin
   const MacroLoad load = macro_load(m, task.direction, task.sense);
   Schedule schedule = without_widest(settings.schedule);
   Locked out = lock(m, from, load, settings.contact, schedule, keep_going);
-  if (missed(load.held, from.macro) > kept_conditions) return out;
+  if (!keeps(load.held, from.macro)) return out;
   // Wide stages may let a fold go that the state is in. It is further then than where they lead, and narrower
   // ones hold it.
-  const double there = load.pull.dot(from.macro) - further_than(settings);
+  const auto reached = [&load](const State& s) { return load.pull.dot(s.macro); };
   for (const double first : narrow_stages) {
-    const bool shorter = out.status == LockStatus::locked && load.pull.dot(out.state.macro) < there;
-    if (!shorter || first <= settings.schedule.last) break;
+    const bool shorter =
+        out.status == LockStatus::locked && reached(out.state) < reached(from) - further_than(settings);
+    if (!shorter || first <= schedule.last) break;
     schedule.first = first;
     Locked narrow = lock(m, from, load, settings.contact, schedule, keep_going);
-    narrow.iterations += out.iterations;
-    narrow.evaluations += out.evaluations;
-    out = std::move(narrow);
+    if (narrow.status == LockStatus::interrupted) return narrow;
+    const int iterations = out.iterations + narrow.iterations;
+    const long evaluations = out.evaluations + narrow.evaluations;
+    if (narrow.status == LockStatus::locked && reached(narrow.state) > reached(out.state))
+      out = std::move(narrow);
+    out.iterations = iterations;
+    out.evaluations = evaluations;
   }
   return out;
 }

@@ -165,6 +165,12 @@ double missed(const Matrix& held, const Vector& macro)
   return most;
 }
 
+bool keeps(const Matrix& held, const Vector& macro)
+{
+  constexpr double kept = 1e-9;
+  return missed(held, macro) <= kept;
+}
+
 HeldModel::HeldModel(const Model& full, const Matrix& held)
     : basis_(null_space(held, metric_weights(*full.load))),
       back_((basis_.transpose() * basis_).inverse() * basis_.transpose()),

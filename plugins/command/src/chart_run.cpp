@@ -31,7 +31,7 @@ try {
   const PreparedVariant prepared = prepare_variant(experiment);
   if (before) before();
   const Clock::time_point begin = Clock::now();
-  const VariantLimits solved = solve_variant(experiment, prepared, threads);
+  const VariantLimits solved = solve_variant(prepared, threads);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (after) after();
   return precision_run(solved.limits, solved.unreported, seconds);

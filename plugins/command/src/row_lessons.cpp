@@ -8,18 +8,17 @@
 
 namespace hauberk::command {
 
-std::vector<std::vector<std::size_t>> row_donors(const std::vector<SweepScene>& rows)
+std::vector<std::vector<std::size_t>> row_donors(const std::vector<RowScene>& rows)
 {
   const std::size_t n = rows.size();
   std::vector<std::vector<std::size_t>> contained(n);
   const auto has = [&](std::size_t outer, std::size_t inner) {
-    return contains(rows[outer].model, rows[outer].prepared.scene, rows[inner].model,
-                    rows[inner].prepared.scene);
+    return contains(rows[outer]->model, rows[outer]->scene, rows[inner]->model, rows[inner]->scene);
   };
   for (std::size_t k = 0; k < n; ++k) {
-    if (rows[k].experiment == nullptr || !rows[k].prepared.settings.lessons) continue;
+    if (!rows[k] || !rows[k]->settings.lessons) continue;
     for (std::size_t j = 0; j < n; ++j) {
-      if (j == k || rows[j].experiment == nullptr || !has(k, j)) continue;
+      if (j == k || !rows[j] || !has(k, j)) continue;
       if (j < k || !has(j, k)) contained[k].push_back(j);
     }
   }
@@ -52,16 +51,17 @@ std::vector<std::vector<std::size_t>> row_rounds(const std::vector<std::vector<s
   return rounds;
 }
 
-std::vector<GivenState> given_by(const SweepScene& donor, const std::vector<std::optional<State>>& states,
-                                 const SweepScene& learner, std::size_t donor_row)
+std::vector<GivenState> given_by(const PreparedVariant& donor,
+                                 const std::vector<std::optional<State>>& states,
+                                 const PreparedVariant& learner, std::size_t donor_row)
 {
   std::vector<GivenState> out;
-  const Carrier carrier(donor.model, donor.prepared.scene, learner.model, learner.prepared.scene);
+  const Carrier carrier(donor.model, donor.scene, learner.model, learner.scene);
   if (!carrier.joined()) return out;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const std::optional<State> state = states[k] ? carrier.state(*states[k]) : std::nullopt;
     if (!state) continue;
-    const LimitTask& task = donor.prepared.tasks[k];
+    const LimitTask& task = donor.tasks[k];
     out.push_back({task.direction, task.sense, *state, fmt::format("row {}", donor_row)});
   }
   return out;

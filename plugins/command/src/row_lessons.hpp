@@ -4,29 +4,25 @@
 
 #include "variant_run.hpp"
 
-#include <hauberk/mechanics/model.hpp>
-
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace hauberk::command {
 
-/// A row that is a scene.
-struct SweepScene {
-  const Experiment* experiment = nullptr;  ///< null: refused
-  PreparedVariant prepared;
-  Model model;
-};
+/// A row's scene; null: it is none.
+using RowScene = std::optional<PreparedVariant>;
 
 /// For every row those whose states it begins from: of the rows that it contains the ones that no other of
 /// them contains. Of rows that contain each other the later one learns. So there are no circles.
-std::vector<std::vector<std::size_t>> row_donors(const std::vector<SweepScene>& rows);
+std::vector<std::vector<std::size_t>> row_donors(const std::vector<RowScene>& rows);
 
 /// Rows by rounds: all donors of a row are in rounds before its own.
 std::vector<std::vector<std::size_t>> row_rounds(const std::vector<std::vector<std::size_t>>& donors);
 
 /// The locked states of a row's tasks, as another one that contains it takes them.
-std::vector<GivenState> given_by(const SweepScene& donor, const std::vector<std::optional<State>>& states,
-                                 const SweepScene& learner, std::size_t donor_row);
+std::vector<GivenState> given_by(const PreparedVariant& donor,
+                                 const std::vector<std::optional<State>>& states,
+                                 const PreparedVariant& learner, std::size_t donor_row);
 
 }  // namespace hauberk::command

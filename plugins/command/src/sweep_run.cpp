@@ -24,25 +24,18 @@ void refuse(SweepRow& row, RowStatus status, const std::string& message)
   row.message = message;
 }
 
-/// A row's scene; of a row that is none the experiment is null, and the row says why.
-SweepScene prepared(const VariantReading& reading, SweepRow& row)
+/// A row's scene; where there is none, the row says why.
+RowScene scene_of(const VariantReading& reading, SweepRow& row)
 {
-  SweepScene out;
-  if (!reading.experiment) {
-    refuse(row, RowStatus::refused, reading.refusal);
-    return out;
-  }
-  const Experiment& e = *reading.experiment;
   try {
-    out.prepared = prepare_variant(e);
-    out.model = make_model(out.prepared.scene, *e.load_case, e.solver.clearance);
-    out.experiment = &e;
+    if (reading.experiment) return prepare_variant(*reading.experiment);
+    refuse(row, RowStatus::refused, reading.refusal);
   } catch (const InputError& error) {
     refuse(row, RowStatus::refused, error.what());
   } catch (const std::exception& error) {
     refuse(row, RowStatus::failed, error.what());
   }
-  return out;
+  return std::nullopt;
 }
 
 /// Rows that are to be computed: those that are left, and all whose states they begin from.
@@ -110,10 +103,10 @@ void run_sweep(const Loaded& loaded, unsigned threads, Progress& progress, Sweep
 
   // Scenes first: they say which row learns from which. A row that is done already and teaches is solved
   // again.
-  std::vector<SweepRow> refused = table.rows;
-  std::vector<SweepScene> scenes(n);
+  std::vector<SweepRow> rows = table.rows;
+  std::vector<RowScene> scenes(n);
   parallel_for(n, threads, [&](std::size_t k) {
-    if (!interrupted()) scenes[k] = prepared(loaded.sweep[k], refused[k]);
+    if (!interrupted()) scenes[k] = scene_of(loaded.sweep[k], rows[k]);
   });
   if (interrupted()) return;
   const std::vector<std::vector<std::size_t>> donors = row_donors(scenes), rounds = row_rounds(donors);
@@ -136,20 +129,20 @@ void run_sweep(const Loaded& loaded, unsigned threads, Progress& progress, Sweep
     parallel_for(round.size(), threads, [&](std::size_t i) {
       const std::size_t k = round[i];
       if (interrupted() || !needed[k]) return;
-      const Experiment* e = scenes[k].experiment;
-      if (e == nullptr) return finish(k, refused[k]);
-      SweepRow row = refused[k];
+      SweepRow row = std::move(rows[k]);
+      if (!scenes[k]) return finish(k, std::move(row));
+      const Experiment& e = *loaded.sweep[k].experiment;
       try {
-        PreparedVariant variant = scenes[k].prepared;
+        PreparedVariant variant = *scenes[k];
         for (const std::size_t donor : donors[k]) {
-          std::vector<GivenState> given = given_by(scenes[donor], states[donor], scenes[k], donor);
+          std::vector<GivenState> given = given_by(*scenes[donor], states[donor], *scenes[k], donor);
           std::move(given.begin(), given.end(), std::back_inserter(variant.settings.given));
         }
-        VariantLimits solved = solve_variant(*e, variant, 1);
+        VariantLimits solved = solve_variant(variant, 1);
         states[k] = solved.states;
-        RunResult run = variant_result(*e, std::move(variant), std::move(solved));
-        for (LimitResult& limit : run.limits) limit.load_case = e->load_case_plugin;
-        enter_result(table, row, run, write_json(e->resolved), names);
+        RunResult run = variant_result(e, std::move(variant), std::move(solved));
+        for (LimitResult& limit : run.limits) limit.load_case = e.load_case_plugin;
+        enter_result(table, row, run, write_json(e.resolved), names);
       } catch (const InputError& error) {
         refuse(row, RowStatus::refused, error.what());
       } catch (const std::exception& error) {

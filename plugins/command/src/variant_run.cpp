@@ -21,22 +21,22 @@ PreparedVariant prepare_variant(const Experiment& experiment)
   const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
   if (!wrong.empty()) throw InputError(fmt::format("{}", fmt::join(wrong, "; ")));
   PreparedScene rest = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
-  PreparedVariant out{std::move(rest.scene), profile_tasks(e), {}};
+  PreparedVariant out{std::move(rest.scene), profile_tasks(e), {}, {}};
   out.settings = limit_settings(e.solver, out.scene, e.length_unit);
   out.settings.start = std::move(rest.start);
+  out.model = make_model(out.scene, *e.load_case, e.solver.clearance);
   return out;
 }
 
-VariantLimits solve_variant(const Experiment& experiment, const PreparedVariant& prepared, unsigned threads)
+VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads)
 {
-  const Model model = make_model(prepared.scene, *experiment.load_case, experiment.solver.clearance);
   VariantLimits out;
-  out.length = model.length;
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   observer.on_unreported = [&out](const std::vector<LimitResult>& limits) { out.unreported = limits; };
   observer.on_states = [&out](const auto& states) { out.states = states; };
-  out.limits = compute_limits(model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
+  out.limits =
+      compute_limits(prepared.model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
   return out;
 }
 
@@ -45,7 +45,7 @@ RunResult variant_result(const Experiment& experiment, PreparedVariant prepared,
   RunResult run;
   run.limits = std::move(solved.limits);
   run.profiles = profiles(run.limits, *experiment.load_case);
-  run.boundary = boundary_of(experiment, prepared.settings, solved.length, run.limits);
+  run.boundary = boundary_of(experiment, prepared.settings, prepared.model.length, run.limits);
   run.scene = std::move(prepared.scene);
   return run;
 }
@@ -53,7 +53,7 @@ RunResult variant_result(const Experiment& experiment, PreparedVariant prepared,
 RunResult run_variant(const Experiment& experiment)
 {
   PreparedVariant prepared = prepare_variant(experiment);
-  VariantLimits solved = solve_variant(experiment, prepared, 1);
+  VariantLimits solved = solve_variant(prepared, 1);
   return variant_result(experiment, std::move(prepared), std::move(solved));
 }
 

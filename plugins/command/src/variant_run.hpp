@@ -13,6 +13,7 @@ struct PreparedVariant {
   SceneSpec scene;  ///< rest as used
   std::vector<LimitTask> tasks;
   LimitSettings settings;
+  Model model;  ///< of `scene` under the experiment's load case, which has to outlive it
 };
 
 /// The rest state of an ordinary limits experiment, with all checks that `check` makes of it. Throws
@@ -23,11 +24,10 @@ struct VariantLimits {
   std::vector<LimitResult> limits;           ///< those that a signal stopped have status interrupted
   std::vector<LimitResult> unreported;       ///< solved for their states alone
   std::vector<std::optional<State>> states;  ///< furthest locked state, by task
-  double length = 1.0;                       ///< L
 };
 
 /// The solve. Its result depends on the variant alone, whatever `threads` (0: all processors).
-VariantLimits solve_variant(const Experiment& experiment, const PreparedVariant& prepared, unsigned threads);
+VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads);
 
 /// What follows from limits.
 RunResult variant_result(const Experiment& experiment, PreparedVariant prepared, VariantLimits solved);

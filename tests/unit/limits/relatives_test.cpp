@@ -9,10 +9,12 @@
 #include <hauberk/limits/limits.hpp>
 #include <hauberk/limits/relatives.hpp>
 #include <hauberk/mechanics/gaps.hpp>
+#include <hauberk/mechanics/held_model.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace hauberk::test {
 namespace {
@@ -228,6 +230,66 @@ TEST(Relatives, GivenStatesAreBegunFrom)
                           [](const LockedState& s) { return s.origin == "from another scene"; }));
   given.lessons = false;
   EXPECT_GT(*compute_limits(m, scene, {task}, given, 2)[0].value, far + 1e-2);
+}
+
+/// Stopped while scenes that it contains are solved, a limit is no answer: one that went on from here as if
+/// it were would end elsewhere than one that was never stopped.
+TEST(Relatives, LimitsStoppedAmongTheirLessonsSaySo)
+{
+  const InPlanePeriodic load = sheet(shear);
+  const SceneSpec scene = loose(1, 1);
+  const Model m = make_model(scene, load, 0.0);
+  std::atomic<bool> own_done = false;
+  LimitsObserver observer;
+  observer.on_start = [&own_done](std::size_t done, std::size_t total) { own_done = done == total; };
+  observer.keep_going = [&own_done] { return !own_done; };
+  const LimitTask task{Direction::at_degrees(45.0), Sense::negative};
+  const LimitResult r = compute_limits(m, scene, {task}, few(), 1, observer)[0];
+  EXPECT_EQ(r.status, LimitStatus::interrupted) << r.message;
+}
+
+/// Who counts work is told of limits that were solved for their states alone.
+TEST(Relatives, ScenesThatWereSolvedAreTold)
+{
+  const InPlanePeriodic load = sheet(shear);
+  const SceneSpec scene = loose(2, 1);
+  const Model m = make_model(scene, load, 0.0);
+  std::vector<LimitResult> told;
+  LimitsObserver observer;
+  observer.on_unreported = [&told](const std::vector<LimitResult>& limits) { told = limits; };
+  compute_limits(m, scene, {{Direction::at_degrees(45.0), Sense::negative}}, few(), 2, observer);
+  ASSERT_EQ(told.size(), 2U) << "lateral strain held; one cell";
+  for (const LimitResult& r : told) EXPECT_GT(r.evaluations, 0);
+}
+
+/// A state that is given is not lost to stages that are too wide for its fold.
+TEST(Relatives, GivenStatesAreKept)
+{
+  const SceneSpec cell = loose(1, 1), sheet_of_four = loose(2, 2);
+  const InPlanePeriodic flat = sheet(shear), layer = sheet(shear, {false, 0.5 / 4.9});
+  const Model from = make_model(cell, flat, 0.1), to = make_model(sheet_of_four, layer, 0.1);
+  const LimitTask task{Direction::at_degrees(45.0), Sense::negative};
+  LimitSettings starts = few();
+  starts.fold_starts = 32;
+  std::vector<std::optional<State>> states;
+  LimitsObserver observer;
+  observer.on_states = [&states](const auto& found) { states = found; };
+  compute_limits(from, cell, {task}, starts, 2, observer);
+  ASSERT_TRUE(states.at(0));
+  const Carrier carrier(from, cell, to, sheet_of_four);
+  ASSERT_TRUE(carrier.joined());
+  const std::optional<State> given = carrier.state(*states[0]);
+  ASSERT_TRUE(given);
+  const auto reached = [&](const State& s) {
+    return -to.load->value(task.direction, {s.macro.data(), static_cast<std::size_t>(to.macro_count)});
+  };
+  const MacroLoad pull = macro_load(to, task.direction, task.sense);
+  const Locked wide =
+      lock(to, *given, pull, starts.contact, without_widest(starts.schedule), [] { return true; });
+  ASSERT_LT(reached(wide.state), reached(*given) - 1e-6) << "this scene tests nothing";
+  const Locked kept = limit_from_state(to, task, starts, *given, [] { return true; });
+  EXPECT_EQ(kept.status, LockStatus::locked);
+  EXPECT_GT(reached(kept.state), reached(*given) - 1e-7);
 }
 
 }  // namespace

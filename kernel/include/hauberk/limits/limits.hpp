@@ -110,7 +110,8 @@ struct LimitsObserver {
   std::function<void(const std::vector<LimitResult>&)> on_limit;
   /// At the end: the furthest locked state of every task that was asked for; null where there is none.
   std::function<void(const std::vector<std::optional<State>>&)> on_states;
-  /// At the end: limits that were solved for their states alone and are not reported (neighbours).
+  /// At the end: limits that were solved for their states alone and are not reported (neighbours, scenes
+  /// that this one contains).
   std::function<void(const std::vector<LimitResult>&)> on_unreported;
 };
 

@@ -29,6 +29,10 @@ Vector within(const Matrix& held, const Vector& macro);
 /// Largest condition that a macroscopic state misses, over the size of that condition's coefficients.
 double missed(const Matrix& held, const Vector& macro);
 
+/// Whether a macroscopic state keeps conditions, up to what a symmetry that carried it over or a file's
+/// digits are off by (1e-9, strain or curvature times L).
+bool keeps(const Matrix& held, const Vector& macro);
+
 /// A model restricted to macroscopic states macro = B q that keep the conditions.
 ///
 /// B spans the null space of held^T. Its columns are orthonormal in the load case's norm, so that sums of |q|

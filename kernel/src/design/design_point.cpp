@@ -179,9 +179,10 @@ Matrix gap_response(const DesignPoint& point, const std::vector<Gap>& gaps,
 }
 
 /// The state moved by dy, as a state of the model `changed`; where gaps close, the nearest one that has them
-/// open by `least`. Null where there is none, or where it is so far that cores could have crossed unseen.
+/// open by `least`, among those that keep what `held` has where it has conditions. Null where there is none,
+/// or where it is so far that cores could have crossed unseen.
 std::optional<State> opened(const Model& m, const State& state, const Vector& dy, const Model& changed,
-                            double least)
+                            double least, const Matrix& held)
 {
   State s = advanced(m, state, dy, 1.0);
   const auto acceptable = [&] {
@@ -190,9 +191,18 @@ std::optional<State> opened(const Model& m, const State& state, const Vector& dy
   };
   if (!acceptable()) return std::nullopt;
   if (smallest_gap(changed, s, least) < least) {
-    Relaxed r = relax(changed, s, 2.0 * least, Cell::free, most_openings);
-    s = std::move(r.state);
-    if (r.smallest < least || !acceptable()) return std::nullopt;
+    double smallest = 0.0;
+    if (held.cols() == 0) {
+      Relaxed r = relax(changed, s, 2.0 * least, Cell::free, most_openings);
+      s = std::move(r.state);
+      smallest = r.smallest;
+    } else {
+      const HeldModel kept(changed, held);
+      const Relaxed r = relax(kept.model(), kept.restricted(s), 2.0 * least, Cell::free, most_openings);
+      s = kept.full(r.state);
+      smallest = r.smallest;
+    }
+    if (smallest < least || !acceptable()) return std::nullopt;
   }
   if (!links_kept(changed, s)) return std::nullopt;
   return s;
@@ -280,7 +290,7 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
       next = intermediate(from, to, variables, end);
       if (!next) continue;
       const Vector dy = free_part(at.model, response * ((end - done) * change));
-      reached = opened(at.model, state, dy, *next, open_enough * warm.g_hat);
+      reached = opened(at.model, state, dy, *next, open_enough * warm.g_hat, held);
       if (reached) done = end;
     }
     part *= 4.0;  // the loop has halved it: twice the part that succeeded

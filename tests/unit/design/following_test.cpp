@@ -2,6 +2,10 @@
 
 #include "uneven_chainmail.hpp"
 
+#include <hauberk/mechanics/held_model.hpp>
+
+#include <Eigen/QR>
+
 namespace hauberk::test {
 namespace {
 
@@ -39,6 +43,27 @@ TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
   EXPECT_TRUE(links_kept(far.model, *state));
   // A ring of which the other one fills the hole has no state to follow.
   EXPECT_FALSE(followed(at, tight, neighbour(1.4), design.variables).has_value());
+}
+
+TEST(DesignProblem, WhatIsHeldIsKeptWhereGapsAreOpened)
+{
+  const AtStart start;
+  const DesignPoint at = start.problem.current();
+  const WarmStart& tight = at.warm[0].back();
+  // Conditions that the state keeps: all strains but along its own.
+  const Vector& macro = tight.state.macro;
+  const Matrix held =
+      Eigen::HouseholderQR<Matrix>(Matrix(macro)).householderQ() * Matrix::Identity(3, 3).rightCols(2);
+  ASSERT_LT(missed(held, macro), 1e-15);
+  DesignPoint to = at;
+  to.x[0] -= 0.1;
+  to.x[3] += 0.1;
+  to.spec = with_variables(start.scene, start.design.variables, to.x);
+  to.model = make_model(to.spec, start.load, 0.0);
+  const auto state = followed(at, tight, to, start.design.variables, held);
+  ASSERT_TRUE(state.has_value());
+  EXPECT_GT((state->macro - macro).norm(), 1e-3);
+  EXPECT_LT(missed(held, state->macro), 1e-15);
 }
 
 TEST(DesignProblem, RestIsFollowedAroundWhatTheStraightWayCollidesWith)

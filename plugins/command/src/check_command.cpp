@@ -43,7 +43,7 @@ int check_command(const std::vector<std::string>& words)
                                        [](const auto& task) { return task.second == "unbounded"; });
   fmt::print("{}: no problems; {} elements, {} limits{}{}\n", options.positional(), loaded.plan.elements,
              loaded.tasks.size(),
-             unbounded > 0 ? fmt::format(" ({} unbounded: links do not hold them)", unbounded) : "",
+             unbounded > 0 ? fmt::format(" ({} not held by links: only a try shows whether they are unbounded)", unbounded) : "",
              loaded.design ? fmt::format(", {} design variables", loaded.design->variables.size()) : "");
   return exit_done;
 }

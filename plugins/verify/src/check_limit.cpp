@@ -164,10 +164,17 @@ VerifyLine check_witnessed(const Scene& scene, const Limit& limit, Record& recor
   Sentences problems, found;
   if (limit.value || !limit.contacts.empty())
     problems.push_back("a value or contacts, though nothing stops it");
-  check_witness(scene, limit, problems, found);
+  std::vector<std::size_t> undecided;
+  check_witness(scene, limit, problems, found, undecided);
   for (const VerifyPart part :
        {VerifyPart::values, VerifyPart::witness, VerifyPart::gap, VerifyPart::balance, VerifyPart::held})
     record.done(part, limit.where, problems.empty());
+  if (problems.empty() && !undecided.empty()) {
+    // The claim stands on every piece of the motion.
+    const std::string why = "motions of a witness that come too near to contact to be decided";
+    for (const std::size_t k : undecided) record.skip(fmt::format("{}/witness/{}", limit.where, k), why);
+    record.skip(limit.where + "/status", why);
+  }
   record.skip(limit.where + "/links_kept", "what says nothing without a state");
   return {problems.empty(), fmt::format("{}: {}: {}", limit.label, limit.status,
                                         fmt::join(problems.empty() ? found : problems, "; "))};

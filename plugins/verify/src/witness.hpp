@@ -3,6 +3,9 @@
 #include "checks.hpp"
 #include "kinematics.hpp"
 
+#include <cstddef>
+#include <vector>
+
 namespace hauberk::verification {
 
 /// Whether the motion from one state to another is free of intersection: macroscopic unknowns and u change
@@ -16,6 +19,9 @@ enum class Motion { free, meets, undecided };
 Motion motion(const Scene& scene, const MovedState& from, const MovedState& to);
 
 /// Everything about the witness of an unbounded or not attained limit; what was found is said in `found`.
-void check_witness(const Scene& scene, const Limit& limit, Sentences& problems, Sentences& found);
+/// States that end a piece of the motion which the bound leaves undecided go to `undecided`: that piece was
+/// only looked at in places.
+void check_witness(const Scene& scene, const Limit& limit, Sentences& problems, Sentences& found,
+                   std::vector<std::size_t>& undecided);
 
 }  // namespace hauberk::verification

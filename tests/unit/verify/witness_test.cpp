@@ -7,7 +7,9 @@
 #include <boost/json/object.hpp>
 
 #include <array>
+#include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 
 #include "chain_document.hpp"
@@ -130,6 +132,35 @@ TEST(Witness, ForgedOnesFail)
   fails(line(0.0, {{0.0, 0.0, 0.0}, {1500.0, 0.0, 0.0}}), "surfaces intersect");
   fails(line(90.0, {{0.0, 0.0, 0.0}, {0.0, 0.0, 4.0}, {0.0, 1500.0, 0.0}}), "surfaces intersect");
   fails(line(90.0, {{0.0, 0.0, 0.0}, {0.0, 0.0, 11.0}, {0.0, 1500.0, 0.0}}), "linking number");
+}
+
+TEST(Witness, LongSlidesAtATinyGapAreNotChecked)
+{
+  // Ring A spins about its own axis, `gap` from ring B all the while; then the rows part.
+  const auto outcomes = [](double gap) {
+    Chain near;
+    near.gap = gap;
+    const double locked = chain_document(near).at_pointer("/limits/0/value").to_number<double>();
+    const json::value document = unbounded(90.0, [&](const json::value& d) {
+      json::object spun = at_strain(d, locked, 0.0, 0.0);
+      spun.at("poses").as_array()[0].as_object()["quaternion"] =
+          json::array{std::cos(0.5), 0.0, 0.0, std::sin(0.5)};
+      return json::array{at_strain(d, 0.0, 0.0, 0.0), at_strain(d, locked, 0.0, 0.0), spun,
+                         at_strain(d, locked, 1500.0, 0.0)};
+    });
+    std::map<std::string, VerifyOutcome> out;
+    for (const VerifyField& f : verify(document).fields) out[f.pointer] = f.outcome;
+    return out;
+  };
+  const std::string status = "/limits/0/status", before = "/limits/0/witness/1/macro/exx",
+                    after = "/limits/0/witness/2/macro/exx";
+  const auto wide = outcomes(0.5), tiny = outcomes(1e-9), through = outcomes(-1e-3);
+  for (const std::string& field : {status, before, after})
+    EXPECT_EQ(wide.at(field), VerifyOutcome::passed) << field;
+  EXPECT_EQ(tiny.at(before), VerifyOutcome::passed);
+  EXPECT_EQ(tiny.at(after), VerifyOutcome::not_checked);
+  EXPECT_EQ(tiny.at(status), VerifyOutcome::not_checked);
+  EXPECT_EQ(through.at(status), VerifyOutcome::failed);
 }
 
 TEST(Witness, MotionsThroughEachOtherAreSeenBetweenStates)

@@ -87,6 +87,31 @@ TEST(Run, UnboundedIsAnAnswer)
   EXPECT_EQ(run_program({"verify", folder / "out/results.json"}).code, 0) << "its witness";
 }
 
+/// A sheet of pairs of rings that nothing links to other pairs: pulled either way it comes apart, though the
+/// rings of a pair stay together, which their places in the stretched lattice do not.
+TEST(Run, ASheetThatComesApartHasAWitness)
+{
+  const TemporaryFolder folder;
+  const std::string text = with(
+      with(with(chain_text(), "[12, 0]", "[18, 0]"), R"("position": [6, 0, 0])", R"("position": [5, 0, 0])"),
+      R"("directions_deg": [0])", R"("directions_deg": [0, 90])");
+  const Outcome o =
+      run_program({"run", folder.write("c.json", text), "-o", folder / "out", "--set", "/expect=[]"});
+  ASSERT_EQ(o.code, 0) << o.out << o.err;
+  json::value r = read_results(folder / "out");
+  for (const char* limit : {"/limits/0", "/limits/1"})
+    EXPECT_EQ(r.at_pointer(std::string(limit) + "/status").as_string(), "unbounded") << limit;
+  const Outcome check = run_program({"verify", folder / "out/results.json"});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_NE(check.out.find("free of intersection"), std::string::npos) << check.out;
+  // A forged one: in the middle of the way a ring has left its partner.
+  json::array& witness = r.at_pointer("/limits/0/witness").as_array();
+  ASSERT_GT(witness.size(), 2U);
+  json::value& x = witness[witness.size() / 2].at_pointer("/poses/0/position/1");
+  x = x.to_number<double>() + 11.0;
+  EXPECT_EQ(run_program({"verify", folder.write("forged.json", write_json(r))}).code, 1);
+}
+
 TEST(Run, UnfinishedLimitsFailTheRun)
 {
   const TemporaryFolder folder;

@@ -11,8 +11,10 @@ namespace {
 
 /// Part of every gap that a straight way must leave.
 constexpr double keep_gap = 0.1;
-/// Pieces that become one at most, while the strain does not double: longer ones take many images to certify.
+/// Pieces that become one at most, while stretches grow by no more than this: longer ones take many images to
+/// certify.
 constexpr std::size_t most_joined = 32;
+constexpr double most_growth = 1.5;
 
 /// The same way in fewer pieces: from each state straight to a far one that it certainly reaches.
 std::vector<State> in_fewer_pieces(const Model& m, const std::vector<State>& path)
@@ -24,7 +26,7 @@ std::vector<State> in_fewer_pieces(const Model& m, const std::vector<State>& pat
   for (std::size_t at = 0; at + 1 < path.size();) {
     std::size_t span = std::min(most_joined, path.size() - 1 - at);
     while (span > 1 &&
-           (largest(path[at + span]) > 2.0 * largest(path[at]) ||
+           (largest(path[at + span]) > most_growth * largest(path[at]) ||
             largest_safe_step(m, path[at], difference(m, path[at], path[at + span]), keep_gap).alpha < 1.0))
       span /= 2;
     at += span;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace hauberk {
 namespace {
@@ -22,6 +23,7 @@ constexpr int most_slides = 50;           ///< times `most_iterations`: the most
 /// The published fade makes valleys along which rings roll on towards ever smaller eigenvalues, downhill by
 /// next to nothing: so many escapes without a noticeable decrease are enough there.
 constexpr int most_idle_escapes = 20;
+constexpr double longest_growth = 1.5;  ///< of a stretch of the lattice in one step of a path that is kept
 constexpr double noise = 1e-15;  ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
@@ -273,6 +275,18 @@ class Newton {
          ++k) {
       alpha *= 0.5;
       trial = advanced(m_, state_, dy, alpha);
+    }
+    // Of a lattice that changes by more, ever more images could meet on the way.
+    const auto range = [this](const State& s) {
+      return m_.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    };
+    if (stage_.keep_path && !m_.lattice.empty()) {
+      const auto [lo, hi] = range(state_);
+      for (auto [low, high] = range(trial); high > longest_growth * hi || low * longest_growth < lo;
+           std::tie(low, high) = range(trial)) {
+        alpha *= 0.5;
+        trial = advanced(m_, state_, dy, alpha);
+      }
     }
     const SafeStep safe = checked_step(m_, state_, alpha * dy, keep_gap, stage_, &bounds_);
     result_.evaluations += safe.evaluations;

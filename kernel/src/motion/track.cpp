@@ -1,6 +1,7 @@
 #include "track.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace hauberk {
 
@@ -47,6 +48,46 @@ double wall_step(const Model& m, const State& from, const Vector& dy, double kee
 
 namespace {
 
+/// Margin of `near_pairs` that no pair which touches on the way exceeds, from how the lattice moves; infinite
+/// where it changes by too much for that.
+///
+/// With A the lattice's vectors, G = (dA/ds) A^-1 and n the image, x_ij,n = x_ij,0 - A n moves by
+///   v_ij,n = v_ij,0 - G (x_ij,0 - x_ij,n) = G x_ij,n + w_ij,   w_ij = v_ij,0 - G x_ij,0,
+/// and what touches at some s in [0, 1] has |x_ij,n(0)| <= touching + |v_ij,n|, so that
+///   |x_ij,n(0)| <= (touching + |w_ij|) / (1 - |G|).
+/// Elements that keep their places in the moving lattice, however far it was stretched, have small w_ij.
+double margin_of_lattice(const Model& m, const State& from, const Vector& dy)
+{
+  constexpr double most_change = 0.6;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const Track origin(m, from, dy, 0, {0, 0});
+  Mat3 A = Mat3::Identity(), dA = Mat3::Zero();
+  for (std::size_t k = 0; k < m.lattice.size(); ++k) {
+    Image image{};
+    image[k] = 1;
+    const Track there(m, from, dy, 0, image);
+    if (there.acceleration > 0.0) return never;
+    A.col(static_cast<Eigen::Index>(k)) = there.pose.position - origin.pose.position;
+    dA.col(static_cast<Eigen::Index>(k)) = there.velocity - origin.velocity;
+  }
+  const Mat3 G = dA * A.inverse();
+  const double change = G.norm();
+  if (!(change <= most_change)) return never;
+  double widest = 0.0, slip = 0.0;
+  std::vector<Track> tracks;
+  for (int i = 0; i < m.element_count(); ++i) {
+    tracks.emplace_back(m, from, dy, i, Image{});
+    if (tracks.back().acceleration > 0.0) return never;
+    widest = std::max(widest, m.reach[static_cast<std::size_t>(i)]);
+    for (const Track& t : tracks) {
+      const Vec3 x = tracks.back().pose.position - t.pose.position;
+      slip = std::max(slip, (tracks.back().velocity - t.velocity - G * x).norm());
+    }
+  }
+  const double touching = 2.0 * widest + m.clearance;
+  return (touching + slip) / (1.0 - change) - 2.0 * widest;
+}
+
 /// Pairs of a periodic cell that the step may bring together.
 std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const Vector& dy)
 {
@@ -70,7 +111,8 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
   }
   const double touching = 2.0 * widest + m.clearance, apart = (highest - lowest).norm() + own;
   const double margin = m.clearance + own + strain * (touching + apart) / std::max(smin, 1e-3);
-  return near_pairs(m, from, margin);
+  // Beyond rounding: what is as far as it may be is told apart later.
+  return near_pairs(m, from, std::min(margin, margin_of_lattice(m, from, dy) * (1.0 + 1e-9)));
 }
 
 /// Pairs of a patch that the step may bring together: no element goes farther than the fastest one may.

@@ -5,6 +5,7 @@
 #include "trace.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -252,6 +253,105 @@ void walls(Trial& trial)
   require(rank == rows.rows(), "of {} conditions only {} are independent", held.size(), rank);
 }
 
+/// Coordinates with which `load_case` has the element at `x`, found by Gauss-Newton steps from zero.
+Values coordinates_at(const LoadCase& load_case, const State& like, std::span<const double> macro,
+                      const Vec3& x)
+{
+  constexpr int most_steps = 20;
+  State at = like;
+  at.y.assign(macro.begin(), macro.end());
+  at.y.resize(at.macros + static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
+  for (int k = 0; k < most_steps; ++k) {
+    const PositionMap map = at.of(load_case, at.y);
+    const Eigen::MatrixXd J =
+        map.J.middleCols(static_cast<Eigen::Index>(at.macros), load_case.coordinate_count());
+    if (J.cols() == 0) break;
+    const Eigen::VectorXd d = J.completeOrthogonalDecomposition().solve(x - map.x);
+    for (Eigen::Index c = 0; c < d.size(); ++c) at.y[at.macros + static_cast<std::size_t>(c)] += d[c];
+  }
+  return at.y;
+}
+
+/// Largest violation of walls by one element with these coordinates; 0 or less: none.
+double beyond_walls(const LoadCase& load_case, const Vec3& X, std::span<const double> e)
+{
+  double most = -std::numeric_limits<double>::infinity();
+  for (const LinearInequality& wall : load_case.inequalities({&X, 1})) {
+    double g = wall.offset;
+    for (const LinearTerm& t : wall.terms) g += t.coefficient * e[static_cast<std::size_t>(t.coordinate)];
+    most = std::max(most, -g);
+  }
+  return most;
+}
+
+/// What a stricter load case allows, the one that names it allows, too, with the same value; and it holds
+/// whatever that one holds.
+void require_contained(const LoadCase& load_case, const StricterLoadCase& less, Random& random)
+{
+  require(!less.name.empty(), "a stricter load case has no name");
+  require(less.load != nullptr, "'{}' is no load case", less.name);
+  require(load_case.contains(*less.load), "it does not contain '{}', which it calls stricter", less.name);
+  require(!less.load->contains(load_case), "'{}' is called stricter, and contains it", less.name);
+  require(less.load->macro_count() == load_case.macro_count(),
+          "'{}' has {} macroscopic unknowns instead of {}", less.name, less.load->macro_count(),
+          load_case.macro_count());
+  for (int draw = 0; draw < states; ++draw) {
+    State state = draw_state(*less.load, random);
+    const auto macro = std::span<const double>(state.y).first(state.macros);
+    const auto e = std::span<double>(state.y).subspan(state.macros);
+    // Just inside its walls, if there are any: what is allowed there is what another one may forbid.
+    const Values drawn(e.begin(), e.end());
+    const auto scaled_by = [&](double factor) {
+      for (std::size_t c = 0; c < e.size(); ++c) e[c] = factor * drawn[c];
+      return beyond_walls(*less.load, state.X, e);
+    };
+    double reach = 1.0;
+    while (reach < 1e3 && scaled_by(reach) <= 0.0) reach *= 1.5;
+    if (reach >= 1e3) reach = 1.0;
+    while (scaled_by(reach) > 0.0 && reach > 1e-12) reach /= 1.5;
+    const Vec3 x = state.of(*less.load, state.y).x;
+    const Values y = coordinates_at(load_case, state, macro, x);
+    const double off = (state.of(load_case, y).x - x).norm();
+    require(off <= 1e-9 * (1.0 + x.norm()), "a state of '{}' is {:.3g} from any that it has", less.name, off);
+    const double beyond = beyond_walls(load_case, state.X, std::span<const double>(y).subspan(state.macros));
+    require(beyond <= rounding, "a state of '{}' is {:.3g} beyond its walls", less.name, beyond);
+    const Direction direction = Direction::at_radians(random.between(-3.0, 3.0));
+    const double own = load_case.value(direction, macro), other = less.load->value(direction, macro);
+    require(std::abs(own - other) <= rounding * (1.0 + std::abs(own)),
+            "the value of a state of '{}' is {:.9g} there and {:.9g} here", less.name, other, own);
+    const auto rows = [&](const LoadCase& of) {
+      const std::vector<MacroCondition> held = of.conditions(direction);
+      Eigen::MatrixXd m(static_cast<Eigen::Index>(state.macros), static_cast<Eigen::Index>(held.size()));
+      for (std::size_t k = 0; k < held.size(); ++k) {
+        for (std::size_t i = 0; i < state.macros; ++i)
+          m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = held[k].coefficients[i];
+      }
+      return m;
+    };
+    const Eigen::MatrixXd here = rows(load_case), there = rows(*less.load);
+    Eigen::MatrixXd both(here.rows(), here.cols() + there.cols());
+    both << here, there;
+    require(both.cols() == 0 || Eigen::FullPivLU<Eigen::MatrixXd>(both).rank() ==
+                                    (there.cols() == 0 ? 0 : Eigen::FullPivLU<Eigen::MatrixXd>(there).rank()),
+            "'{}' does not hold what it holds", less.name);
+  }
+}
+
+void stricter(Trial& trial)
+{
+  const Object object = trial.make();
+  const LoadCase& load_case = *object.load_case;
+  require(load_case.contains(load_case), "it does not contain itself");
+  const std::vector<StricterLoadCase> all = load_case.stricter();
+  if (all.empty()) skip("it names no stricter load case");
+  for (const StricterLoadCase& less : all) {
+    require_contained(load_case, less, trial.random);
+    for (const StricterLoadCase& least : less.load->stricter())
+      require(least.load != nullptr && load_case.contains(*least.load), "it does not contain '{}' with '{}'",
+              less.name, least.name);
+  }
+}
+
 /// Lengths in the section are in file units and come with the scene's length: only their ratio counts.
 void scaling(Trial& trial)
 {
@@ -288,6 +388,8 @@ void add_load_case_motion_checks(std::vector<Check>& out)
   add("load_case.images", "an image of an image is an image; all elements are displaced alike", images);
   add("load_case.acceleration", "acceleration_bound bounds |x''| along every path", acceleration);
   add("load_case.walls", "walls hold at rest; conditions are independent; terms refer to what exists", walls);
+  add("load_case.stricter", "states of stricter load cases are states of this one, with the same value",
+      stricter);
   add("load_case.scaling", "only lengths relative to the scene's length count", scaling);
 }
 

@@ -96,6 +96,25 @@ class Mutant final : public LoadCase {
     if (is("transform_stretches")) out[e] *= 1.5;
     return true;
   }
+  std::vector<StricterLoadCase> do_stricter() const override
+  {
+    if (is("stricter_has_another_value")) {
+      std::vector<StricterLoadCase> out;
+      out.push_back({"lower", std::make_unique<Mutant>("value_not_zero_at_rest", 0.5 * half_height_)});
+      return out;
+    }
+    std::vector<StricterLoadCase> out;
+    out.push_back(
+        {"lower", std::make_unique<Mutant>(defect_, (is("stricter_is_higher") ? 2.0 : 0.5) * half_height_)});
+    return out;
+  }
+  bool do_contains(const LoadCase& other) const override
+  {
+    const auto* mutant = dynamic_cast<const Mutant*>(&other);
+    if (mutant == nullptr || is("contains_nothing")) return false;
+    if (is("stricter_is_higher")) return mutant->half_height_ >= half_height_;
+    return mutant->half_height_ <= half_height_;
+  }
   std::vector<LinearInequality> do_inequalities(std::span<const Vec3> X) const override
   {
     std::vector<LinearInequality> walls;

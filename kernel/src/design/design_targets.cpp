@@ -150,9 +150,7 @@ std::vector<std::optional<State>> DesignProblem::thorough_states(const DesignPoi
   LimitSettings settings = limits_;
   settings.start = p.rest;
   settings.schedule = schedule_;
-  // On the way targets are neighbours of each other, and others would be most of the cost; what the search
-  // ends with is reported with all of them.
-  if (schedule_.last > design_.schedule.last) settings.neighbours = 0.0;
+  settings.neighbours = 0.0;  // targets are neighbours of each other; others would be most of the cost
   std::vector<std::optional<State>> states;
   LimitsObserver observer;
   observer.on_states = [&states](const auto& found) { states = found; };

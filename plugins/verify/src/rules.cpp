@@ -103,9 +103,11 @@ constexpr std::array rules{
                {values},
                "a known one; `locked` needs a state that passes everything here and is no saddle, profiles "
                "and tables need `locked`"},
-    VerifyRule{"/limits/*/witness/**",
-               {witness},
-               "a motion: each state free of intersections, links kept, the last beyond the bound"},
+    VerifyRule{
+        "/limits/*/witness/**",
+        {witness},
+        "a motion: each state free of intersections, links kept, the last beyond the bound; states that end "
+        "a piece which the bound leaves undecided, and the status that rests on it, are not checked"},
     VerifyRule{"/limits/*/witness", {witness}, "null only where a state is given or nothing is claimed"},
     VerifyRule{"/limits/*/message", {}, words},
     VerifyRule{"/limits/*/infimum", {values}, "null unless `not_attained`"},

@@ -24,7 +24,7 @@ constexpr int most_slides = 50;           ///< times `most_iterations`: the most
 /// next to nothing: so many escapes without a noticeable decrease are enough there.
 constexpr int most_idle_escapes = 20;
 constexpr double longest_growth = 1.5;  ///< of a stretch of the lattice in one step of a path that is kept
-constexpr double noise = 1e-15;  ///< relative rounding of energies
+constexpr double noise = 1e-15;         ///< relative rounding of energies
 /// Relative change of an arc's energy when its panels change from step to step (about the panel rule's
 /// error); decreases below fifty times this are judged by the gradient.
 constexpr double quadrature_noise = 1e-9, rough_quadrature_noise = 1e-7;

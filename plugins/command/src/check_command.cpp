@@ -41,10 +41,13 @@ int check_command(const std::vector<std::string>& words)
   }
   const auto unbounded = std::count_if(loaded.plan.bounded.begin(), loaded.plan.bounded.end(),
                                        [](const auto& task) { return task.second == "unbounded"; });
-  fmt::print("{}: no problems; {} elements, {} limits{}{}\n", options.positional(), loaded.plan.elements,
-             loaded.tasks.size(),
-             unbounded > 0 ? fmt::format(" ({} not held by links: only a try shows whether they are unbounded)", unbounded) : "",
-             loaded.design ? fmt::format(", {} design variables", loaded.design->variables.size()) : "");
+  fmt::print(
+      "{}: no problems; {} elements, {} limits{}{}\n", options.positional(), loaded.plan.elements,
+      loaded.tasks.size(),
+      unbounded > 0
+          ? fmt::format(" ({} not held by links: only a try shows whether they are unbounded)", unbounded)
+          : "",
+      loaded.design ? fmt::format(", {} design variables", loaded.design->variables.size()) : "");
   return exit_done;
 }
 

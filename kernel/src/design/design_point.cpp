@@ -191,18 +191,16 @@ std::optional<State> opened(const Model& m, const State& state, const Vector& dy
   };
   if (!acceptable()) return std::nullopt;
   if (smallest_gap(changed, s, least) < least) {
-    double smallest = 0.0;
+    Relaxed r;
     if (held.cols() == 0) {
-      Relaxed r = relax(changed, s, 2.0 * least, Cell::free, most_openings);
-      s = std::move(r.state);
-      smallest = r.smallest;
+      r = relax(changed, s, 2.0 * least, Cell::free, most_openings);
     } else {
       const HeldModel kept(changed, held);
-      const Relaxed r = relax(kept.model(), kept.restricted(s), 2.0 * least, Cell::free, most_openings);
-      s = kept.full(r.state);
-      smallest = r.smallest;
+      r = relax(kept.model(), kept.restricted(s), 2.0 * least, Cell::free, most_openings);
+      r.state = kept.full(r.state);
     }
-    if (smallest < least || !acceptable()) return std::nullopt;
+    s = std::move(r.state);
+    if (r.smallest < least || !acceptable()) return std::nullopt;
   }
   if (!links_kept(changed, s)) return std::nullopt;
   return s;

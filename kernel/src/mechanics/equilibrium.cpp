@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -277,16 +277,14 @@ class Newton {
       trial = advanced(m_, state_, dy, alpha);
     }
     // Of a lattice that changes by more, ever more images could meet on the way.
-    const auto range = [this](const State& s) {
-      return m_.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    const auto too_far = [this](const State& s) {
+      const auto [lo, hi] = stretches(state_);
+      const auto [low, high] = stretches(s);
+      return high > longest_growth * hi || low * longest_growth < lo;
     };
-    if (stage_.keep_path && !m_.lattice.empty()) {
-      const auto [lo, hi] = range(state_);
-      for (auto [low, high] = range(trial); high > longest_growth * hi || low * longest_growth < lo;
-           std::tie(low, high) = range(trial)) {
-        alpha *= 0.5;
-        trial = advanced(m_, state_, dy, alpha);
-      }
+    while (stage_.keep_path && !m_.lattice.empty() && too_far(trial)) {
+      alpha *= 0.5;
+      trial = advanced(m_, state_, dy, alpha);
     }
     const SafeStep safe = checked_step(m_, state_, alpha * dy, keep_gap, stage_, &bounds_);
     result_.evaluations += safe.evaluations;
@@ -307,15 +305,19 @@ class Newton {
   {
     if (!stage_.keep_path) return most_radius_;
     if (e.contact.energy == 0.0) return std::numeric_limits<double>::infinity();
-    const auto [lo, hi] =
-        m_.load->stretch_range({state_.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    const auto [lo, hi] = stretches(state_);
     return most_radius_ * std::max({1.0, hi, 1.0 / lo});
+  }
+
+  /// Smallest and largest stretch of a state's lattice or surface.
+  std::pair<double, double> stretches(const State& s) const
+  {
+    return m_.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m_.macro_count)});
   }
 
   bool runaway() const
   {
-    const auto [lo, hi] =
-        m_.load->stretch_range({state_.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    const auto [lo, hi] = stretches(state_);
     return lo < 1e-3 || hi > 1e3;
   }
 

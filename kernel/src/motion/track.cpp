@@ -52,11 +52,12 @@ namespace {
 /// where it changes by too much for that.
 ///
 /// With A the lattice's vectors, G = (dA/ds) A^-1 and n the image, x_ij,n = x_ij,0 - A n moves by
-///   v_ij,n = v_ij,0 - G (x_ij,0 - x_ij,n) = G x_ij,n + w_ij,   w_ij = v_ij,0 - G x_ij,0,
+///   v_ij,n = v_ij,0 - G (x_ij,0 - x_ij,n) = G x_ij,n + q_i - q_j,   q_i = v_i - G x_i,
 /// and what touches at some s in [0, 1] has |x_ij,n(0)| <= touching + |v_ij,n|, so that
-///   |x_ij,n(0)| <= (touching + |w_ij|) / (1 - |G|).
-/// Elements that keep their places in the moving lattice, however far it was stretched, have small w_ij.
-double margin_of_lattice(const Model& m, const State& from, const Vector& dy)
+///   |x_ij,n(0)| <= (touching + |q_i - q_j|) / (1 - |G|).
+/// The q of elements that keep their places in the moving lattice, however far it was stretched, differ
+/// little.
+double margin_of_lattice(const Model& m, const State& from, const Vector& dy, double widest)
 {
   constexpr double most_change = 0.6;
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -73,19 +74,16 @@ double margin_of_lattice(const Model& m, const State& from, const Vector& dy)
   const Mat3 G = dA * A.inverse();
   const double change = G.norm();
   if (!(change <= most_change)) return never;
-  double widest = 0.0, slip = 0.0;
-  std::vector<Track> tracks;
+  Vec3 lowest = Vec3::Constant(never), highest = -lowest;
   for (int i = 0; i < m.element_count(); ++i) {
-    tracks.emplace_back(m, from, dy, i, Image{});
-    if (tracks.back().acceleration > 0.0) return never;
-    widest = std::max(widest, m.reach[static_cast<std::size_t>(i)]);
-    for (const Track& t : tracks) {
-      const Vec3 x = tracks.back().pose.position - t.pose.position;
-      slip = std::max(slip, (tracks.back().velocity - t.velocity - G * x).norm());
-    }
+    const Track t(m, from, dy, i, {0, 0});
+    if (t.acceleration > 0.0) return never;
+    const Vec3 q = t.velocity - G * t.pose.position;
+    lowest = lowest.cwiseMin(q);
+    highest = highest.cwiseMax(q);
   }
   const double touching = 2.0 * widest + m.clearance;
-  return (touching + slip) / (1.0 - change) - 2.0 * widest;
+  return (touching + (highest - lowest).norm()) / (1.0 - change) - 2.0 * widest;
 }
 
 /// Pairs of a periodic cell that the step may bring together.
@@ -110,9 +108,11 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
     highest = highest.cwiseMax(from.e.segment(k * nc, nc));
   }
   const double touching = 2.0 * widest + m.clearance, apart = (highest - lowest).norm() + own;
-  const double margin = m.clearance + own + strain * (touching + apart) / std::max(smin, 1e-3);
-  // Beyond rounding: what is as far as it may be is told apart later.
-  return near_pairs(m, from, std::min(margin, margin_of_lattice(m, from, dy) * (1.0 + 1e-9)));
+  double margin = m.clearance + own + strain * (touching + apart) / std::max(smin, 1e-3);
+  // Where that is wide, elements have left their places in the lattice at rest, or the lattice was stretched
+  // far. Beyond rounding: what is as far as it may be is told apart later.
+  if (margin > 2.0 * widest) margin = std::min(margin, margin_of_lattice(m, from, dy, widest) * (1.0 + 1e-9));
+  return near_pairs(m, from, margin);
 }
 
 /// Pairs of a patch that the step may bring together: no element goes farther than the fastest one may.

@@ -98,14 +98,10 @@ class Mutant final : public LoadCase {
   }
   std::vector<StricterLoadCase> do_stricter() const override
   {
-    if (is("stricter_has_another_value")) {
-      std::vector<StricterLoadCase> out;
-      out.push_back({"lower", std::make_unique<Mutant>("value_not_zero_at_rest", 0.5 * half_height_)});
-      return out;
-    }
+    const std::string defect = is("stricter_has_another_value") ? "value_not_zero_at_rest" : defect_;
+    const double height = (is("stricter_is_higher") ? 2.0 : 0.5) * half_height_;
     std::vector<StricterLoadCase> out;
-    out.push_back(
-        {"lower", std::make_unique<Mutant>(defect_, (is("stricter_is_higher") ? 2.0 : 0.5) * half_height_)});
+    out.push_back({"lower", std::make_unique<Mutant>(defect, height)});
     return out;
   }
   bool do_contains(const LoadCase& other) const override

@@ -196,6 +196,16 @@ TEST(Motion, StrainBringsElementsTogetherThatHaveLeftTheirPlaces)
   const double alpha = largest_safe_step(m, from, dy, keep).alpha;
   EXPECT_LT(alpha, 1.3 / 13.3);
   EXPECT_GT(alpha, 0.5 * 1.3 / 13.3);
+  // In a lattice that is stretched 51 times the third ring has been kept beside the first one. A strain of
+  // -10 moves it by -10 * 3.5, unless it keeps its place in the moving lattice: then by -10/51 * 3.5.
+  from.macro[0] = 50.0;
+  from.e[6] = 3.5 - 51.0 * 3.5;
+  dy[0] = -10.0;
+  const double far = largest_safe_step(m, from, dy, keep).alpha;
+  EXPECT_LT(far, 1.3 / 35.0);
+  EXPECT_GT(far, 0.5 * 1.3 / 35.0);
+  dy[m.offset(2)] = 10.0 * 3.5 - 10.0 / 51.0 * 3.5;
+  EXPECT_EQ(largest_safe_step(m, from, dy, keep).alpha, 1.0);
 }
 
 /// The published search for closest points at ten places of a change of parameters, for which no sampled

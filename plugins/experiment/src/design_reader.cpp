@@ -78,6 +78,13 @@ void check_published(const Node& section, Problems& problems)
     problems.add(published->at("highest"), "expected at least 'lowest', which is " + format_number(*lowest) +
                                                ", found " + format_number(*highest));
   }
+  const Node* measured = find_typed(*published, "measured", Node::Type::array);
+  if (measured == nullptr) return;
+  for (const Node& range : measured->items) {
+    if (range.items.size() != 3) continue;  // told by the fields
+    if (range.items[1].number > range.items[2].number)
+      problems.add(range, "expected direction, smallest and largest value, in this order");
+  }
 }
 
 }  // namespace

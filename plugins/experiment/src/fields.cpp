@@ -221,7 +221,11 @@ Field published_field()
        number("lowest", "Smallest value reached, where only a range is published.", "as the quantity"),
        number("highest", "Largest value reached, where only a range is published.", "as the quantity"),
        at_least(integer("iterations", "Iterations that were needed."), 1),
-       at_least(number("seconds_per_iteration", "Time of an iteration.", "s"), 0.0, true)});
+       at_least(number("seconds_per_iteration", "Time of an iteration.", "s"), 0.0, true),
+       list("profile", "Its profile, drawn behind the design's.",
+            numbers("point", "Direction in degrees, and value.", 2)),
+       list("measured", "Ranges measured of samples, drawn as bars.",
+            numbers("range", "Direction in degrees, smallest and largest value.", 3))});
 }
 
 Field design_field()

@@ -60,6 +60,9 @@ class Diagram {
   void curve(const Curve& curve) const
   {
     if (curve.joined) join(curve);
+    for (const Bar& bar : curve.bars)
+      for (const double turn : {0.0, 180.0})
+        draw_bar(svg_, at(bar.degrees + turn, bar.lowest), at(bar.degrees + turn, bar.highest), curve.stroke);
     for (const auto& [degrees, value] : curve.points) {
       const bool hollow = std::find(curve.hollow.begin(), curve.hollow.end(), degrees) != curve.hollow.end();
       for (const double turn : {0.0, 180.0}) {
@@ -81,6 +84,17 @@ class Diagram {
         const Point2 p = at(degrees + turn, value);
         svg_.text({p.x, p.y + 5.0}, "\u221e", 15, "middle", true, true, curve.stroke.colour);
       }
+  }
+
+  static void draw_bar(Svg& svg, Point2 a, Point2 b, const Stroke& stroke)
+  {
+    svg.line(a, b, stroke);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0.0)) return;
+    constexpr double half = 4.0;
+    const Point2 across{-(b.y - a.y) / length * half, (b.x - a.x) / length * half};
+    for (const Point2& end : {a, b})
+      svg.line({end.x - across.x, end.y - across.y}, {end.x + across.x, end.y + across.y}, stroke);
   }
 
   static void draw_marker(Svg& svg, Point2 p, const Curve& curve)
@@ -159,6 +173,7 @@ void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves)
   double y = corner.y;
   for (const Curve& curve : curves) {
     if (curve.joined) svg.line({corner.x, y}, {corner.x + 44.0, y}, curve.stroke);
+    if (!curve.bars.empty()) Diagram::draw_bar(svg, {corner.x + 10.0, y}, {corner.x + 34.0, y}, curve.stroke);
     Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve);
     svg.text({corner.x + 54.0, y + 4.0},
              curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)") +
@@ -178,8 +193,10 @@ double panel_height(std::size_t entries)
 void draw_panel(Svg& svg, Point2 corner, const Panel& panel)
 {
   double largest = 0.0;
-  for (const Curve& curve : panel.curves)
+  for (const Curve& curve : panel.curves) {
     for (const auto& [degrees, value] : curve.points) largest = std::max(largest, value);
+    for (const Bar& bar : curve.bars) largest = std::max(largest, bar.highest);
+  }
   const Point2 centre{corner.x + panel_width / 2.0, corner.y + title_height + label_margin + radius};
   svg.text({centre.x, corner.y + 14.0}, panel.title, 14, "middle");
   if (!panel.subtitle.empty()) svg.text({centre.x, corner.y + 30.0}, panel.subtitle, 12, "middle");

@@ -9,6 +9,11 @@
 
 namespace hauberk::detail {
 
+/// A range of values in one direction.
+struct Bar {
+  double degrees = 0.0, lowest = 0.0, highest = 0.0;
+};
+
 /// Values (>= 0) against direction in degrees; only finite ones.
 struct Curve {
   enum class Marker { none, dot, square, target, cross };
@@ -22,6 +27,7 @@ struct Curve {
   /// Those of the holes where there is no limit at all: marked at the rim.
   std::vector<double> endless;
   std::vector<double> hollow;  ///< directions whose markers are hollow: values that are in doubt
+  std::vector<Bar> bars;       ///< drawn along their directions, with ends across them
 };
 
 struct Panel {

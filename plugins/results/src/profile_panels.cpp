@@ -120,7 +120,8 @@ Curve style(const char* colour, double width, const char* dash, Curve::Marker ma
           .points = {},
           .holes = {},
           .endless = {},
-          .hollow = {}};
+          .hollow = {},
+          .bars = {}};
 }
 
 }  // namespace
@@ -135,7 +136,8 @@ void add_marks(Panel& panel, const std::string& label, Curve::Marker marker, con
               .points = {},
               .holes = {},
               .endless = {},
-              .hollow = {}};
+              .hollow = {},
+              .bars = {}};
   for (const auto& [degrees, value] : values) marks.points.emplace_back(reduced(degrees), std::abs(value));
   if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
 }

@@ -3,6 +3,7 @@
 
 #include "json_place.hpp"
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
@@ -74,13 +75,36 @@ std::optional<double> published_value(const JsonPlace& design, double direction)
   return std::nullopt;
 }
 
+/// The rows of a table, each of `columns` numbers; none where there is no table.
+std::vector<std::vector<double>> rows_of(const JsonPlace& parent, const char* key, std::size_t columns)
+{
+  std::vector<std::vector<double>> out;
+  const std::optional<JsonPlace> table = parent.find(key);
+  if (!table) return out;
+  for (const JsonPlace& row : table->items()) {
+    std::vector<double>& numbers = out.emplace_back();
+    for (const JsonPlace& number : row.items()) numbers.push_back(number.number());
+    if (numbers.size() != columns) row.fail(fmt::format("expected {} numbers", columns));
+  }
+  return out;
+}
+
 std::optional<PublishedDesign> read_published(const JsonPlace& design)
 {
   const std::optional<JsonPlace> published = design.find("published");
   if (!published) return std::nullopt;
-  return PublishedDesign{published->at("source").text(), published->optional_number("lowest"),
-                         published->optional_number("highest"), published->optional_number("iterations"),
-                         published->optional_number("seconds_per_iteration")};
+  PublishedDesign out{published->at("source").text(),
+                      published->optional_number("lowest"),
+                      published->optional_number("highest"),
+                      published->optional_number("iterations"),
+                      published->optional_number("seconds_per_iteration"),
+                      {},
+                      {}};
+  for (const std::vector<double>& row : rows_of(*published, "profile", 2))
+    out.profile.emplace_back(row[0], row[1]);
+  for (const std::vector<double>& row : rows_of(*published, "measured", 3))
+    out.measured.push_back({row[0], row[1], row[2]});
+  return out;
 }
 
 ReportDesign read_design(const JsonPlace& design, const JsonPlace& asked)

@@ -31,7 +31,37 @@ std::string subtitle(const ReportEntry& entry)
   return out;
 }
 
-/// Values by direction as crosses, a range as two dashed rings.
+/// A curve without values, drawn in black.
+Curve published_curve(const std::string& label, const char* dash, bool joined)
+{
+  return {.label = label,
+          .stroke = {"#000", 1.0, dash},
+          .marker = Curve::Marker::none,
+          .joined = joined,
+          .points = {},
+          .holes = {},
+          .endless = {},
+          .hollow = {},
+          .bars = {}};
+}
+
+/// Behind ours: the published profile as a dotted curve, what was measured of printed samples as bars.
+void add_published_profile(Panel& panel, const PublishedDesign& published)
+{
+  std::vector<Curve> behind;
+  Curve profile = published_curve("published profile", "1.5,3", true);
+  for (const auto& [degrees, value] : published.profile)
+    profile.points.emplace_back(degrees, std::abs(value));
+  Curve measured = published_curve("measured of printed samples", "", false);
+  measured.stroke = {"#2e8b57", 2.0, ""};
+  for (const MeasuredRange& range : published.measured)
+    measured.bars.push_back({range.direction_deg, range.lowest, range.highest});
+  if (!profile.points.empty()) behind.push_back(std::move(profile));
+  if (!measured.bars.empty()) behind.push_back(std::move(measured));
+  panel.curves.insert(panel.curves.begin(), behind.begin(), behind.end());
+}
+
+/// Values at the targets as crosses, a range as two dashed rings.
 void add_published(Panel& panel, const ReportDesign& design)
 {
   std::vector<std::pair<double, double>> values;
@@ -40,17 +70,11 @@ void add_published(Panel& panel, const ReportDesign& design)
   }
   detail::add_marks(panel, "published", Curve::Marker::cross, "#000", values);
   if (!design.published) return;
+  add_published_profile(panel, *design.published);
   for (const auto& [label, end] : {std::pair{"published, lowest", design.published->lowest},
                                    std::pair{"published, highest", design.published->highest}}) {
     if (!end) continue;
-    Curve ring{.label = label,
-               .stroke = {"#000", 1.0, "2,4"},
-               .marker = Curve::Marker::none,
-               .joined = true,
-               .points = {},
-               .holes = {},
-               .endless = {},
-               .hollow = {}};
+    Curve ring = published_curve(label, "2,4", true);
     for (int degrees = 0; degrees < 180; degrees += 5) ring.points.emplace_back(degrees, std::abs(*end));
     panel.curves.push_back(std::move(ring));
   }

@@ -73,6 +73,10 @@ TEST(Structure, PublishedResultsOfADesign)
             "t.json:16: /design/published: 'lowest' and 'highest' belong together; 'lowest' is missing");
   EXPECT_EQ(published(R"("source": "a book", "lowest": 0.1, "highest": 0.05)"),
             "t.json:16: /design/published/highest: expected at least 'lowest', which is 0.1, found 0.05");
+  EXPECT_EQ(published(R"("source": "a book", "profile": [[0, 0.1]], "measured": [[0, 0.1, 0.2]])"), "");
+  EXPECT_EQ(published(R"("source": "a book", "measured": [[0, 0.1, 0.2], [90, 0.2, 0.1]])"),
+            "t.json:16: /design/published/measured/1: expected direction, smallest and largest value, in "
+            "this order");
 }
 
 TEST(Structure, UnknownKeysNameTheNearest)

@@ -225,6 +225,27 @@ TEST(Report, TextHasTablesWhoseRowsAreWhole)
   EXPECT_EQ(tables, 5U) << "deviations, costs, two designs, limits";
 }
 
+TEST(Report, PublishedProfileAndMeasuredRangesAreDrawnBehindOurs)
+{
+  json::value document = made_up();
+  json::object& published = document.at_pointer("/experiment/design/published").as_object();
+  published["profile"] = json::array{{0, 0.02}, {20, 0.03}, {40, 0.02}};
+  published["measured"] = json::array{{0, 0.01, 0.02}, {90, 0.02, 0.05}};
+  const std::string svg = report_svg(std::vector{read_report_entry(document, "d")});
+  const auto count = [&svg](const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + what.size())) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("stroke-dasharray=\"1.5,3\""), 3U) << "both halves of the profile, and the legend";
+  EXPECT_EQ(count("stroke=\"#2e8b57\""), 3U * 5U)
+      << "two ranges twice and the legend, a bar with two ends each";
+  EXPECT_LT(svg.find("stroke-dasharray=\"1.5,3\""), svg.find("fill=\"#c00000\"")) << "behind the targets";
+
+  published["measured"] = json::array{{0, 0.01}};
+  EXPECT_THROW(read_report_entry(document, "d"), InputError);
+}
+
 TEST(Report, PageHasAPanelForEachResult)
 {
   std::vector<ReportEntry> entries(4, read_report_entry(made_up(), "d"));

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hauberk {
@@ -32,10 +33,17 @@ struct ReportTarget {
 };
 
 /// What a publication says of a design as a whole.
+/// A range of values measured in one direction.
+struct MeasuredRange {
+  double direction_deg = 0.0, lowest = 0.0, highest = 0.0;
+};
+
 struct PublishedDesign {
   std::string source;
   std::optional<double> lowest, highest;  ///< range of the values reached
   std::optional<double> iterations, seconds_per_iteration;
+  std::vector<std::pair<double, double>> profile;  ///< direction in degrees, value
+  std::vector<MeasuredRange> measured;             ///< of printed samples
 };
 
 struct ReportDesign {

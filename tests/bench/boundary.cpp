@@ -11,7 +11,8 @@
 
 #include <fmt/format.h>
 
-#include <loading.hpp>
+#include "run/limit_tasks.hpp"
+#include "run/prepared.hpp"
 
 #include <string_view>
 
@@ -20,11 +21,10 @@ namespace {
 using namespace hauberk;
 
 /// Makes the model, too: it is what asks shapes.
-[[gnu::noinline]] LimitResult measured(const command::Loaded& l)
+[[gnu::noinline]] LimitResult measured(const Prepared& p, const SceneSpec& scene, const LoadCase& load)
 {
-  const Experiment& e = l.experiment;
-  const Model model = make_model(l.scene, *e.load_case, e.solver.clearance);
-  return compute_limits(model, l.scene, l.tasks, l.settings, 1).front();
+  const Model model = make_model(scene, load, p.experiment.solver.clearance);
+  return compute_limits(model, scene, profile_tasks(p.experiment), p.settings, 1).front();
 }
 
 }  // namespace
@@ -34,20 +34,23 @@ int main(int argc, char** argv)
   if (argc != 2) return 2;
   const auto registry = std::make_shared<Registry>(std::vector<std::filesystem::path>{HAUBERK_PLUGIN_FOLDER});
   const std::string file = HAUBERK_SOURCE_DIR "/share/experiments/chain.json";
-  command::Loaded loaded =
-      command::load(registry, {file,
-                               read_text_file(file),
-                               {"/load_case/directions_deg=[0]", "/load_case/senses=[\"stretch\"]",
-                                "/cell/repeat=[8,1]", "/solver/neighbours=0"}});
+  const std::unique_ptr<const Prepared> prepared =
+      prepare_experiment(registry,
+                         {file,
+                          read_text_file(file),
+                          {"/load_case/directions_deg=[0]", "/load_case/senses=[\"stretch\"]",
+                           "/cell/repeat=[8,1]", "/solver/neighbours=0"}},
+                         [](const Prepared&, Diagnostics&) {});
+  SceneSpec scene = prepared->scene;
+  std::shared_ptr<const LoadCase> load = prepared->experiment.load_case;
   if (std::string_view(argv[1]) == "linked") {
     Torus ring;
     ring.name = "ring";
-    for (ElementType& type : loaded.scene.types)
+    for (ElementType& type : scene.types)
       type.shape = std::make_shared<TorusUnion>(std::vector<std::string>{"ring"}, std::vector<Torus>{ring});
-    loaded.experiment.load_case =
-        std::make_shared<InPlanePeriodic>(StrainMeasure::tensor, InPlanePeriodic::OutOfPlane{});
+    load = std::make_shared<InPlanePeriodic>(StrainMeasure::tensor, InPlanePeriodic::OutOfPlane{});
   }
-  const LimitResult limit = measured(loaded);
+  const LimitResult limit = measured(*prepared, scene, *load);
   fmt::print("{} {:.17g} {} iterations\n", to_string(limit.status), limit.value.value_or(0.0),
              limit.iterations);
 }

@@ -1,6 +1,8 @@
 #include "benchmarks.hpp"
 #include "measure.hpp"
 
+#include "tasks/design/design_spec.hpp"
+
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
 
@@ -13,9 +15,10 @@ constexpr double step_size = 0.01;
 
 DesignProblem design_problem(const Scene& scene)
 {
-  const command::Loaded& l = scene.loaded;
-  return {l.scene, *l.experiment.load_case, l.experiment.solver.clearance, l.settings, *l.design,
-          1,       [] { return true; }};
+  const Prepared& p = scene.prepared();
+  return {
+      p.scene, *p.experiment.load_case, p.experiment.solver.clearance, p.settings, design_spec(p.experiment),
+      1,       [] { return true; }};
 }
 
 /// Throws if the design cannot be evaluated.
@@ -75,7 +78,7 @@ void measure_next(benchmark::State& state, const Scene& scene)
   const std::vector<double> first = problem.current().x;
   evaluated(problem, first);
   problem.accept(first);
-  const std::vector<double> next = next_design(problem, *scene.loaded.design);
+  const std::vector<double> next = next_design(problem, design_spec(scene.prepared().experiment));
   measure_design(state, next, [&problem] { return problem; });
 }
 

@@ -18,7 +18,7 @@ Stage stage_of(const Scene& scene, Formulation formulation)
   Stage stage;
   stage.contact.formulation = formulation;
   stage.contact.g_hat = activation;
-  stage.contact.clearance = scene.model.clearance;
+  stage.contact.clearance = scene.prepared().model.clearance;
   stage.contact.quadrature = Quadrature::rough;
   return stage;
 }
@@ -30,9 +30,10 @@ void measure_energy(benchmark::State& state, Scenes& scenes, const Source& sourc
   measure(state, [&] {
     const Scene& scene = scenes.at(source);
     return [&pairs, &evaluations, &scene = scene, stage = stage_of(scene, formulation),
-            rest = rest_state(scene.model)] {
-      const std::vector<ElementPair> near = stage_pairs(scene.model, rest, stage);
-      const ContactEnergy energy = contact_energy(scene.model, rest, near, stage.contact, {2, false, false});
+            rest = rest_state(scene.prepared().model)] {
+      const std::vector<ElementPair> near = stage_pairs(scene.prepared().model, rest, stage);
+      const ContactEnergy energy =
+          contact_energy(scene.prepared().model, rest, near, stage.contact, {2, false, false});
       if (!(energy.energy > 0.0)) throw ComputationError("nothing is in contact");
       pairs = near.size();
       evaluations = energy.evaluations;

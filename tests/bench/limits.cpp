@@ -15,8 +15,9 @@ namespace {
 /// Throws unless it is locked.
 LimitResult only_limit(const Scene& scene)
 {
-  const command::Loaded& l = scene.loaded;
-  std::vector<LimitResult> limits = compute_limits(scene.model, l.scene, l.tasks, l.settings, 1);
+  const Prepared& p = scene.prepared();
+  std::vector<LimitResult> limits =
+      compute_limits(p.model, p.scene, scene.job.task->limit_tasks(), p.settings, 1);
   if (limits.size() != 1) throw ComputationError("a benchmark is of one limit");
   if (limits[0].status != LimitStatus::locked)
     throw ComputationError("the limit is " + to_string(limits[0].status) + ": " + limits[0].message);

@@ -68,7 +68,7 @@ struct Pair {
 /// The pair with this gap; throws if the scene has another one.
 Pair pair_at(Scenes& scenes, const Shapes& shape, double gap)
 {
-  Pair pair(scenes.at(pair_source(shape, gap)).model);
+  Pair pair(scenes.at(pair_source(shape, gap)).prepared().model);
   constexpr double rounding = 1e-14;
   const Separation s = pair.apart();
   if (!(s.lower <= gap + rounding && gap <= s.upper + rounding))

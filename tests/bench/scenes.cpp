@@ -29,10 +29,8 @@ const Scene& Scenes::at(const Source& source)
   const std::string key = source.arguments();
   if (const auto known = scenes_.find(key); known != scenes_.end()) return known->second;
   const std::string path = std::string(HAUBERK_SOURCE_DIR) + "/" + source.file;
-  command::Loaded loaded = command::load(registry_, {source.file, read_text_file(path), source.set});
-  const Experiment& e = loaded.experiment;
-  Model model = make_model(loaded.scene, *e.load_case, e.solver.clearance);
-  return scenes_.emplace(key, Scene{std::move(loaded), std::move(model)}).first->second;
+  Job job = prepare_job(registry_, {source.file, read_text_file(path), source.set});
+  return scenes_.emplace(key, Scene{std::move(job)}).first->second;
 }
 
 }  // namespace hauberk::bench

@@ -3,7 +3,7 @@
 
 #include <hauberk/mechanics/model.hpp>
 
-#include <loading.hpp>
+#include "tasks/job.hpp"
 
 #include <array>
 #include <map>
@@ -30,8 +30,8 @@ Source published_limits(const std::string& material, std::vector<std::string> se
 
 /// An experiment that is ready to be computed.
 struct Scene {
-  command::Loaded loaded;
-  Model model;
+  Job job;
+  const Prepared& prepared() const { return *job.prepared; }
 };
 
 /// Reads scenes when they are first asked for, each once. Not thread safe.

@@ -5,7 +5,7 @@
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
 
-#include <loading.hpp>
+#include "tasks/job.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -98,8 +98,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!is_small(*experiment)) return 0;
   // All that `hauberk check` does. Anything else that is thrown ends the program.
   try {
-    command::load(registry(), source);
-  } catch (const command::ReportedProblems& error) {
+    prepare_job(registry(), source);
+  } catch (const ReportedProblems& error) {
     check_message(error.what(), "ReportedProblems");
   } catch (const InputError& error) {
     check_message(error.what(), "InputError");

@@ -1,5 +1,6 @@
 #include "dispatch.hpp"
 #include "options.hpp"
+#include "run/prepared.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/suggestion.hpp>

@@ -1,7 +1,7 @@
 #include "new_command.hpp"
 
 #include "dispatch.hpp"
-#include "loading.hpp"
+#include "experiment_options.hpp"
 #include "options.hpp"
 
 #include <hauberk/experiment/experiment.hpp>

@@ -21,12 +21,6 @@ class UsageError : public InputError {
   std::string usage_;
 };
 
-/// Problems of a file, a line each that already starts with the place; printed as they are.
-class ReportedProblems : public InputError {
- public:
-  using InputError::InputError;
-};
-
 /// --help was asked for; not an error.
 class ShowHelp {
  public:

@@ -1,5 +1,7 @@
 #include "dispatch.hpp"
-#include "plan_text.hpp"
+#include "experiment_options.hpp"
+
+#include "run/plan_text.hpp"
 
 #include <hauberk/results/json_text.hpp>
 
@@ -15,9 +17,9 @@ int plan_command(const std::vector<std::string>& words)
   options.add().add_options()("json", "as JSON, like `plan` in results.json");
   options.add_experiment_options();
   options.parse(words);
-  const Loaded loaded = load(options);
-  fmt::print("{}",
-             options.has("json") ? write_json(boost::json::value(plan_json(loaded))) : plan_text(loaded));
+  const Job job = open_job(options);
+  fmt::print("{}", options.has("json") ? write_json(boost::json::value(plan_json(*job.prepared, job.plan)))
+                                       : plan_text(*job.prepared, job.plan));
   return exit_done;
 }
 

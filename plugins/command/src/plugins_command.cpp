@@ -1,5 +1,5 @@
 #include "dispatch.hpp"
-#include "loading.hpp"
+#include "experiment_options.hpp"
 #include "new_command.hpp"
 
 #include <hauberk/experiment/check.hpp>

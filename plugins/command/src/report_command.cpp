@@ -1,9 +1,10 @@
 #include "dispatch.hpp"
 #include "options.hpp"
 
+#include <hauberk/results/designed_experiment.hpp>
+#include <hauberk/results/document.hpp>
 #include <hauberk/results/json_text.hpp>
 #include <hauberk/results/report.hpp>
-#include <hauberk/results/write_results.hpp>
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

@@ -1,6 +1,6 @@
 #include "dispatch.hpp"
-#include "interrupt.hpp"
-#include "loading.hpp"
+#include "experiment_options.hpp"
+#include "run/interrupt.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/json_writer.hpp>
@@ -41,9 +41,9 @@ Options room_options()
 }
 
 /// The scene in the state that was found: the strain goes into the cell.
-SceneSpec scene_in(const Loaded& loaded, const Model& m, const State& state)
+SceneSpec scene_in(const Prepared& prepared, const Model& m, const State& state)
 {
-  SceneSpec scene = with_rest(loaded.scene, m, state);
+  SceneSpec scene = with_rest(prepared.scene, m, state);
   if (scene.lattice.empty()) return scene;
   PositionMap at, moved;
   const std::vector<double> none(static_cast<std::size_t>(m.coordinate_count), 0.0);
@@ -87,15 +87,16 @@ int room_command(const std::vector<std::string>& words)
         fmt::format("--starts: expected a number from 1 to {}, found {}", most_starts, settings.starts),
         options.usage());
   if (options.has("output")) refuse_existing_file(options.get<std::string>("output"));
-  const Loaded loaded = load(options);
+  const Job job = open_job(options);
+  const Prepared& prepared = *job.prepared;
   // What is free of a patch is how it is bent, and at rest it is not.
-  if (options.has("fixed-cell") || loaded.scene.lattice.empty()) settings.cell = Cell::fixed;
-  settings.seed = loaded.experiment.seed;
-  const Model m = make_model(loaded.scene, *loaded.experiment.load_case, loaded.experiment.solver.clearance);
+  if (options.has("fixed-cell") || prepared.scene.lattice.empty()) settings.cell = Cell::fixed;
+  settings.seed = prepared.experiment.seed;
+  const Model& m = prepared.model;
   const Room room = find_room(m, settings, 0, [] { return !interrupted(); });
-  const std::string unit = loaded.experiment.length_unit;
+  const std::string unit = prepared.experiment.length_unit;
   fmt::print("{}\nlargest rest clearance {:.8g} {} more than solver.clearance (seed {})\n",
-             loaded.experiment.name, room.best.gap * m.length, unit, room.best.seed);
+             prepared.experiment.name, room.best.gap * m.length, unit, room.best.seed);
   fmt::print("{}", ratios(m, 0.5 * room.best.gap));
   std::vector<double> gaps = room.gaps;
   std::erase_if(gaps, [](double gap) { return !std::isfinite(gap); });  // starts that lost links
@@ -107,10 +108,10 @@ int room_command(const std::vector<std::string>& words)
   if (interrupted()) fmt::print("{}", "interrupted: the search is not done, there may be more room\n");
   if (options.has("output")) {
     const auto& file = options.get<std::string>("output");
-    const Node experiment = scene_experiment(loaded.experiment, scene_in(loaded, m, room.best.state),
-                                             loaded.experiment.name + "_room");
+    const Node experiment = scene_experiment(prepared.experiment, scene_in(prepared, m, room.best.state),
+                                             prepared.experiment.name + "_room");
     const std::string folder = std::filesystem::path(file).parent_path().string();
-    write_new_file_atomically(file, write_json(in_folder(experiment, loaded.experiment, folder)) + "\n");
+    write_new_file_atomically(file, write_json(in_folder(experiment, prepared.experiment, folder)) + "\n");
     fmt::print("written to {}\n", file);
   }
   return interrupted() ? exit_interrupted : exit_done;

@@ -1,24 +1,21 @@
-#include "chart_run.hpp"
-#include "chart_summary.hpp"
-#include "design_run.hpp"
 #include "dispatch.hpp"
-#include "interrupt.hpp"
-#include "limits_run.hpp"
-#include "plan_text.hpp"
-#include "resume.hpp"
-#include "stability_run.hpp"
-#include "stability_summary.hpp"
-#include "summary.hpp"
-#include "sweep_run.hpp"
-#include "transition_run.hpp"
+#include "experiment_options.hpp"
 
+#include "run/interrupt.hpp"
+#include "run/memory.hpp"
+#include "run/provenance.hpp"
+#include "run/run_folder.hpp"
+#include "tasks/table.hpp"
+
+#include <hauberk/error.hpp>
 #include <hauberk/experiment/expect.hpp>
-#include <hauberk/results/atomic_file.hpp>
 #include <hauberk/results/json_text.hpp>
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <thread>
 
@@ -64,25 +61,6 @@ std::filesystem::path output_folder(const Options& options)
   return std::filesystem::path("out") / std::filesystem::path(options.positional()).stem();
 }
 
-void run_limits_task(const Loaded& loaded, unsigned threads, const Resumed& resumed, Progress& progress,
-                     Output& output, RunResult& run)
-{
-  const Experiment& e = loaded.experiment;
-  const Model model = make_model(loaded.scene, *e.load_case, e.solver.clearance);
-  const LimitsJob job{&model,  &loaded.scene, loaded.tasks,  loaded.settings, e.load_case_plugin,
-                      threads, "limits",      resumed.limits};
-  output.keep(resumed.entries);
-  const auto enter = [&](std::vector<LimitResult> limits) {
-    run.limits = std::move(limits);
-    run.profiles = profiles(run.limits, *e.load_case);
-    run.boundary = boundary_of(e, loaded.settings, model.length, run.limits);
-  };
-  enter(run_limits(job, progress, [&](const std::vector<LimitResult>& so_far) {
-    enter(so_far);
-    output.write_sometimes(run);
-  }));
-}
-
 /// Prints expectations that fail; true if there are any.
 bool report_expectations(const Experiment& experiment, const boost::json::value& document)
 {
@@ -96,95 +74,65 @@ bool report_expectations(const Experiment& experiment, const boost::json::value&
 
 constexpr const char* interrupted_note = "interrupted: these results are partial; go on with --resume\n";
 
-void print_files(const Output& output, const std::vector<std::pair<std::string, std::string>>& files)
+/// What partial results in a folder leave to be done.
+enum class Left { everything, something, nothing };
+
+struct Former {
+  Left left = Left::everything;
+  boost::json::value document;  ///< unless everything is left
+};
+
+/// What the provenance tells of the runs that this one goes on from.
+void keep_former(const boost::json::value& document, Provenance& provenance)
 {
-  std::string names = results_file;
-  for (const auto& [what, name] : files) names += ", " + name;
-  fmt::print("results in {}: {}\n", output.directory().string(), names);
+  const boost::json::object& then = document.at("provenance").as_object();
+  if (const boost::json::value* peak = then.if_contains("peak_memory_bytes"))
+    provenance.peak_memory_bytes = peak->to_number<std::int64_t>();
+  if (!provenance.machine) return;
+  const boost::json::value& load = then.at("machine").at("load_average");
+  if (load.is_null()) return;
+  std::optional<double>& now = provenance.machine->load_average;
+  now = std::max(now.value_or(load.to_number<double>()), load.to_number<double>());
 }
 
-/// The end of a run whose results are written: what came of it, on the terminal.
-int conclude(const Loaded& loaded, Output& output, const std::string& summary,
-             const std::vector<std::pair<std::string, std::string>>& files,
-             std::chrono::steady_clock::time_point begin)
+/// Takes over what the folder holds of the same experiment. Throws InputError when it cannot be read, or was
+/// computed from another experiment or by another version of the program.
+Former resume(const std::filesystem::path& folder, Job& job, Provenance& provenance)
 {
-  if (!interrupted()) output.done();
-  fmt::print("{}\n\n{}", loaded.experiment.name, summary);
-  fmt::print("{:.2f} s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  const bool missed = !interrupted() && report_expectations(loaded.experiment, output.document());
-  print_files(output, files);
-  if (interrupted()) {
-    fmt::print("{}", interrupted_note);
-    return exit_interrupted;
+  Former former;
+  const std::filesystem::path file = folder / results_file;
+  if (!std::filesystem::exists(file)) return former;
+  try {
+    former.document = read_json_file(file.string());
+    check_origin(former.document, *job.prepared);
+    former.left = job.task->resume(former.document) ? Left::nothing : Left::something;
+    keep_former(former.document, provenance);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: cannot be resumed: {}", file.string(), error.what()));
+  } catch (const std::exception& error) {  // a key that is missing, a value of another type
+    throw InputError(fmt::format("{}: cannot be resumed: not a results file of this program ({})",
+                                 file.string(), error.what()));
   }
-  return missed ? exit_failed : exit_done;
+  return former;
 }
 
-/// Whole run of a stability experiment. Cases that fail are what it is for: they do not fail the run, but an
-/// `expect` about their counts may.
-int run_stability_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
-                       Output& output, const RunResult& base)
+/// Of a run that has nothing left to do.
+int already_complete(const Job& job, const boost::json::value& document, const std::filesystem::path& folder)
 {
-  const auto begin = std::chrono::steady_clock::now();
-  StabilityMap map = resumed.stability ? std::move(*resumed.stability) : empty_map(loaded);
-  run_stability(loaded, threads, progress, map,
-                [&](const StabilityMap& so_far) { output.write_sometimes(base, so_far); });
-  progress.clear();
-  output.write(base, map);
-  return conclude(loaded, output, stability_summary(map), stability_files(), begin);
+  // The run may have been killed after its last result, before it had tidied up.
+  const std::vector<const char*> names = result_names();
+  remove_abandoned(folder, names);
+  drop_previous(folder, names);
+  drop_journal(folder);
+  fmt::print("{}: complete already\n", (folder / results_file).string());
+  const bool missed = report_expectations(job.prepared->experiment, document);
+  return missed || job.task->failed() ? exit_failed : exit_done;
 }
 
-/// Whole run of a sweep. Rows that are bad input are answers; those that failed make the run fail.
-int run_sweep_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
-                   Output& output, const RunResult& base)
-{
-  const auto begin = std::chrono::steady_clock::now();
-  SweepTable table = resumed.sweep ? std::move(*resumed.sweep) : empty_table(loaded);
-  run_sweep(loaded, threads, progress, table,
-            [&](const SweepTable& so_far) { output.write_sometimes(base, so_far); });
-  progress.clear();
-  output.write(base, table);
-  const int code = conclude(loaded, output, sweep_summary(table), sweep_files(), begin);
-  return code == exit_done && any_failed(table) ? exit_failed : code;
-}
-
-/// Whole run of a chart. Points that fail are what it shows; a reference that fails, and runs that differ,
-/// make the run fail.
-int run_chart_task(const Loaded& loaded, unsigned threads, Resumed& resumed, Progress& progress,
-                   Output& output, const RunResult& base)
-{
-  const auto begin = std::chrono::steady_clock::now();
-  output.keep_load_average(resumed.load_average);
-  PrecisionChart chart = resumed.chart ? std::move(*resumed.chart) : empty_chart(loaded);
-  const ChartObserver observer{[&](const PrecisionChart& so_far) { output.write_sometimes(base, so_far); },
-                               [&] { output.note_peak_memory(); }};
-  run_chart(loaded, threads, progress, chart, observer);
-  progress.clear();
-  output.write(base, chart);
-  const int code = conclude(loaded, output, chart_summary(chart), chart_files(), begin);
-  return code == exit_done && any_failed(chart) ? exit_failed : code;
-}
-
-int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progress, Output& output,
-                        const RunResult& base)
-{
-  const auto begin = std::chrono::steady_clock::now();
-  const TransitionResult result = run_transition(
-      loaded.transition->spec, threads,
-      [&progress](std::size_t done, std::size_t total) { progress.limits("transition", done, total); },
-      [] { return !interrupted(); });
-  progress.clear();
-  output.write(base, result);
-  if (!result.message.empty())
-    throw ComputationError(
-        fmt::format("{}; what was computed is in {}", result.message, output.directory().string()));
-  return conclude(loaded, output, transition_summary(result), transition_files(), begin);
-}
-
-[[noreturn]] void fail_with_partial_results(const std::string& reason, Output& output, const RunResult& run)
+[[noreturn]] void fail_with_partial_results(const std::string& reason, RunFolder& output)
 {
   try {
-    output.write(run);
+    output.write();
   } catch (const ComputationError& error) {
     throw ComputationError(
         fmt::format("{}; and what was computed cannot be saved: {}", reason, error.what()));
@@ -192,49 +140,34 @@ int run_transition_task(const Loaded& loaded, unsigned threads, Progress& progre
   throw ComputationError(fmt::format("{}; what was computed is in {}", reason, output.directory().string()));
 }
 
-/// Everything after the first file was written: from here on nothing is bad input.
-void compute(const Loaded& loaded, unsigned threads, const Resumed& resumed, bool resuming,
-             Progress& progress, Output& output, RunResult& run)
+/// Everything after the folder was prepared: from here on nothing is bad input.
+void compute(Job& job, RunContext& context, RunFolder& output)
 try {
-  if (loaded.design)
-    run_design_task(loaded, threads, resuming, progress, output, run);
-  else
-    run_limits_task(loaded, threads, resumed, progress, output, run);
+  job.task->run(context);
 } catch (const ComputationError& error) {
-  fail_with_partial_results(error.what(), output, run);
+  context.progress.clear();
+  fail_with_partial_results(error.what(), output);
 } catch (const InputError& error) {
-  fail_with_partial_results(error.what(), output, run);
+  context.progress.clear();
+  fail_with_partial_results(error.what(), output);
 }
 
-int finish(const Loaded& loaded, Output& output, const RunResult& run, double seconds)
+/// The end of a run whose results are written: what came of it, on the terminal.
+int conclude(const Job& job, RunFolder& output, const boost::json::object& document, double seconds)
 {
-  fmt::print("{}", summary(loaded, run));
+  if (!interrupted()) output.done();
+  fmt::print("{}\n\n{}", job.prepared->experiment.name, job.task->summary());
   fmt::print("{:.2f} s\n", seconds);
+  const bool missed = !interrupted() && report_expectations(job.prepared->experiment, document);
+  std::string names = results_file;
+  for (const auto& [what, name] : document.at("files").as_object())
+    names += ", " + std::string(name.as_string());
+  fmt::print("results in {}: {}\n", output.directory().string(), names);
   if (interrupted()) {
-    print_files(output, result_files(run));
     fmt::print("{}", interrupted_note);
     return exit_interrupted;
   }
-  output.done();
-  const bool missed = report_expectations(loaded.experiment, output.document());
-  print_files(output, result_files(run));
-  return missed || any_failed(run) ? exit_failed : exit_done;
-}
-
-/// Of a run that has nothing left to do.
-int already_complete(const Loaded& loaded, const Resumed& resumed, const std::filesystem::path& folder)
-{
-  // The run may have been killed after its last result, before it had tidied up.
-  remove_abandoned(folder);
-  drop_previous(folder);
-  drop_evaluations(folder);
-  fmt::print("{}: complete already\n", (folder / results_file).string());
-  bool failed = report_expectations(loaded.experiment, resumed.document);
-  failed = failed || (resumed.sweep && any_failed(*resumed.sweep)) ||
-           (resumed.chart && any_failed(*resumed.chart));
-  for (const auto& limit : resumed.limits)
-    failed = failed || limit->status == LimitStatus::failed || limit->status == LimitStatus::stalled;
-  return failed ? exit_failed : exit_done;
+  return missed || job.task->failed() ? exit_failed : exit_done;
 }
 
 }  // namespace
@@ -247,46 +180,40 @@ int run_command(const std::vector<std::string>& words)
   options.parse(words);
   const unsigned threads = thread_count(options);
   const std::filesystem::path folder = output_folder(options);
-  const Loaded loaded = load(options);
-  Resumed resumed;
-  bool resuming = false;
-  if (options.has("resume")) {
-    if (std::optional<Resumed> found = read_resumed(folder, loaded)) {
-      resumed = std::move(*found);
-      resuming = true;
-    }
-  }
-  if (resumed.complete) return already_complete(loaded, resumed, folder);
+  Job job = open_job(options);
+  Provenance origin = provenance(*job.prepared, threads, job.task->measures_time());
+  const Former former = options.has("resume") ? resume(folder, job, origin) : Former{};
+  if (former.left == Left::nothing) return already_complete(job, former.document, folder);
+  const std::vector<const char*> names = result_names();
   // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
-  prepare_output_directory(folder, options.has("force") || options.has("resume"));
+  prepare_output_directory(folder, options.has("force") || options.has("resume"), names);
 
-  if (!resuming) drop_evaluations(folder);
+  const bool resuming = former.left == Left::something;
+  if (!resuming) drop_journal(folder);
   Progress progress(Progress::detect(options.has("quiet")));
-  if (options.has("resume")) {
-    progress.note(!resuming           ? "nothing to resume: starting anew"
-                  : loaded.design     ? "resuming: the search is repeated from its evaluations"
-                  : loaded.transition ? "not finished: starting anew"
-                  : resumed.stability ? "resuming: finished cases are kept"
-                  : resumed.sweep     ? "resuming: finished rows are kept"
-                  : resumed.chart     ? "resuming: finished runs are kept"
-                                      : "resuming: finished limits are kept");
-  }
-  Output output(folder, loaded, threads, resuming, progress);
-  output.keep_peak_memory(resumed.peak_memory_bytes);
-  RunResult run;
-  run.plan_json = write_json(boost::json::value(plan_json(loaded)));
-  run.scene = loaded.scene;
-  if (loaded.experiment.task == Task::stability)
-    return run_stability_task(loaded, threads, resumed, progress, output, run);
-  if (loaded.experiment.task == Task::sweep)
-    return run_sweep_task(loaded, threads, resumed, progress, output, run);
-  if (loaded.chart) return run_chart_task(loaded, threads, resumed, progress, output, run);
-  if (loaded.transition) return run_transition_task(loaded, threads, progress, output, run);
-  compute(loaded, threads, resumed, resuming, progress, output, run);
+  if (options.has("resume"))
+    progress.note(resuming ? job.task->resume_note() : "nothing to resume: starting anew");
+  boost::json::object document;  // as it was written last
+  const auto note_peak_memory = [&origin] {
+    origin.peak_memory_bytes = std::max(origin.peak_memory_bytes, peak_memory_bytes());
+  };
+  RunFolder output(folder, names, resuming, progress, [&] {
+    note_peak_memory();
+    return result_content(job, origin, folder, document);
+  });
+  RunContext context{threads,
+                     progress,
+                     folder,
+                     resuming,
+                     identity(*job.prepared, origin),
+                     [&output] { output.write_sometimes(); },
+                     [&output] { output.write_partial(); },
+                     note_peak_memory};
+  compute(job, context, output);
   progress.clear();
-  output.write(run);
-  return finish(loaded, output, run,
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  output.write();
+  return conclude(job, output, document,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
 
 }  // namespace hauberk::command

@@ -1,8 +1,8 @@
 #include "dispatch.hpp"
 #include "options.hpp"
 
+#include <hauberk/results/document.hpp>
 #include <hauberk/results/json_text.hpp>
-#include <hauberk/results/write_results.hpp>
 #include <hauberk/verify/verify.hpp>
 
 #include <fmt/format.h>

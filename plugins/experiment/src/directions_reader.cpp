@@ -30,7 +30,7 @@ bool applies(const Node& section, const Node& directions, const Experiment& expe
     refuse(*senses,
            "directions have one sense, further along them: leave out senses, and give the opposite "
            "direction for the other one");
-  if (experiment.task == Task::design)
+  if (experiment.task == "design")
     refuse(directions, "targets and profiles of a design are taken at angles: use directions_deg");
   if (experiment.load_case && !experiment.load_case->takes_components()) {
     refuse(directions,

@@ -25,17 +25,15 @@ namespace hauberk {
 namespace {
 
 /// Tasks that have a section of their own.
-constexpr std::array section_tasks{std::pair{"design", Task::design}, std::pair{"stability", Task::stability},
-                                   std::pair{"transition", Task::transition}, std::pair{"sweep", Task::sweep},
-                                   std::pair{"chart", Task::chart}};
+constexpr std::array section_tasks{"design", "stability", "transition", "sweep", "chart"};
 
 void read_task(const Node& root, Problems& problems, Experiment& experiment)
 {
   const Node* task = root.find("task");
   if (task == nullptr || task->string == "limits") return;
-  for (const auto& [name, kind] : section_tasks) {
+  for (const char* name : section_tasks) {
     if (task->string != name) continue;
-    experiment.task = kind;
+    experiment.task = name;
     if (root.find(name) == nullptr)
       problems.add(root, std::string("missing key '") + name + "': task " + name + " needs it");
     return;
@@ -69,7 +67,7 @@ void complete_directions(Node& root, Problems& problems, Experiment& experiment)
       if (pointer_within(problem.pointer, pointer)) return;  // given, but wrong
     }
   }
-  if (experiment.task != Task::design) {
+  if (experiment.task != "design") {
     problems.add(
         *section,
         "missing key 'directions_deg': expected an array of at least 1 numbers, or key 'directions'");
@@ -120,6 +118,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   if (well_formed) *well_formed = problems.empty();
 
   Experiment experiment;
+  experiment.has_variants = has_variants;
   experiment.name = string_or(*root, "name", "");
   if (const Node* name = root->find("name"); name != nullptr && name->string.empty()) {
     problems.add(*name, "expected a name, found \"\"");

@@ -1,7 +1,5 @@
 #include <hauberk/error.hpp>
 #include <hauberk/results/atomic_file.hpp>
-#include <hauberk/results/report.hpp>
-#include <hauberk/results/write_results.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -89,7 +87,7 @@ void flush_folder(const fs::path& folder)
 }
 
 /// True for the temporary file of a process that is no more.
-bool is_abandoned(const std::string& name)
+bool is_abandoned(const std::string& name, std::span<const char* const> names)
 {
   const auto belongs_to_none = [&name](std::size_t digits) {
     pid_t process = 0;
@@ -103,8 +101,7 @@ bool is_abandoned(const std::string& name)
     const std::string start = std::string(".") + file + std::string(mark);
     return name.starts_with(start) && belongs_to_none(start.size());
   };
-  return std::any_of(result_names.begin(), result_names.end(), temporary_of) ||
-         std::any_of(report_names.begin(), report_names.end(), temporary_of);
+  return std::any_of(names.begin(), names.end(), temporary_of);
 }
 
 /// Removes those of `names` that are not to stay.
@@ -121,15 +118,14 @@ void remove_others(const fs::path& directory, std::span<const char* const> names
 fs::path previous_folder(const fs::path& directory) { return directory / ".hauberk-previous"; }
 
 /// Gives the results in `directory` a second name, which takes no room; they are there under one of the two
-/// at any time. results.json is the last: once it is there, all are kept.
-void keep_previous(const fs::path& directory)
+/// at any time. The first name is the last one kept: once it is there, all are.
+void keep_previous(const fs::path& directory, std::span<const char* const> names)
 {
   std::error_code error;
   const fs::path folder = previous_folder(directory);
-  if (fs::exists(folder / results_file, error)) return;
-  static_assert(result_names.front() == results_file);
-  for (std::size_t k = result_names.size(); k-- > 0;) {
-    const char* name = result_names[k];
+  if (fs::exists(folder / names.front(), error)) return;
+  for (std::size_t k = names.size(); k-- > 0;) {
+    const char* name = names[k];
     if (!fs::exists(directory / name, error)) continue;
     fs::create_directory(folder, error);
     if (error) cannot_write(folder, error.value());
@@ -159,7 +155,7 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
       if (const int error = write_new(temporary(k), files[k].content); error != 0)
         cannot_write(directory / files[k].name, error);
     }
-    if (former == FormerResults::kept) keep_previous(directory);
+    if (former == FormerResults::kept) keep_previous(directory, names);
     for (; named < files.size(); ++named) {
       const fs::path path = directory / files[named].name;
       if (::rename(temporary(named).c_str(), path.c_str()) != 0) cannot_write(path, errno);
@@ -173,12 +169,6 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
   for (const NamedContent& file : files) written.push_back(file.name);
   remove_others(directory, names, written);
   flush_folder(directory);
-}
-
-void write_files_atomically(const fs::path& directory, const std::vector<NamedContent>& files,
-                            FormerResults former)
-{
-  write_files_atomically(directory, files, result_names, former);
 }
 
 void refuse_existing_file(const fs::path& file)
@@ -203,19 +193,14 @@ void write_new_file_atomically(const fs::path& file, const std::string& content)
   flush_folder(file.parent_path());
 }
 
-void remove_abandoned(const fs::path& directory)
+void remove_abandoned(const fs::path& directory, std::span<const char* const> names)
 {
   std::error_code error;
   std::vector<fs::path> found;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    if (is_abandoned(entry->path().filename().string())) found.push_back(entry->path());
+    if (is_abandoned(entry->path().filename().string(), names)) found.push_back(entry->path());
   }
   for (const fs::path& file : found) ::unlink(file.c_str());
-}
-
-void prepare_output_directory(const fs::path& directory, bool force)
-{
-  prepare_output_directory(directory, force, result_names);
 }
 
 void prepare_output_directory(const fs::path& directory, bool force, std::span<const char* const> names)
@@ -230,7 +215,7 @@ void prepare_output_directory(const fs::path& directory, bool force, std::span<c
   if (error)
     throw InputError(directory.string() + ": this output folder cannot be made: " + error.message() +
                      "; give another one with -o");
-  remove_abandoned(directory);
+  remove_abandoned(directory, names);
   const fs::path probe = directory / fmt::format(".hauberk-write-test.{}", ::getpid());
   const int failed = write_new(probe, "");
   ::unlink(probe.c_str());
@@ -240,9 +225,9 @@ void prepare_output_directory(const fs::path& directory, bool force, std::span<c
                    "; give another one with -o");
 }
 
-void drop_previous(const fs::path& directory)
+void drop_previous(const fs::path& directory, std::span<const char* const> names)
 {
-  remove_others(previous_folder(directory), result_names, {});
+  remove_others(previous_folder(directory), names, {});
   std::error_code ignored;
   fs::remove(previous_folder(directory), ignored);  // unless somebody put more into it
 }

@@ -9,6 +9,8 @@ namespace {
 namespace json = boost::json;
 using detail::number;
 
+}  // namespace
+
 json::object provenance_json(const Provenance& provenance)
 {
   json::object out;
@@ -37,6 +39,8 @@ json::object provenance_json(const Provenance& provenance)
   }
   return out;
 }
+
+namespace {
 
 json::array profiles_json(const std::vector<ProfilePoint>& profiles)
 {
@@ -143,19 +147,35 @@ std::optional<LimitStatus> limit_status(const std::string& name)
   return std::nullopt;
 }
 
-json::object results_document(const RunResult& run, const std::string& experiment_json,
-                              const Provenance& provenance, const ResultNames& names)
+json::object document_without_results(const std::string& experiment_json, const Provenance& provenance,
+                                      const std::string& plan_json, const SceneSpec& scene)
 {
   json::object out;
   out["format"] = results_format;
   out["experiment"] = parse_json(experiment_json, "resolved experiment");
   out["provenance"] = provenance_json(provenance);
-  out["plan"] = run.plan_json.empty() ? json::value(nullptr) : parse_json(run.plan_json, "plan");
-  out["scene"] = detail::scene_json(run.scene);
-  out["limits"] = detail::limits_json(run.limits, names.macro);
-  out["profiles"] = profiles_json(run.profiles);
-  out["design"] = run.design ? json::value(design_json(*run.design, names.macro)) : json::value(nullptr);
-  if (run.boundary) out["boundary"] = boundary_json(*run.boundary);
+  out["plan"] = plan_json.empty() ? json::value(nullptr) : parse_json(plan_json, "plan");
+  out["scene"] = detail::scene_json(scene);
+  out["limits"] = json::array();
+  out["profiles"] = json::array();
+  out["design"] = nullptr;
+  return out;
+}
+
+void enter_run(json::object& document, const RunResult& run, const std::vector<std::string>& macro_names)
+{
+  document["scene"] = detail::scene_json(run.scene);
+  document["limits"] = detail::limits_json(run.limits, macro_names);
+  document["profiles"] = profiles_json(run.profiles);
+  document["design"] = run.design ? json::value(design_json(*run.design, macro_names)) : json::value(nullptr);
+  if (run.boundary) document["boundary"] = boundary_json(*run.boundary);
+}
+
+json::object results_document(const RunResult& run, const std::string& experiment_json,
+                              const Provenance& provenance, const ResultNames& names)
+{
+  json::object out = document_without_results(experiment_json, provenance, run.plan_json, run.scene);
+  enter_run(out, run, names.macro);
   json::object& files = out["files"].emplace_object();
   for (const auto& [what, file] : names.files) files[what] = file;
   return out;

@@ -1,13 +1,13 @@
 /// The meter of memory against blocks of known size.
 
-#include <memory.hpp>
+#include "run/memory.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-namespace hauberk::command {
+namespace hauberk {
 namespace {
 
 constexpr std::int64_t mega = 1 << 20;
@@ -44,4 +44,4 @@ TEST(MemoryMeter, ForgetsWhatWasBefore)
 }
 
 }  // namespace
-}  // namespace hauberk::command
+}  // namespace hauberk

@@ -1,8 +1,8 @@
-#include <text_table.hpp>
+#include "run/text_table.hpp"
 
 #include <gtest/gtest.h>
 
-namespace hauberk::command {
+namespace hauberk {
 namespace {
 
 TEST(TextTable, ColumnsAreAsWideAsTheirLongestCell)
@@ -14,4 +14,4 @@ TEST(TextTable, ColumnsAreAsWideAsTheirLongestCell)
 }
 
 }  // namespace
-}  // namespace hauberk::command
+}  // namespace hauberk

@@ -4,7 +4,7 @@
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
 
-#include "evaluation_log.hpp"
+#include "tasks/design/evaluation_log.hpp"
 #include "uneven_chainmail.hpp"
 
 #include <fmt/format.h>
@@ -228,7 +228,7 @@ std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
 {
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);
-  command::EvaluationLog memory(log, "identity", go_on, [](const std::string& w) { ADD_FAILURE() << w; });
+  EvaluationLog memory(log, "identity", go_on, [](const std::string& w) { ADD_FAILURE() << w; });
   DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
   problem.set_memory(&memory);
   std::vector<double> numbers;

@@ -28,7 +28,7 @@ std::string after(const std::string& from, const std::string& to)
 TEST(Chart, ReadsScenesAndMethods)
 {
   const Experiment e = read_ok(text());
-  EXPECT_EQ(e.task, Task::chart);
+  EXPECT_EQ(e.task, "chart");
   const ExperimentChart& c = *e.chart;
   EXPECT_EQ(c.repeats, 5);
   EXPECT_EQ(c.threads, (std::vector<int>{1, 0}));
@@ -52,7 +52,7 @@ TEST(Chart, APointIsAnOrdinaryExperiment)
   const VariantReading point = read_chart_setting(*e.chart, 0, 0, 1, fake_lookup, diagnostics);
   ASSERT_TRUE(point.experiment) << point.refusal << diagnostics.text();
   EXPECT_EQ(point.experiment->name, "thin, arc, 1e-04");
-  EXPECT_EQ(point.experiment->task, Task::limits);
+  EXPECT_EQ(point.experiment->task, "limits");
   EXPECT_FALSE(point.experiment->chart);
   EXPECT_EQ(point.experiment->scene.elements[0].parameters[1], 0.25);
   EXPECT_EQ(point.experiment->solver.contact, "arc");

@@ -94,7 +94,7 @@ TEST(Expansion, ResolvesSettingsAndDefaults)
 {
   const Experiment e = read_ok(valid_text());
   EXPECT_EQ(e.name, "pair");
-  EXPECT_EQ(e.task, Task::limits);
+  EXPECT_EQ(e.task, "limits");
   EXPECT_EQ(e.length_unit, "mm");
   EXPECT_EQ(e.seed, 1u);
   EXPECT_FALSE(e.relax);
@@ -165,7 +165,7 @@ TEST(Expansion, ADesignWithoutDirectionsUsesThoseOfItsTargets)
   text = with(text, ", \"directions_deg\": [0, 30]", "");
   text = with(text, "\"value\": 0.05 }", "\"value\": 0.05 }, { \"direction_deg\": 45, \"value\": 0.1 }");
   const Experiment e = read_ok(text);
-  EXPECT_EQ(e.task, Task::design);
+  EXPECT_EQ(e.task, "design");
   EXPECT_EQ(e.directions_deg, (std::vector<double>{0, 45}));
 }
 
@@ -288,7 +288,7 @@ TEST(Expansion, ASceneBecomesAnExperimentOfItsOwn)
   scene.elements[3].parameters[0] = 5.3;
   const Experiment written = read_ok(write_json(scene_experiment(e, scene, "pair_designed")));
   EXPECT_EQ(written.name, "pair_designed");
-  EXPECT_EQ(written.task, Task::limits);
+  EXPECT_EQ(written.task, "limits");
   EXPECT_FALSE(written.design);
   EXPECT_EQ(written.directions_deg, e.directions_deg);
   ASSERT_EQ(written.scene.elements.size(), 4u);

@@ -23,7 +23,7 @@ std::string after(const std::string& from, const std::string& to)
 TEST(Transition, ReadsPathsAndFillsDefaults)
 {
   const Experiment e = read_ok(text());
-  EXPECT_EQ(e.task, Task::transition);
+  EXPECT_EQ(e.task, "transition");
   const ExperimentTransition& t = *e.transition;
   EXPECT_EQ(t.fixed, 0);
   EXPECT_EQ(t.moving, 1);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -24,8 +25,11 @@ std::string content(const fs::path& path)
 /// One file of a folder.
 void write_file(const fs::path& path, const std::string& text)
 {
-  write_files_atomically(path.parent_path(), {{path.filename().string(), text}});
+  write_files_atomically(path.parent_path(), {{path.filename().string(), text}}, {});
 }
+
+/// What the output folder may hold.
+constexpr std::array names{"results.json", "limits.csv"};
 
 class AtomicFile : public ::testing::Test {
  protected:
@@ -101,25 +105,25 @@ TEST_F(AtomicFile, MissingFolderAndFolderInTheWay)
 TEST_F(AtomicFile, OutputFolderIsPreparedOrRefused)
 {
   const fs::path out = folder_ / "deep" / "out";
-  prepare_output_directory(out, false);
+  prepare_output_directory(out, false, names);
   EXPECT_TRUE(fs::is_directory(out));
   EXPECT_TRUE(fs::is_empty(out));
   write_file(out / "results.json", "{}");
   try {
-    prepare_output_directory(out, false);
+    prepare_output_directory(out, false, names);
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_EQ(
         error.what(),
         out.string() + ": holds results already (results.json); give another folder with -o, or --force");
   }
-  EXPECT_NO_THROW(prepare_output_directory(out, true));
+  EXPECT_NO_THROW(prepare_output_directory(out, true, names));
   write_file(folder_ / "limits.csv", "somebody's");
-  EXPECT_THROW(prepare_output_directory(folder_, false), InputError);
+  EXPECT_THROW(prepare_output_directory(folder_, false, names), InputError);
   EXPECT_EQ(content(out / "results.json"), "{}");
   write_file(folder_ / "file", "");
-  EXPECT_THROW(prepare_output_directory(folder_ / "file", false), InputError);
-  EXPECT_THROW(prepare_output_directory(folder_ / "file" / "out", false), InputError);
+  EXPECT_THROW(prepare_output_directory(folder_ / "file", false, names), InputError);
+  EXPECT_THROW(prepare_output_directory(folder_ / "file" / "out", false, names), InputError);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <hauberk/results/boundary.hpp>
 #include <hauberk/results/csv.hpp>
 #include <hauberk/results/direction_json.hpp>
+#include <hauberk/results/document.hpp>
 #include <hauberk/results/json_text.hpp>
-#include <hauberk/results/write_results.hpp>
 
 #include <gtest/gtest.h>
 
@@ -162,16 +162,10 @@ TEST(BoundarySvg, ShowsEveryTriangleInFourViews)
   EXPECT_EQ(count(boundary_svg(run, labels, names), "No direction has a limit to show."), 1U);
 }
 
-TEST(BoundaryFiles, TakeThePlaceOfTheProfile)
+TEST(BoundaryDocument, HoldsTheSurface)
 {
   const RunResult run = octahedron();
-  EXPECT_EQ(result_files(run),
-            (std::vector<std::pair<std::string, std::string>>{
-                {"limits", "limits.csv"}, {"boundary", "boundary.ply"}, {"picture", "boundary.svg"}}));
   const auto document = results_document(run, test::sample_experiment(), test::sample_provenance());
-  const auto files = results_content(document, run, test::sample_experiment(), {}, {});
-  ASSERT_EQ(files.size(), 4U);
-  EXPECT_EQ(files.back().name, "results.json");
   const boost::json::object& first = document.at("limits").as_array()[0].as_object();
   EXPECT_TRUE(first.at("direction_deg").is_null());
   EXPECT_EQ(entered_direction(first), run.limits[0].direction);

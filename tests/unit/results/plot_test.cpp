@@ -1,6 +1,6 @@
 #include <hauberk/results/json_text.hpp>
 #include <hauberk/results/polar_svg.hpp>
-#include <hauberk/results/write_results.hpp>
+#include <hauberk/results/sweep.hpp>
 
 #include <gtest/gtest.h>
 
@@ -94,26 +94,6 @@ TEST(SweepPlot, ValuesThatDifferByRoundingAreOneLine)
     table.rows.push_back({{x}, RowStatus::done, "", {y}, nullptr});
   }
   EXPECT_LT(sweep_svg(table, "t", "s").size(), 20000U);
-}
-
-TEST(WriteResults, LeavesTheNamedFilesAndTheyRead)
-{
-  char name[] = "/tmp/hauberk-test-XXXXXX";
-  ASSERT_NE(::mkdtemp(name), nullptr);
-  const std::filesystem::path folder = name;
-  const RunResult run = test::sample_design();
-  const auto document = results_document(run, test::sample_experiment(), test::sample_provenance(),
-                                         {.files = result_files(run)});
-  const auto files = results_content(document, run, test::sample_experiment(), {}, {"chain", "tensor"});
-  write_files_atomically(folder, files);
-  write_files_atomically(folder, files);
-  const auto back = read_json_file((folder / "results.json").string());
-  EXPECT_EQ(write_json(back), write_json(document));
-  EXPECT_EQ(back.at("files").as_object().size(), 3u);
-  for (const auto& [what, file] : back.at("files").as_object())
-    EXPECT_GT(std::filesystem::file_size(folder / file.as_string().c_str()), 100u) << what;
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 4);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

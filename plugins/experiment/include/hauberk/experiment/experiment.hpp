@@ -25,8 +25,6 @@ using PluginLookup =
 /// it); null and a sentence in `error` when there is none. Empty function: there is no library.
 using WeaveLookup = std::function<std::optional<std::string>(const std::string& name, std::string& error)>;
 
-enum class Task { limits, design, stability, transition, sweep, chart };
-
 /// The section `solver`. Absent values are decided by the preset.
 struct ExperimentSolver {
   std::string preset;                              ///< "accurate", "paper"
@@ -196,7 +194,7 @@ struct ExperimentTransition {
 
 struct Experiment {
   std::string name;
-  Task task = Task::limits;
+  std::string task = "limits";
   std::string length_unit;  ///< "m", "mm", "um": a label
   std::uint64_t seed = 1;
   SceneSpec scene;     ///< with `repeat` expanded; scene.length is the characteristic length L
@@ -213,6 +211,7 @@ struct Experiment {
   std::optional<ExperimentTransition> transition;  ///< likewise
   std::optional<ExperimentSweep> sweep;            ///< likewise
   std::optional<ExperimentChart> chart;            ///< likewise
+  bool has_variants = false;                       ///< a section makes experiments out of the file
   std::vector<Expectation> expect;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
   Node expanded;  ///< the same, but with what a weave brings also where `resolved` keeps it for its variants

@@ -9,6 +9,9 @@
 
 namespace hauberk {
 
+/// Its name in a folder of results.
+inline constexpr const char* designed_file = "designed.json";
+
 /// Rewrites the resolved experiment (strict JSON text) so that it describes `scene`, the final design at its
 /// relaxed rest state: every placed element k gets its own entry `<type>_<k>` in `elements` with all its
 /// parameters; `cell` becomes the supercell with `repeat` [1, 1], or a patch of one cell, and one entry of

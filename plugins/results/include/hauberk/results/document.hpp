@@ -14,6 +14,8 @@
 namespace hauberk {
 
 inline constexpr const char* results_format = "hauberk-results/1";
+/// Its name in a folder of results.
+inline constexpr const char* results_file = "results.json";
 
 /// What times depend on.
 struct Machine {
@@ -51,9 +53,21 @@ struct ResultNames {
   std::vector<std::pair<std::string, std::string>> files;
 };
 
-/// Builds the document. `experiment_json` is the resolved experiment as strict JSON text; lengths are in its
-/// unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite are
-/// null. Keys have a fixed order. Throws InputError when a JSON text is malformed, and what shapes throw.
+/// As in the document. Thread safe.
+boost::json::object provenance_json(const Provenance& provenance);
+
+/// The document of a run that has no results yet: without limits and without `files`, which is its last key.
+/// Throws InputError when a JSON text is malformed, and what shapes throw. Thread safe.
+boost::json::object document_without_results(const std::string& experiment_json, const Provenance& provenance,
+                                             const std::string& plan_json, const SceneSpec& scene);
+
+/// Enters scene, limits, profiles, design and boundary. Thread safe.
+void enter_run(boost::json::object& document, const RunResult& run,
+               const std::vector<std::string>& macro_names);
+
+/// Builds the whole document. `experiment_json` is the resolved experiment as strict JSON text; lengths are
+/// in its unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite
+/// are null. Keys have a fixed order. Throws InputError when a JSON text is malformed, and what shapes throw.
 /// Thread safe.
 boost::json::object results_document(const RunResult& run, const std::string& experiment_json,
                                      const Provenance& provenance, const ResultNames& names = {});

@@ -1,0 +1,11 @@
+#pragma once
+/// What pictures of an experiment's limits say in words.
+
+#include <hauberk/experiment/experiment.hpp>
+#include <hauberk/results/polar_svg.hpp>
+
+namespace hauberk {
+
+PlotLabels plot_labels(const Experiment& experiment);
+
+}  // namespace hauberk

@@ -1,0 +1,33 @@
+#include "run/limits_run.hpp"
+#include "run/interrupt.hpp"
+
+#include <hauberk/limits/boundary.hpp>
+
+#include <cmath>
+
+namespace hauberk {
+
+std::optional<BoundarySurface> boundary_of(const Experiment& experiment, const LimitSettings& settings,
+                                           double length, const std::vector<LimitResult>& limits)
+{
+  if (experiment.directions.empty()) return std::nullopt;
+  const double scale = std::pow(length, experiment.load_case->value_length_power());
+  return boundary_surface(limits, experiment.triangles, *experiment.load_case,
+                          further_than(settings) * scale);
+}
+
+std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink)
+{
+  const auto named = [&job](std::vector<LimitResult> limits) {
+    for (LimitResult& limit : limits) limit.load_case = job.load_case;
+    return limits;
+  };
+  LimitsObserver observer;
+  observer.keep_going = [] { return !interrupted(); };
+  observer.on_start = [&](std::size_t done, std::size_t total) { progress.limits(job.label, done, total); };
+  observer.on_limit = [&](const std::vector<LimitResult>& limits) { sink(named(limits)); };
+  return named(
+      compute_limits(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, job.known));
+}
+
+}  // namespace hauberk

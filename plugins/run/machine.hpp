@@ -1,0 +1,10 @@
+#pragma once
+#include <hauberk/results/document.hpp>
+
+namespace hauberk {
+
+/// The processor as /proc/cpuinfo names it, how many there are, and the load average of the last minute.
+/// Thread safe.
+Machine this_machine();
+
+}  // namespace hauberk

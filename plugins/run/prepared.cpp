@@ -1,0 +1,160 @@
+#include "run/prepared.hpp"
+#include "run/nearest_node.hpp"
+#include "run/presets.hpp"
+
+#include <hauberk/plan/plan.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace hauberk {
+namespace {
+
+std::string kind_word(PluginKind kind)
+{
+  switch (kind) {
+    case PluginKind::shape:
+      return "shape";
+    case PluginKind::load_case:
+      return "load_case";
+    case PluginKind::optimizer:
+      return "optimizer";
+  }
+  return "plugin";
+}
+
+/// Looks plugins up and notes those that are used.
+PluginLookup recording_lookup(const Registry& registry, std::vector<Provenance::Plugin>& used)
+{
+  return [&registry, &used](PluginKind kind, const std::string& id,
+                            std::string& error) -> const PluginTable* {
+    try {
+      const PluginTable& table = registry.find(kind, id);
+      const bool known = std::any_of(used.begin(), used.end(), [&id](const auto& p) { return p.id == id; });
+      if (!known) used.push_back({id, kind_word(kind), table.version});
+      return &table;
+    } catch (const InputError& problem) {
+      error = problem.what();
+      return nullptr;
+    }
+  };
+}
+
+using WeaveTexts = std::map<std::string, std::string>;
+
+/// Looks weaves up and keeps what they hold: every variant is made of the same, whatever becomes of the file.
+WeaveLookup recording_lookup(WeaveLookup weaves, std::shared_ptr<WeaveTexts> used)
+{
+  if (!weaves) return weaves;
+  return [weaves = std::move(weaves), used = std::move(used)](
+             const std::string& name, std::string& error) -> std::optional<std::string> {
+    if (const auto known = used->find(name); known != used->end()) return known->second;
+    std::optional<std::string> text = weaves(name, error);
+    if (text) used->emplace(name, *text);
+    return text;
+  };
+}
+
+using Fingerprints = std::map<std::string, std::string>;
+
+/// Length and 64-bit FNV-1a hash of a file: to notice that it was changed, not that someone hid that. Empty
+/// where it cannot be read, which its plugin tells.
+std::string fingerprint(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t hash = 0xcbf29ce484222325U, length = 0;
+  for (char c = 0; file.get(c); ++length) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return file.eof() ? fmt::format("{} bytes, {:016x}", length, hash) : std::string();
+}
+
+/// Takes the fingerprint of every file once.
+FileObserver recording_files(std::shared_ptr<Fingerprints> files)
+{
+  return [files = std::move(files)](const std::string& written, const std::string& located) {
+    if (!files->contains(written)) files->emplace(written, fingerprint(located));
+  };
+}
+
+/// Rest state as used; problems of the cell otherwise.
+void prepare_scene(Prepared& prepared, Diagnostics& diagnostics)
+{
+  const Experiment& e = prepared.experiment;
+  const auto problem = [&](const std::string& what) {
+    diagnostics.problems.add(nearest_node(e.resolved, "/cell"), what);
+  };
+  try {
+    const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
+    const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
+    for (const std::string& what : wrong) problem(what);
+    if (!wrong.empty()) return;
+    PreparedScene rest = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
+    prepared.scene = std::move(rest.scene);
+    prepared.moved = rest.moved;
+    prepared.start = std::move(rest.start);
+    prepared.model = make_model(prepared.scene, *e.load_case, e.solver.clearance);
+  } catch (const InputError& error) {
+    problem(error.what());
+  } catch (const ComputationError& error) {  // not even the rest state can be computed
+    problem(error.what());
+  }
+}
+
+}  // namespace
+
+SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest)
+{
+  SceneSpec scene = spec;
+  const std::vector<Pose> at = poses(model, rest);
+  for (std::size_t k = 0; k < at.size(); ++k)
+    scene.elements[k].rest = {at[k].position * model.length, at[k].rotation};
+  return scene;
+}
+
+std::vector<std::string> macro_names(const LoadCase& load_case)
+{
+  std::vector<std::string> out;
+  for (const MacroInfo& macro : load_case.macros()) out.push_back(macro.name);
+  return out;
+}
+
+std::unique_ptr<const Prepared> prepare_experiment(
+    std::shared_ptr<const Registry> registry, const ExperimentSource& source,
+    const std::function<void(const Prepared&, Diagnostics&)>& then)
+{
+  auto out = std::make_unique<Prepared>();
+  Prepared& prepared = *out;
+  prepared.registry = std::move(registry);
+  prepared.lookup = recording_lookup(*prepared.registry, prepared.plugins);
+  Diagnostics diagnostics;
+  const auto stop_on_problems = [&diagnostics] {
+    if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
+  };
+  const auto weaves = std::make_shared<WeaveTexts>();
+  const auto files = std::make_shared<Fingerprints>();
+  std::optional<Experiment> experiment =
+      read_experiment({source.file, source.text, source.overrides, recording_lookup(source.weaves, weaves),
+                       recording_files(files)},
+                      prepared.lookup, diagnostics);
+  stop_on_problems();
+  prepared.experiment = std::move(experiment.value());
+  const Experiment& e = prepared.experiment;
+  for (const Problem& problem : solver_problems(e))
+    diagnostics.problems.add(nearest_node(e.resolved, problem.pointer), problem.message);
+  if (meshes_without_contact(e)) stop_on_problems();  // the scene would say so again
+  prepare_scene(prepared, diagnostics);
+  stop_on_problems();
+  prepared.settings = limit_settings(e.solver, prepared.scene, e.length_unit);
+  prepared.settings.start = prepared.start;
+  then(prepared, diagnostics);
+  stop_on_problems();
+  if (e.has_variants) prepared.weaves.assign(weaves->begin(), weaves->end());
+  prepared.files.assign(files->begin(), files->end());
+  return out;
+}
+
+}  // namespace hauberk

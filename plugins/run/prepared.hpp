@@ -1,0 +1,58 @@
+#pragma once
+/// From a file to a scene that can be solved: what every task begins from.
+
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/experiment.hpp>
+#include <hauberk/host/registry.hpp>
+#include <hauberk/limits/limits.hpp>
+#include <hauberk/results/document.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk {
+
+/// Problems of a file, a line each that already starts with the place; printed as they are.
+class ReportedProblems : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// An experiment whose scene passed every check, at a rest state with room. It is made once and outlives
+/// whatever computes it.
+struct Prepared {
+  std::shared_ptr<const Registry> registry;
+  /// Finds plugins and notes them in `plugins`.
+  PluginLookup lookup;
+  std::vector<Provenance::Plugin> plugins;  ///< used, in the order of first use
+  /// Name and text, by name, of the weaves that variants are made of; empty where the experiment holds what
+  /// the weave stands for.
+  std::vector<std::pair<std::string, std::string>> weaves;
+  /// Path as written and fingerprint of files that plugins have read.
+  std::vector<std::pair<std::string, std::string>> files;
+  Experiment experiment;
+  SceneSpec scene;             ///< rest as used: relaxed where elements touched
+  double moved = 0.0;          ///< farthest that relaxation moved an element, file units
+  std::optional<State> start;  ///< where limits start, if not at rest (PreparedScene)
+  Model model;                 ///< of `scene`
+  LimitSettings settings;
+};
+
+/// Reads and checks an experiment up to its rest state, and lets `then` add what the task needs (which may
+/// read variants, with further plugins and files). `then` puts problems into the diagnostics. Throws
+/// ReportedProblems with a line per problem.
+std::unique_ptr<const Prepared> prepare_experiment(
+    std::shared_ptr<const Registry> registry, const ExperimentSource& source,
+    const std::function<void(const Prepared&, Diagnostics&)>& then);
+
+/// Relaxed rest state of a scene by the model's state in it.
+SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest);
+
+/// Names of the macroscopic unknowns of a load case.
+std::vector<std::string> macro_names(const LoadCase& load_case);
+
+}  // namespace hauberk

@@ -1,0 +1,60 @@
+#include "run/variant_run.hpp"
+#include "run/interrupt.hpp"
+#include "run/limit_tasks.hpp"
+#include "run/limits_run.hpp"
+#include "run/presets.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/plan/plan.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace hauberk {
+
+PreparedVariant prepare_variant(const Experiment& experiment)
+{
+  const Experiment& e = experiment;
+  if (const std::vector<Problem> problems = solver_problems(e); !problems.empty())
+    throw InputError(problems.front().message);
+  const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
+  const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
+  if (!wrong.empty()) throw InputError(fmt::format("{}", fmt::join(wrong, "; ")));
+  PreparedScene rest = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
+  PreparedVariant out{std::move(rest.scene), profile_tasks(e), {}, {}};
+  out.settings = limit_settings(e.solver, out.scene, e.length_unit);
+  out.settings.start = std::move(rest.start);
+  out.model = make_model(out.scene, *e.load_case, e.solver.clearance);
+  return out;
+}
+
+VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads)
+{
+  VariantLimits out;
+  LimitsObserver observer;
+  observer.keep_going = [] { return !interrupted(); };
+  observer.on_unreported = [&out](const std::vector<LimitResult>& limits) { out.unreported = limits; };
+  observer.on_states = [&out](const auto& states) { out.states = states; };
+  out.limits =
+      compute_limits(prepared.model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
+  return out;
+}
+
+RunResult variant_result(const Experiment& experiment, PreparedVariant prepared, VariantLimits solved)
+{
+  RunResult run;
+  run.limits = std::move(solved.limits);
+  run.profiles = profiles(run.limits, *experiment.load_case);
+  run.boundary = boundary_of(experiment, prepared.settings, prepared.model.length, run.limits);
+  run.scene = std::move(prepared.scene);
+  return run;
+}
+
+RunResult run_variant(const Experiment& experiment)
+{
+  PreparedVariant prepared = prepare_variant(experiment);
+  VariantLimits solved = solve_variant(prepared, 1);
+  return variant_result(experiment, std::move(prepared), std::move(solved));
+}
+
+}  // namespace hauberk

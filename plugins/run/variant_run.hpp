@@ -1,0 +1,39 @@
+#pragma once
+/// One variant of a file (a member of a stability family, a row of a sweep, a point of a chart) from its
+/// experiment to its results.
+
+#include <hauberk/experiment/experiment.hpp>
+#include <hauberk/limits/limits.hpp>
+#include <hauberk/results.hpp>
+
+namespace hauberk {
+
+/// Everything that comes before the solve.
+struct PreparedVariant {
+  SceneSpec scene;  ///< rest as used
+  std::vector<LimitTask> tasks;
+  LimitSettings settings;
+  Model model;  ///< of `scene` under the experiment's load case, which has to outlive it
+};
+
+/// The rest state of an ordinary limits experiment, with all checks that `check` makes of it. Throws
+/// InputError where there is no such scene.
+PreparedVariant prepare_variant(const Experiment& experiment);
+
+struct VariantLimits {
+  std::vector<LimitResult> limits;           ///< those that a signal stopped have status interrupted
+  std::vector<LimitResult> unreported;       ///< solved for their states alone
+  std::vector<std::optional<State>> states;  ///< furthest locked state, by task
+};
+
+/// The solve. Its result depends on the variant alone, whatever `threads` (0: all processors).
+VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads);
+
+/// What follows from limits.
+RunResult variant_result(const Experiment& experiment, PreparedVariant prepared, VariantLimits solved);
+
+/// All of it. Uses one thread: variants are what is done in parallel. Throws InputError where there is no
+/// such scene.
+RunResult run_variant(const Experiment& experiment);
+
+}  // namespace hauberk

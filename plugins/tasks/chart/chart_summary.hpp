@@ -1,0 +1,11 @@
+#pragma once
+#include <hauberk/results/chart.hpp>
+
+#include <string>
+
+namespace hauberk {
+
+/// Table of points, and a line for each that has no error.
+std::string chart_summary(const PrecisionChart& chart);
+
+}  // namespace hauberk

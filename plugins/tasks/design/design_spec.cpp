@@ -1,0 +1,61 @@
+#include "tasks/design/design_spec.hpp"
+#include "run/presets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+constexpr double same_direction = 1e-9;  ///< degrees
+
+bool same(const LimitTask& a, const LimitTask& b)
+{
+  return a.sense == b.sense && a.direction.is_angle() && b.direction.is_angle() &&
+         std::abs(std::remainder(a.direction.degrees() - b.direction.degrees(), 180.0)) < same_direction;
+}
+
+DesignQuantity quantity_of(const std::string& name)
+{
+  if (name == "eta") return DesignQuantity::eta;
+  return name == "compress" ? DesignQuantity::negative : DesignQuantity::positive;
+}
+
+}  // namespace
+
+DesignSpec design_spec(const Experiment& experiment)
+{
+  const ExperimentDesign& from = experiment.design.value();
+  DesignSpec design;
+  design.quantity = quantity_of(from.quantity);
+  design.quantity_name = from.quantity;
+  for (const ExperimentVariable& v : from.variables) {
+    DesignVariable variable{v.name, {}, v.lower, v.upper};
+    for (const ParameterRef& p : v.parameters) variable.entries.emplace_back(p.element, p.parameter);
+    design.variables.push_back(std::move(variable));
+  }
+  for (const ExperimentTarget& t : from.targets)
+    design.targets.push_back({t.direction_deg, t.value, t.weight});
+  design.hole_clearance = from.hole_clearance;
+  design.rest_clearance = from.rest_clearance;
+  design.value = from.plain_value ? DesignValue::plain : DesignValue::less_contact;
+  design.starts = from.starts;
+  design.perturbation = from.perturbation;
+  design.seed = experiment.seed;
+  design.schedule = design_schedule();
+  design.tolerance = from.tolerance;
+  return design;
+}
+
+std::vector<LimitTask> design_tasks(const DesignSpec& design, const std::vector<LimitTask>& profile)
+{
+  std::vector<LimitTask> tasks = target_tasks(design);
+  for (const LimitTask& t : profile) {
+    const bool known =
+        std::any_of(tasks.begin(), tasks.end(), [&t](const LimitTask& k) { return same(k, t); });
+    if (!known) tasks.push_back(t);
+  }
+  return tasks;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,331 @@
+#include "tasks/design/design_task.hpp"
+#include "run/interrupt.hpp"
+#include "run/limit_tasks.hpp"
+#include "run/limits_run.hpp"
+#include "run/nearest_node.hpp"
+#include "run/presets.hpp"
+#include "run/run_folder.hpp"
+#include "tasks/design/design_spec.hpp"
+#include "tasks/design/design_tables.hpp"
+#include "tasks/design/evaluation_log.hpp"
+#include "tasks/design/tapped_optimizer.hpp"
+#include "tasks/limits/kept_limits.hpp"
+#include "tasks/limits/limit_files.hpp"
+#include "tasks/limits/limit_tables.hpp"
+
+#include <hauberk/design/design_problem.hpp>
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/results/designed_experiment.hpp>
+#include <hauberk/results/json_text.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace hauberk {
+namespace {
+
+/// Iterates that violate constraints by more than this (L) are not offered as the best so far.
+constexpr double acceptable_violation = 1e-6;
+
+double initial_value(const Prepared& prepared, const DesignVariable& v)
+{
+  const auto& [element, parameter] = v.entries.front();
+  return prepared.scene.elements[static_cast<std::size_t>(element)]
+      .parameters[static_cast<std::size_t>(parameter)];
+}
+
+bool ended_well(const std::string& status)
+{
+  return status != "failed" && status != "interrupted" && status != "infeasible";
+}
+
+class DesignTask final : public TaskRun {
+ public:
+  DesignTask(const Prepared& prepared, Diagnostics& diagnostics)
+      : prepared_(prepared),
+        experiment_(prepared.experiment),
+        spec_(design_spec(experiment_)),
+        tasks_(design_tasks(spec_, profile_tasks(experiment_)))
+  {
+    try {
+      DesignProblem problem(prepared.scene, *experiment_.load_case, experiment_.solver.clearance,
+                            prepared.settings, spec_, 1, [] { return true; });
+      if (const std::string impossible = problem.impossible_hole(); !impossible.empty())
+        diagnostics.problems.add(nearest_node(experiment_.resolved, "/design/hole_clearance"), impossible);
+      initial_scene_ = with_rest(problem.current().spec, problem.current().model, problem.current().rest);
+    } catch (const InputError& error) {
+      diagnostics.problems.add(nearest_node(experiment_.resolved, "/design"), error.what());
+    } catch (const ComputationError& error) {  // not even the rest state can be computed
+      diagnostics.problems.add(nearest_node(experiment_.resolved, "/design"), error.what());
+    }
+    run_.scene = prepared.scene;
+  }
+
+  std::vector<LimitTask> limit_tasks() const override { return tasks_; }
+
+  /// A target in a direction that links leave free can never be met.
+  void check_plan(const Plan& plan, Diagnostics& diagnostics) const override
+  {
+    const std::size_t per = spec_.quantity == DesignQuantity::eta ? 2 : 1;
+    for (std::size_t k = 0; k < per * spec_.targets.size(); ++k) {
+      const auto& [task, bounded] = plan.bounded[k];
+      if (bounded == "attained") continue;
+      const std::string name =
+          limit_name(experiment_.load_case->sense_name(task.direction, task.sense), task.direction);
+      diagnostics.problems.add(
+          nearest_node(experiment_.resolved, fmt::format("/design/targets/{}", k / per)),
+          fmt::format("{} is {}: links set no limit that a design could change", name, bounded));
+    }
+  }
+
+  std::string check_line(const Plan& plan) const override
+  {
+    return fmt::format("{}, {} design variables", limits_check_line(plan, tasks_.size()),
+                       spec_.variables.size());
+  }
+
+  bool resume(const boost::json::value& results) override
+  {
+    const boost::json::value& design = results.at("design");
+    const KeptLimits kept = kept_limits(results, experiment_, tasks_);
+    if (design.is_null() || !kept.complete) return false;
+    const std::string status(design.at("status").as_string());
+    if (status == "interrupted") return false;
+    for (const std::optional<LimitResult>& limit : kept.limits) run_.limits.push_back(*limit);
+    run_.design.emplace().status = status;
+    return true;
+  }
+
+  std::string resume_note() const override { return "resuming: the search is repeated from its evaluations"; }
+
+  void run(RunContext& context) override
+  {
+    context_ = &context;
+    start_partial();
+    DesignResult& design = *run_.design;
+    // The profile's directions too, so that plots compare before and after everywhere.
+    design.initial_limits =
+        limits("limits before", initial_scene_, [&](const std::vector<LimitResult>& so_far) {
+          design.initial_limits = so_far;
+          context.save_sometimes();
+        });
+    enter_initial();
+    context.save();
+    if (interrupted()) return;
+    search();
+    if (interrupted()) return;
+    finish();
+  }
+
+  void enter(boost::json::object& results) const override
+  {
+    enter_run(results, run_, macro_names(*experiment_.load_case));
+  }
+
+  std::vector<ResultFile> files(const std::filesystem::path& folder) const override
+  {
+    std::vector<ResultFile> out = limit_files(prepared_, run_);
+    if (!run_.design) return out;
+    const std::string written = write_json(in_folder(experiment_.expanded, experiment_, folder.string()));
+    out.push_back(
+        {"designed", design_file_names.front(), write_json(designed_experiment(written, run_.scene))});
+    return out;
+  }
+
+  std::string summary() const override
+  {
+    std::string text = rest_remark(prepared_);
+    if (run_.design) text += design_tables(*run_.design, spec_.starts, experiment_.length_unit);
+    return text + limit_tables(experiment_, run_);
+  }
+
+  bool failed() const override
+  {
+    return !all_answered(run_.limits) ||
+           (run_.design && (!ended_well(run_.design->status) || !all_answered(run_.design->initial_limits)));
+  }
+
+ private:
+  std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene, const LimitsSink& sink)
+  {
+    const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
+    // Of this scene: a design may have made tubes thinner.
+    LimitSettings settings = limit_settings(experiment_.solver, scene, experiment_.length_unit);
+    settings.start = strained_start_;
+    const LimitsJob job{&model, &scene, tasks_, settings, experiment_.load_case_plugin, context_->threads,
+                        label,  {}};
+    std::vector<LimitResult> out = run_limits(job, context_->progress, sink);
+    context_->progress.clear();
+    return out;
+  }
+
+  /// A design result that is whole at any time, as partial results hold it.
+  void start_partial()
+  {
+    run_.scene = initial_scene_;
+    DesignResult& d = run_.design.emplace();
+    d.quantity = spec_.quantity_name;
+    d.status = "interrupted";
+    d.message = "partial results: the run was not finished";
+    d.objective = d.objective_initial = std::numeric_limits<double>::quiet_NaN();
+    d.initial_scene = initial_scene_;
+    for (const DesignVariable& v : spec_.variables) {
+      const double x = initial_value(prepared_, v);
+      d.variables.push_back({v.name, x, x, v.lower, v.upper, v.elements()});
+    }
+    for (const DesignTarget& t : spec_.targets) {
+      DesignTargetResult r;
+      r.direction_deg = t.direction_deg;
+      r.target = t.value;
+      r.weight = t.weight;
+      d.targets.push_back(r);
+    }
+  }
+
+  void enter_initial()
+  {
+    DesignResult& d = *run_.design;
+    const auto values = target_values(spec_, d.initial_limits);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      d.targets[i].initial = values[i];
+      const double r = values[i].value_or(std::numeric_limits<double>::quiet_NaN()) - spec_.targets[i].value;
+      sum += 0.5 * spec_.targets[i].weight * r * r;
+    }
+    d.objective_initial = sum;
+  }
+
+  /// Called with every iterate and its design.
+  bool observe(const DesignProgress& p)
+  {
+    // Objectives of coarse and final stages cannot be compared: the final search starts a new count.
+    const bool begins = p.iterate->iteration == 0;
+    if (begins && !fine_ && p.start <= start_) {
+      fine_ = true;
+      best_ = std::numeric_limits<double>::infinity();
+      history_ = run_.design->history;
+    } else if (begins) {
+      history_.clear();
+    }
+    if (begins) first_ = history_.empty() ? 0 : history_.back().iteration + 1;
+    start_ = p.start;
+    context_->progress.design(p, spec_, fine_);
+    history_.push_back(*p.iterate);
+    history_.back().iteration += first_;
+    keep_best(p);
+    context_->save_sometimes();
+    return !interrupted();
+  }
+
+  /// Enters the iterate into the partial results if it is the best of its search.
+  void keep_best(const DesignProgress& p)
+  {
+    const double violation = p.iterate->constraint_violation / prepared_.scene.length;
+    if (point_ == nullptr || !(p.iterate->objective < best_) || violation > acceptable_violation) return;
+    best_ = p.iterate->objective;
+    run_.scene = with_rest(point_->spec, point_->model, point_->rest);
+    DesignResult& d = *run_.design;
+    for (std::size_t v = 0; v < d.variables.size(); ++v) d.variables[v].final = point_->x[v];
+    for (std::size_t i = 0; i < d.targets.size() && i < point_->values.size(); ++i)
+      d.targets[i].provisional = point_->values[i];
+    d.history = history_;
+    d.start = p.start;
+    d.iterations = history_.back().iteration;
+  }
+
+  void search()
+  {
+    const TappedOptimizer optimizer(*experiment_.design->optimizer, experiment_.design->max_iterations,
+                                    [this](const DesignPoint& p) { point_ = &p; });
+    EvaluationLog log(context_->folder / journal_file, context_->identity, context_->resumed,
+                      [this](const std::string& warning) { context_->progress.warn(warning); });
+    if (context_->resumed)
+      context_->progress.note(fmt::format("resuming: {} evaluations of the search are known", log.known()));
+    Designed designed;
+    try {
+      designed = run_design(
+          prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
+          optimizer, context_->threads,
+          [&](const DesignProgress& p) {
+            run_.design->evaluations = log.closest_points();
+            return observe(p);
+          },
+          &log);
+    } catch (const SearchInterrupted&) {
+      context_->progress.clear();
+      run_.design->evaluations = log.closest_points();
+      return;  // the best so far is in `run_`
+    }
+    context_->progress.clear();
+    const DesignResult partial = *run_.design;
+    DesignResult& d = run_.design.emplace(std::move(designed.result));
+    run_.scene = std::move(designed.scene);
+    run_.scene.length = prepared_.scene.length;
+    d.initial_scene = initial_scene_;
+    d.initial_limits = partial.initial_limits;
+    d.objective_initial = partial.objective_initial;
+    for (std::size_t i = 0; i < d.targets.size(); ++i) d.targets[i].initial = partial.targets[i].initial;
+    for (std::size_t v = 0; v < d.variables.size(); ++v)
+      d.variables[v].initial = partial.variables[v].initial;
+    if (interrupted()) {
+      d.status = "interrupted";
+      d.message = partial.message;
+    }
+    d.objective = std::numeric_limits<double>::quiet_NaN();  // until limits are recomputed
+    context_->save();
+  }
+
+  /// Limits of the design from its rest state, with all stages and starts.
+  void finish()
+  {
+    DesignResult& d = *run_.design;
+    const std::string status = d.status, message = d.message;
+    d.status = "interrupted";
+    d.message = "the search was done (" + status + "), its limits were not yet recomputed";
+    // Opens gaps that touch, as for any other scene: with rest_clearance = clearance the search closes them.
+    PreparedScene prepared = prepare_rest(run_.scene, *experiment_.load_case, experiment_.solver.clearance);
+    run_.scene = std::move(prepared.scene);
+    strained_start_ = std::move(prepared.start);
+    run_.limits = limits("limits after", run_.scene, [&](const std::vector<LimitResult>& so_far) {
+      run_.limits = so_far;
+      context_->save_sometimes();
+    });
+    run_.profiles = profiles(run_.limits, *experiment_.load_case);
+    std::stable_sort(
+        run_.profiles.begin(), run_.profiles.end(), [](const ProfilePoint& a, const ProfilePoint& b) {
+          return a.direction_deg < b.direction_deg;  // limits of targets come first, but a profile is a curve
+        });
+    if (interrupted()) return;
+    d.status = status;
+    d.message = message;
+    finish_design(d, spec_, d.initial_limits, run_.limits);
+  }
+
+  const Prepared& prepared_;
+  const Experiment& experiment_;
+  DesignSpec spec_;
+  std::vector<LimitTask> tasks_;  ///< targets first
+  SceneSpec initial_scene_;       ///< relaxed to the design's rest clearance
+  RunResult run_;
+  RunContext* context_ = nullptr;        ///< while it runs
+  std::optional<State> strained_start_;  ///< where the final limits start, if not at rest
+
+  const DesignPoint* point_ = nullptr;  ///< of the iterate that is being observed
+  std::vector<DesignIterate> history_;  ///< of the search that runs, with that of the one it continues
+  int first_ = 0;                       ///< number of its first iterate
+  int start_ = -1;
+  bool fine_ = false;  ///< the best design is being continued with final stages
+  double best_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::unique_ptr<TaskRun> prepare_design(const Prepared& prepared, Diagnostics& diagnostics)
+{
+  return std::make_unique<DesignTask>(prepared, diagnostics);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,18 @@
+#pragma once
+/// Task design: initial limits, the search, and the limits of what it found.
+
+#include "tasks/task.hpp"
+
+#include <hauberk/results/designed_experiment.hpp>
+
+#include <array>
+
+namespace hauberk {
+
+inline constexpr std::array design_file_names{designed_file};
+
+/// An interrupted search is repeated from the evaluations in the output folder (evaluation_log.hpp): what
+/// comes out is the same as of one run.
+std::unique_ptr<TaskRun> prepare_design(const Prepared& prepared, Diagnostics& diagnostics);
+
+}  // namespace hauberk

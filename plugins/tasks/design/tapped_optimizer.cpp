@@ -1,0 +1,87 @@
+#include "tasks/design/tapped_optimizer.hpp"
+#include "run/interrupt.hpp"
+
+namespace hauberk {
+namespace {
+
+void stop_if_interrupted()
+{
+  if (interrupted()) throw SearchInterrupted{};
+}
+
+/// The problem itself, asked only as long as nobody has interrupted.
+class InterruptibleProblem final : public OptimizationProblem {
+ public:
+  explicit InterruptibleProblem(OptimizationProblem& problem) : problem_(problem) {}
+
+  std::span<const double> lower() const override { return problem_.lower(); }
+  std::span<const double> upper() const override { return problem_.upper(); }
+  int constraint_count() const override { return problem_.constraint_count(); }
+  Evaluation evaluate(std::span<const double> x, bool want_gradient) override
+  {
+    stop_if_interrupted();
+    return problem_.evaluate(x, want_gradient);
+  }
+  int residual_count() const override { return problem_.residual_count(); }
+  bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
+  {
+    return problem_.residuals(x, r, jacobian);
+  }
+  void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
+  {
+    stop_if_interrupted();
+    problem_.constraints(x, c, jacobian);
+  }
+  double largest_safe_step(std::span<const double> x, std::span<const double> d) override
+  {
+    stop_if_interrupted();
+    return problem_.largest_safe_step(x, d);
+  }
+  void accept(std::span<const double> x) override { problem_.accept(x); }
+
+ private:
+  OptimizationProblem& problem_;
+};
+
+class Tap final : public OptimizerObserver {
+ public:
+  Tap(const DesignProblem* problem, OptimizerObserver& observer, std::optional<int> most_iterations,
+      const TappedOptimizer::Seen& seen)
+      : problem_(problem), observer_(observer), most_iterations_(most_iterations), seen_(seen)
+  {
+  }
+
+  bool on_iterate(const OptimizerIterate& iterate) override
+  {
+    if (problem_ != nullptr) seen_(problem_->current());
+    const bool wanted = observer_.on_iterate(iterate);
+    reached_ = wanted && most_iterations_ && iterate.iteration >= *most_iterations_;
+    return wanted && !reached_;
+  }
+
+  bool reached() const { return reached_; }
+
+ private:
+  const DesignProblem* problem_;
+  OptimizerObserver& observer_;
+  std::optional<int> most_iterations_;
+  const TappedOptimizer::Seen& seen_;
+  bool reached_ = false;
+};
+
+}  // namespace
+
+OptimizerResult TappedOptimizer::do_minimize(OptimizationProblem& problem, std::span<const double> start,
+                                             OptimizerObserver& observer) const
+{
+  Tap tap(dynamic_cast<const DesignProblem*>(&problem), observer, most_iterations_, seen_);
+  InterruptibleProblem interruptible(problem);
+  OptimizerResult result = inner_.minimize(interruptible, start, tap);
+  if (tap.reached()) {
+    result.status = "iteration_limit";
+    result.message = "design.max_iterations was reached";
+  }
+  return result;
+}
+
+}  // namespace hauberk

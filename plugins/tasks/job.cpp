@@ -1,0 +1,42 @@
+#include "tasks/job.hpp"
+#include "run/plan_text.hpp"
+#include "tasks/table.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/json_writer.hpp>
+#include <hauberk/results/json_text.hpp>
+
+namespace hauberk {
+
+Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource& source)
+{
+  Job job;
+  job.prepared = prepare_experiment(
+      std::move(registry), source, [&job](const Prepared& prepared, Diagnostics& diagnostics) {
+        job.task = task_named(prepared.experiment.task).prepare(prepared, diagnostics);
+        if (!diagnostics.empty()) return;
+        job.plan = make_plan(prepared.model, job.task->limit_tasks(), prepared.settings);
+        job.task->check_plan(job.plan, diagnostics);
+      });
+  return job;
+}
+
+std::vector<NamedContent> result_content(const Job& job, const Provenance& provenance,
+                                         const std::filesystem::path& folder, boost::json::object& document)
+{
+  const Prepared& prepared = *job.prepared;
+  document =
+      document_without_results(write_json(prepared.experiment.resolved), provenance,
+                               write_json(boost::json::value(plan_json(prepared, job.plan))), prepared.scene);
+  job.task->enter(document);
+  std::vector<NamedContent> out;
+  boost::json::object& names = document["files"].emplace_object();
+  for (ResultFile& file : job.task->files(folder)) {
+    names[file.what] = file.name;
+    out.push_back({std::move(file.name), std::move(file.content)});
+  }
+  out.push_back({results_file, write_json(document)});
+  return out;
+}
+
+}  // namespace hauberk

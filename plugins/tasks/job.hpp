@@ -1,0 +1,26 @@
+#pragma once
+/// An experiment with its task and its plan: what check, plan and run begin from.
+
+#include "tasks/task.hpp"
+
+#include <hauberk/results/atomic_file.hpp>
+
+#include <vector>
+
+namespace hauberk {
+
+struct Job {
+  std::unique_ptr<const Prepared> prepared;
+  std::unique_ptr<TaskRun> task;
+  Plan plan;
+};
+
+/// Reads and checks an experiment with everything that its task needs; computes nothing but rest states.
+/// Throws ReportedProblems with a line per problem, InputError when a file cannot be read.
+Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource& source);
+
+/// The document of results.json and the files beside it, results.json last.
+std::vector<NamedContent> result_content(const Job& job, const Provenance& provenance,
+                                         const std::filesystem::path& folder, boost::json::object& document);
+
+}  // namespace hauberk

@@ -1,0 +1,88 @@
+#include "tasks/limits/kept_limits.hpp"
+
+#include <hauberk/results/direction_json.hpp>
+#include <hauberk/results/document.hpp>
+
+#include <boost/json/array.hpp>
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+
+double number(const json::value& v) { return v.is_null() ? 0.0 : v.to_number<double>(); }
+
+std::optional<double> optional_number(const json::value& v)
+{
+  return v.is_null() ? std::nullopt : std::optional(v.to_number<double>());
+}
+
+std::string text(const json::value& v) { return std::string(v.as_string()); }
+
+/// What tables, plots and profiles need; poses and forces stay in the entry, which is kept as it is.
+std::optional<LimitResult> read_limit(const json::object& entry, const std::vector<std::string>& companions)
+{
+  LimitResult r;
+  const auto status = limit_status(text(entry.at("status")));
+  if (!status || *status == LimitStatus::interrupted) return std::nullopt;
+  r.resumed = true;
+  r.status = *status;
+  r.load_case = text(entry.at("load_case"));
+  r.direction = entered_direction(entry);
+  r.sense = text(entry.at("sense"));
+  r.measure = text(entry.at("measure"));
+  r.message = text(entry.at("message"));
+  r.value = optional_number(entry.at("value"));
+  for (const std::string& name : companions) {
+    if (entry.contains(name)) r.companions.emplace_back(name, number(entry.at(name)));
+  }
+  if (const json::object* macro = entry.at("macro").if_object()) {
+    for (const auto& [name, value] : *macro) r.macro.emplace_back(std::string(name), number(value));
+  }
+  r.iterations = static_cast<int>(number(entry.at("iterations")));
+  r.evaluations = static_cast<long>(number(entry.at("evaluations")));
+  r.seconds = number(entry.at("seconds"));
+  r.min_gap = optional_number(entry.at("min_gap"));
+  r.error_estimate = optional_number(entry.at("error_estimate"));
+  r.links_kept = entry.at("links_kept").as_bool();
+  r.z_range = number(entry.at("z_range"));
+  r.better_state = entry.at("better_state").as_bool();
+  if (const json::value* confidence = entry.if_contains("confidence"))
+    r.confidence.word = text(confidence->at("word"));
+  r.force_balance = optional_number(entry.at("force_balance"));
+  // Where states came from: what was learnt from other limits is learnt again.
+  for (const json::value& start : entry.at("starts").as_array()) {
+    r.starts.emplace_back();
+    r.starts.back().origin = text(start.at("origin"));
+    r.starts.back().value = number(start.at("value"));
+  }
+  r.contacts.resize(entry.at("contacts").as_array().size());
+  return r;
+}
+
+}  // namespace
+
+KeptLimits kept_limits(const json::value& results, const Experiment& experiment,
+                       const std::vector<LimitTask>& tasks)
+{
+  const LoadCase& load = *experiment.load_case;
+  const std::vector<double> rest(static_cast<std::size_t>(load.macro_count()), 0.0);
+  std::vector<std::string> companions;
+  for (const auto& [name, value] : load.companions(Direction(), rest)) companions.push_back(name);
+  KeptLimits out;
+  for (const LimitTask& task : tasks) {
+    out.limits.emplace_back();
+    out.entries.emplace_back(nullptr);
+    for (const json::value& entry : results.at("limits").as_array()) {
+      const json::object& o = entry.as_object();
+      const std::string sense = load.sense_name(task.direction, task.sense);
+      if (entered_direction(o) != task.direction || text(o.at("sense")) != sense) continue;
+      out.limits.back() = read_limit(o, companions);
+      if (out.limits.back()) out.entries.back() = entry;
+    }
+    out.complete = out.complete && out.limits.back();
+  }
+  return out;
+}
+
+}  // namespace hauberk

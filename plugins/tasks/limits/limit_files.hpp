@@ -1,0 +1,18 @@
+#pragma once
+/// Files of limits beside results.json.
+
+#include "tasks/task.hpp"
+
+#include <hauberk/results.hpp>
+
+#include <array>
+
+namespace hauberk {
+
+inline constexpr std::array limit_file_names{"limits.csv", "profile.svg", "boundary.ply", "boundary.svg"};
+
+/// limits.csv and profile.svg; of limits along components limits.csv and, of three unknowns, the boundary as
+/// a surface and a picture.
+std::vector<ResultFile> limit_files(const Prepared& prepared, const RunResult& run);
+
+}  // namespace hauberk

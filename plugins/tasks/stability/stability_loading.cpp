@@ -1,0 +1,58 @@
+#include "tasks/stability/stability_loading.hpp"
+#include "run/limit_tasks.hpp"
+
+#include <hauberk/experiment/json_writer.hpp>
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace hauberk {
+namespace {
+
+/// What a limit depends on, apart from how it is found.
+std::string scene_text(const Experiment& e)
+{
+  std::string text = fmt::format("{:.17g}\n", e.solver.clearance);
+  for (const char* key : {"elements", "cell", "load_case"}) text += write_json(e.resolved.at(key)) + "\n";
+  return text;
+}
+
+/// An exact value belongs to one limit; with several it would not say to which.
+void check_exact(const StabilityFamily& family, std::size_t member, const Experiment& e,
+                 Diagnostics& diagnostics)
+{
+  const std::size_t limits = profile_tasks(e).size();
+  if (!family.exact[member] || limits == 1) return;
+  diagnostics.problems.add(
+      {"/stability/families", 0,
+       fmt::format("family '{}', member '{}': an exact value needs one direction and sense, "
+                   "found {} limits",
+                   family.name, family.labels[member], limits)});
+}
+
+}  // namespace
+
+std::vector<StabilityItem> load_stability(const ExperimentStability& stability, const PluginLookup& lookup,
+                                          Diagnostics& diagnostics)
+{
+  std::vector<StabilityItem> items;
+  std::map<std::string, std::size_t> scenes;
+  for (std::size_t f = 0; f < stability.families.size(); ++f) {
+    const StabilityFamily& family = stability.families[f];
+    for (std::size_t k = 0; k < family.members.size(); ++k) {
+      for (std::size_t m = 0; m < stability.methods.size(); ++m) {
+        VariantReading reading = read_stability_member(stability, f, k, m, lookup, diagnostics);
+        StabilityItem item{f, k, m, std::move(reading.experiment), std::move(reading.refusal), 0};
+        const std::string scene =
+            item.experiment ? scene_text(*item.experiment) : fmt::format("refused {} {} {}", f, k, m);
+        item.scene = scenes.emplace(scene, scenes.size()).first->second;
+        if (item.experiment && m == 0) check_exact(family, k, *item.experiment, diagnostics);
+        items.push_back(std::move(item));
+      }
+    }
+  }
+  return items;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,11 @@
+#pragma once
+#include <hauberk/results/stability.hpp>
+
+#include <string>
+
+namespace hauberk {
+
+/// Table of outcomes, families times methods, and a line for each case that is not verified.
+std::string stability_summary(const StabilityMap& map);
+
+}  // namespace hauberk

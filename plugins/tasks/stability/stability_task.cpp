@@ -1,0 +1,127 @@
+#include "tasks/stability/stability_task.hpp"
+#include "run/limit_tasks.hpp"
+#include "tasks/stability/stability_loading.hpp"
+#include "tasks/stability/stability_run.hpp"
+#include "tasks/stability/stability_summary.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/results/direction_json.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+
+double number(const json::value& v) { return v.is_null() ? 0.0 : v.to_number<double>(); }
+
+std::optional<double> optional_number(const json::value& v)
+{
+  return v.is_null() ? std::nullopt : std::optional(v.to_number<double>());
+}
+
+std::string text(const json::value& v) { return std::string(v.as_string()); }
+
+bool same_case(const json::object& entry, const StabilityMap& map, const StabilityCase& c)
+{
+  return text(entry.at("family")) == map.families[c.family].name &&
+         text(entry.at("member")) == map.families[c.family].labels[c.member] &&
+         text(entry.at("method")) == map.methods[c.method] &&
+         (c.sense.empty() ? entry.at("sense").is_null()
+                          : text(entry.at("sense")) == c.sense && entered_direction(entry) == c.direction);
+}
+
+void take_case(const json::object& entry, StabilityCase& c)
+{
+  for (const Outcome outcome : outcomes) {
+    if (to_string(outcome) == text(entry.at("outcome"))) c.outcome = outcome;
+  }
+  if (c.outcome == Outcome::interrupted) return;
+  c.status = text(entry.at("status"));
+  c.message = text(entry.at("message"));
+  c.contact = text(entry.at("contact"));
+  c.value = optional_number(entry.at("value"));
+  c.slack = number(entry.at("slack"));
+  c.checked = entry.at("checked").as_bool();
+  c.check = text(entry.at("check"));
+  c.min_gap = optional_number(entry.at("min_gap"));
+  c.error_estimate = optional_number(entry.at("error_estimate"));
+  c.force_balance = optional_number(entry.at("force_balance"));
+  c.iterations = static_cast<int>(number(entry.at("iterations")));
+  c.evaluations = static_cast<long>(number(entry.at("evaluations")));
+  c.seconds = number(entry.at("seconds"));
+}
+
+class StabilityTask final : public TaskRun {
+ public:
+  StabilityTask(const Prepared& prepared, Diagnostics& diagnostics)
+      : prepared_(prepared), items_(load_stability(stability(), prepared.lookup, diagnostics))
+  {
+    if (diagnostics.empty()) map_ = empty_map(stability(), items_);
+  }
+
+  std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }
+
+  std::string check_line(const Plan& /*plan*/) const override
+  {
+    return fmt::format("{} families, {} methods, {} scenes to solve", stability().families.size(),
+                       stability().methods.size(), items_.size());
+  }
+
+  /// The experiment is the same, so its cases are the same and in the same order.
+  bool resume(const json::value& results) override
+  {
+    const json::array& entries = results.at("stability").at("cases").as_array();
+    if (entries.size() != map_.cases.size()) throw InputError("its cases are not complete");
+    bool complete = true;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      StabilityCase& c = map_.cases[k];
+      const json::object& entry = entries[k].as_object();
+      if (!same_case(entry, map_, c)) throw InputError("its cases are in another order");
+      take_case(entry, c);
+      complete = complete && c.outcome != Outcome::interrupted;
+    }
+    return complete;
+  }
+
+  std::string resume_note() const override { return "resuming: finished cases are kept"; }
+
+  void run(RunContext& context) override
+  {
+    run_stability(items_, context.threads, context.progress, map_,
+                  [&context](const StabilityMap&) { context.save_sometimes(); });
+  }
+
+  void enter(json::object& results) const override { results["stability"] = stability_json(map_); }
+
+  std::vector<ResultFile> files(const std::filesystem::path& /*folder*/) const override
+  {
+    const auto& [cases, picture] = stability_file_names;
+    return {{"stability", cases, stability_csv(map_)},
+            {"picture", picture, stability_svg(map_, prepared_.experiment.name)}};
+  }
+
+  std::string summary() const override { return stability_summary(map_); }
+
+  /// Cases that fail are what it is for; an `expect` about their counts may fail the run.
+  bool failed() const override { return false; }
+
+ private:
+  const ExperimentStability& stability() const { return prepared_.experiment.stability.value(); }
+
+  const Prepared& prepared_;
+  std::vector<StabilityItem> items_;  ///< by family, member, method
+  StabilityMap map_;
+};
+
+}  // namespace
+
+std::unique_ptr<TaskRun> prepare_stability(const Prepared& prepared, Diagnostics& diagnostics)
+{
+  return std::make_unique<StabilityTask>(prepared, diagnostics);
+}
+
+}  // namespace hauberk

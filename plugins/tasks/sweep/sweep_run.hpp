@@ -1,0 +1,31 @@
+#pragma once
+/// Limits of one experiment with other values in it, row by row.
+
+#include "run/prepared.hpp"
+#include "run/progress.hpp"
+
+#include <hauberk/results/sweep.hpp>
+
+#include <functional>
+
+namespace hauberk {
+
+/// All rows, not computed yet.
+SweepTable empty_table(const ExperimentSweep& sweep);
+
+/// The table so far; rows that are not done have status interrupted.
+using TableObserver = std::function<void(const SweepTable&)>;
+
+/// `readings`: of the rows. Computes every row that is interrupted in `table`, a row being an item for the
+/// threads, until done or interrupted. Results do not depend on `threads`. `observer` is called after every
+/// row, one call at a time. What one row throws is its result and does not stop the others.
+void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& readings, unsigned threads,
+               Progress& progress, SweepTable& table, const TableObserver& observer);
+
+/// Whether the computation of any row failed.
+bool any_failed(const SweepTable& table);
+
+/// The table as text, and a line for every row that is not done.
+std::string sweep_summary(const SweepTable& table);
+
+}  // namespace hauberk

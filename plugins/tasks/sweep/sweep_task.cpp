@@ -1,0 +1,84 @@
+#include "tasks/sweep/sweep_task.hpp"
+#include "run/labels.hpp"
+#include "run/limit_tasks.hpp"
+#include "tasks/sweep/sweep_run.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hauberk {
+namespace {
+
+class SweepTask final : public TaskRun {
+ public:
+  SweepTask(const Prepared& prepared, Diagnostics& diagnostics)
+      : prepared_(prepared), table_(empty_table(prepared.experiment.sweep.value()))
+  {
+    const Experiment& e = prepared.experiment;
+    readings_.reserve(e.sweep->row_count());
+    for (std::size_t row = 0; row < e.sweep->row_count(); ++row)
+      readings_.push_back(read_sweep_row(*e.sweep, row, e.name, prepared.lookup, diagnostics));
+  }
+
+  std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }
+
+  std::string check_line(const Plan& /*plan*/) const override
+  {
+    const auto refused = std::count_if(readings_.begin(), readings_.end(),
+                                       [](const VariantReading& row) { return !row.experiment; });
+    return fmt::format("{} rows of {} limits{}", readings_.size(), limit_tasks().size(),
+                       refused > 0 ? fmt::format(" ({} refused as input)", refused) : "");
+  }
+
+  /// Rows of the same experiment are the same and in the same order.
+  bool resume(const boost::json::value& results) override
+  {
+    const boost::json::array& entries = results.at("sweep").at("rows").as_array();
+    if (entries.size() != table_.rows.size()) throw InputError("its rows are not complete");
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      if (!take_row(entries[k], table_, table_.rows[k])) throw InputError("its rows are in another order");
+    }
+    return std::none_of(table_.rows.begin(), table_.rows.end(),
+                        [](const SweepRow& row) { return row.status == RowStatus::interrupted; });
+  }
+
+  std::string resume_note() const override { return "resuming: finished rows are kept"; }
+
+  void run(RunContext& context) override
+  {
+    run_sweep(*prepared_.experiment.load_case, readings_, context.threads, context.progress, table_,
+              [&context](const SweepTable&) { context.save_sometimes(); });
+  }
+
+  void enter(boost::json::object& results) const override { results["sweep"] = sweep_json(table_); }
+
+  std::vector<ResultFile> files(const std::filesystem::path& /*folder*/) const override
+  {
+    const auto& [rows, picture] = sweep_file_names;
+    const PlotLabels labels = plot_labels(prepared_.experiment);
+    return {{"sweep", rows, sweep_csv(table_)},
+            {"picture", picture, sweep_svg(table_, labels.title, labels.subtitle)}};
+  }
+
+  std::string summary() const override { return sweep_summary(table_); }
+
+  /// Rows that are bad input are answers.
+  bool failed() const override { return any_failed(table_); }
+
+ private:
+  const Prepared& prepared_;
+  std::vector<VariantReading> readings_;  ///< by row
+  SweepTable table_;
+};
+
+}  // namespace
+
+std::unique_ptr<TaskRun> prepare_sweep(const Prepared& prepared, Diagnostics& diagnostics)
+{
+  return std::make_unique<SweepTask>(prepared, diagnostics);
+}
+
+}  // namespace hauberk

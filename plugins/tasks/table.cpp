@@ -1,0 +1,41 @@
+#include "tasks/table.hpp"
+#include "tasks/chart/chart_task.hpp"
+#include "tasks/design/design_task.hpp"
+#include "tasks/limits/limit_files.hpp"
+#include "tasks/limits/limits_task.hpp"
+#include "tasks/stability/stability_task.hpp"
+#include "tasks/sweep/sweep_task.hpp"
+#include "tasks/transition/transition_task.hpp"
+
+#include <hauberk/results/document.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace hauberk {
+namespace {
+
+constexpr std::array table{Task{"limits", limit_file_names, &prepare_limits},
+                           Task{"design", design_file_names, &prepare_design},
+                           Task{"sweep", sweep_file_names, &prepare_sweep},
+                           Task{"chart", chart_file_names, &prepare_chart},
+                           Task{"stability", stability_file_names, &prepare_stability},
+                           Task{"transition", transition_file_names, &prepare_transition}};
+
+}  // namespace
+
+std::span<const Task> all_tasks() { return table; }
+
+const Task& task_named(std::string_view name)
+{
+  return *std::find_if(table.begin(), table.end(), [name](const Task& task) { return task.name == name; });
+}
+
+std::vector<const char*> result_names()
+{
+  std::vector<const char*> out{results_file};
+  for (const Task& task : table) out.insert(out.end(), task.file_names.begin(), task.file_names.end());
+  return out;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,74 @@
+#pragma once
+/// What a task is to the rest of the program: one of a table, prepared from an experiment, run, and entered
+/// into its results.
+
+#include "run/context.hpp"
+#include "run/prepared.hpp"
+
+#include <hauberk/plan/plan.hpp>
+
+#include <boost/json/object.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hauberk {
+
+/// A file of the results beside results.json.
+struct ResultFile {
+  std::string what;  ///< its key in `files` of results.json
+  std::string name;
+  std::string content;
+};
+
+/// One experiment's task, ready to run. What it was prepared from outlives it. Between calls, and whenever
+/// the context saves, it can be entered into results: partial ones while it runs. Not thread safe.
+class TaskRun {
+ public:
+  TaskRun() = default;
+  virtual ~TaskRun() = default;
+  TaskRun(const TaskRun&) = delete;
+  TaskRun& operator=(const TaskRun&) = delete;
+
+  /// Limits of the experiment as it is, which the plan speaks of; in the order of the results.
+  virtual std::vector<LimitTask> limit_tasks() const = 0;
+  /// Adds problems that only the plan shows.
+  virtual void check_plan(const Plan& /*plan*/, Diagnostics& /*diagnostics*/) const {}
+  /// What `check` says of an experiment without problems: "19 elements, 4 limits".
+  virtual std::string check_line(const Plan& plan) const = 0;
+  /// Whether times are results, so that two machines must not be mixed.
+  virtual bool measures_time() const { return false; }
+
+  /// Takes over what partial results of the same experiment hold; true if nothing is left to be done. Throws
+  /// InputError where they do not fit, and what Boost.JSON throws where they are damaged.
+  virtual bool resume(const boost::json::value& results) = 0;
+  /// What --resume says: "resuming: finished rows are kept".
+  virtual std::string resume_note() const = 0;
+
+  /// Computes until done or interrupted. Throws ComputationError or InputError where it cannot go on.
+  virtual void run(RunContext& context) = 0;
+
+  /// Enters what there is into results that hold the scene and no limits.
+  virtual void enter(boost::json::object& results) const = 0;
+  /// Files for a folder of results.
+  virtual std::vector<ResultFile> files(const std::filesystem::path& folder) const = 0;
+  /// Tables and remarks for the terminal; several lines.
+  virtual std::string summary() const = 0;
+  /// Whether something that was asked for has no answer.
+  virtual bool failed() const = 0;
+};
+
+/// An entry of the table of tasks.
+struct Task {
+  std::string_view name;
+  std::span<const char* const> file_names;  ///< that it may leave beside results.json
+  /// Reads and checks what the task needs; problems go to the diagnostics, and with any of them the run that
+  /// is returned cannot be used.
+  std::unique_ptr<TaskRun> (*prepare)(const Prepared& prepared, Diagnostics& diagnostics);
+};
+
+}  // namespace hauberk

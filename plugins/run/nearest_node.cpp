@@ -1,6 +1,6 @@
 #include "run/nearest_node.hpp"
 
-#include <hauberk/experiment/jsonc.hpp>
+#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <string>

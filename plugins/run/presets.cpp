@@ -95,11 +95,6 @@ void add_mesh_problems(const Experiment& e, std::vector<Problem>& out)
                                e.solver.contact)});
   }
   if (!has_primitive(e.scene, PrimitiveKind::triangle_mesh)) return;
-  if (e.task == "transition") {
-    out.push_back({"/task", 0,
-                   "this scene has elements that are triangle meshes, and task 'transition' knows tori only; "
-                   "use task limits"});
-  }
   if (preset_schedule(e.solver, e.scene, e.length_unit).ccd == CollisionCheck::sampled) {
     out.push_back({"/solver", 0,
                    "this scene has elements that are triangle meshes, and sampled collision checks (ccd "
@@ -119,41 +114,23 @@ std::vector<Problem> solver_problems(const Experiment& e)
   const ExperimentSolver& solver = e.solver;
   std::vector<Problem> out;
   if (solver.preset == "paper") {
-    if (e.task == "design") {
-      out.push_back({"/solver/preset", 0,
-                     "preset 'paper' computes limits only in this version; use accurate for a design"});
-    }
     const std::string problem = paper_problem(e.scene, e.length_unit);
     if (!problem.empty()) out.push_back({"/solver/preset", 0, problem});
-  } else if (e.task == "design") {
-    // Its search takes certified steps under a constant load.
-    const auto refuse = [&out](const char* key) {
-      out.push_back({fmt::format("/solver/{}", key), 0,
-                     fmt::format("{} is for limits only in this version; remove it from a design", key)});
-    };
-    if (solver.finite_target) refuse("finite_target");
-    if (solver.ccd == "sampled") refuse("ccd");
-    if (solver.closest_points == "sampled") refuse("closest_points");
   }
   if (solver.facets && solver.contact != "mesh") {
     out.push_back(
         {"/solver/facets", 0, "facets belong to contact 'mesh'; remove this or choose that contact"});
   }
   const bool constrained = solver.contact == "constrained";
-  if (e.task == "design" && (constrained || solver.contact == "mesh")) {
-    out.push_back(
-        {"/solver/contact", 0,
-         fmt::format("contact '{}' is for limits only; use auto or arc for a design", solver.contact)});
-  }
   if (constrained && solver.ccd)
     out.push_back({"/solver/ccd", 0, "contact 'constrained' checks no steps for collisions; remove this"});
   const bool published = contact_choice(solver) == ContactChoice::published;
   const bool tori_only = published || solver.ccd == "sampled";
-  if ((tori_only || e.task == "transition") && has_primitive(e.scene, PrimitiveKind::curve_tube)) {
+  if (tori_only && has_primitive(e.scene, PrimitiveKind::curve_tube)) {
     out.push_back(
-        {tori_only ? "/solver" : "/task", 0,
-         "this scene has tubes around curves, and contact 'published', ccd 'sampled', preset 'paper' "
-         "and task 'transition' know tori only; use contact auto, arc, nearest or mesh"});
+        {"/solver", 0,
+         "this scene has tubes around curves, and contact 'published', ccd 'sampled' and preset 'paper' "
+         "know tori only; use contact auto, arc, nearest or mesh"});
   }
   add_mesh_problems(e, out);
   if (!published && solver.closest_points == "sampled") {

@@ -2,9 +2,9 @@
 #include "run/machine.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/results/json_text.hpp>
 #include <hauberk/version.hpp>
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 
 #include <cholmod.h>
 #include <fmt/format.h>

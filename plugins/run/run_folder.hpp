@@ -3,7 +3,7 @@
 
 #include "run/progress.hpp"
 
-#include <hauberk/results/atomic_file.hpp>
+#include "document/atomic_file.hpp"
 
 #include <chrono>
 #include <filesystem>

@@ -3,16 +3,18 @@
 #include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 
 namespace hauberk {
 
 Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource& source)
 {
   Job job;
+  ExperimentSource with_tasks = source;
+  with_tasks.formats = task_formats();
   job.prepared = prepare_experiment(
-      std::move(registry), source, [&job](const Prepared& prepared, Diagnostics& diagnostics) {
+      std::move(registry), with_tasks, [&job](const Prepared& prepared, Diagnostics& diagnostics) {
         job.task = task_named(prepared.experiment.task).prepare(prepared, diagnostics);
         if (!diagnostics.empty()) return;
         job.plan = make_plan(prepared.model, job.task->limit_tasks(), prepared.settings);

@@ -3,7 +3,7 @@
 
 #include "tasks/task.hpp"
 
-#include <hauberk/results/atomic_file.hpp>
+#include "document/atomic_file.hpp"
 
 #include <vector>
 

@@ -1,10 +1,15 @@
 #include "tasks/table.hpp"
+#include "tasks/chart/chart_section.hpp"
 #include "tasks/chart/chart_task.hpp"
+#include "tasks/design/design_section.hpp"
 #include "tasks/design/design_task.hpp"
 #include "tasks/limits/limit_files.hpp"
 #include "tasks/limits/limits_task.hpp"
+#include "tasks/stability/stability_section.hpp"
 #include "tasks/stability/stability_task.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 #include "tasks/sweep/sweep_task.hpp"
+#include "tasks/transition/transition_section.hpp"
 #include "tasks/transition/transition_task.hpp"
 
 #include <hauberk/results/document.hpp>
@@ -22,7 +27,21 @@ constexpr std::array table{Task{"limits", limit_file_names, &prepare_limits},
                            Task{"stability", stability_file_names, &prepare_stability},
                            Task{"transition", transition_file_names, &prepare_transition}};
 
+constexpr std::array formats{
+    TaskFormat{.name = "design", .field = &design_field, .read = &read_design, .brings_directions = true},
+    TaskFormat{.name = "sweep",
+               .field = &sweep_field,
+               .read = &read_sweep,
+               .check = &check_sweep,
+               .makes_variants = true},
+    TaskFormat{.name = "chart", .field = &chart_field, .read = &read_chart, .makes_variants = true},
+    TaskFormat{
+        .name = "stability", .field = &stability_field, .read = &read_stability, .makes_variants = true},
+    TaskFormat{.name = "transition", .field = &transition_field, .read = &read_transition}};
+
 }  // namespace
+
+TaskFormats task_formats() { return formats; }
 
 std::span<const Task> all_tasks() { return table; }
 

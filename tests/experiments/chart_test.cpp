@@ -2,7 +2,7 @@
 
 #include "chart_fixture.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <boost/json/array.hpp>
 

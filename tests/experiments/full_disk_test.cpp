@@ -3,7 +3,7 @@
 
 #include "result_files.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

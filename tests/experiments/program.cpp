@@ -1,6 +1,6 @@
 #include "program.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "result_files.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "program.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,15 @@
 /// Experiment files: any bytes are either an experiment or refused with the project's own errors, in words.
 
 #include "harness.hpp"
+#include "tasks/chart/chart_section.hpp"
+#include "tasks/stability/stability_section.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
+#include "document/json_writer.hpp"
 
 #include "tasks/job.hpp"
+#include "tasks/table.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -54,7 +58,8 @@ void check_round_trip(const Experiment& experiment)
 {
   const std::string resolved = write_json(experiment.resolved);
   Diagnostics diagnostics;
-  const std::optional<Experiment> again = read_experiment({"y.json", resolved, {}}, lookup(), diagnostics);
+  const std::optional<Experiment> again =
+      read_experiment({"y.json", resolved, {}, {}, {}, task_formats()}, lookup(), diagnostics);
   if (!again) violated("the resolved experiment is refused", diagnostics.text() + "\n" + resolved);
   if (write_json(again->resolved) != resolved)
     violated("the resolved experiment is resolved further", resolved);
@@ -67,14 +72,15 @@ bool is_small(const Experiment& e)
     const ElementType& type = e.scene.types[static_cast<std::size_t>(placed.type)];
     bodies += type.shape->primitives(placed.parameters).size();
   }
-  if (e.stability) {
-    for (const StabilityFamily& family : e.stability->families)
-      cases += family.members.size() * e.stability->methods.size();
+  if (e.section<ExperimentStability>()) {
+    for (const StabilityFamily& family : e.section<ExperimentStability>()->families)
+      cases += family.members.size() * e.section<ExperimentStability>()->methods.size();
   }
-  if (e.chart) {
-    for (const ChartMethod& method : e.chart->methods) cases += method.scenes.size() * method.settings.size();
+  if (e.section<ExperimentChart>()) {
+    for (const ChartMethod& method : e.section<ExperimentChart>()->methods)
+      cases += method.scenes.size() * method.settings.size();
   }
-  if (e.sweep) cases += e.sweep->row_count();
+  if (e.section<ExperimentSweep>()) cases += e.section<ExperimentSweep>()->row_count();
   return e.scene.elements.size() <= most_elements && bodies <= most_bodies && cases <= most_cases;
 }
 
@@ -84,7 +90,8 @@ bool is_small(const Experiment& e)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   using namespace hauberk;
-  const ExperimentSource source{"x.json", std::string(reinterpret_cast<const char*>(data), size), {}};
+  const ExperimentSource source{
+      "x.json", std::string(reinterpret_cast<const char*>(data), size), {}, {}, {}, task_formats()};
   Diagnostics diagnostics;
   std::optional<Experiment> experiment = read_experiment(source, lookup(), diagnostics);
   if (experiment.has_value() != diagnostics.empty())

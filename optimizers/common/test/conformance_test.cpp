@@ -5,10 +5,10 @@
 #include <hauberk/conformance/known_problems.hpp>
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/check.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/host/registry.hpp>
+#include "document/check.hpp"
+#include "document/jsonc.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/search_path.hpp>
-#include <hauberk/results/atomic_file.hpp>
+#include "document/atomic_file.hpp"
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

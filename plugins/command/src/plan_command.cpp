@@ -3,7 +3,7 @@
 
 #include "run/plan_text.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 #include "experiment_options.hpp"
 #include "new_command.hpp"
 
-#include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/suggestion.hpp>
+#include "document/check.hpp"
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

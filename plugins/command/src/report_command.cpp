@@ -3,8 +3,8 @@
 
 #include <hauberk/results/designed_experiment.hpp>
 #include <hauberk/results/document.hpp>
-#include <hauberk/results/json_text.hpp>
 #include <hauberk/results/report.hpp>
+#include "document/json_text.hpp"
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

@@ -3,9 +3,9 @@
 #include "run/interrupt.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/limits/room.hpp>
-#include <hauberk/results/atomic_file.hpp>
+#include "document/atomic_file.hpp"
+#include "document/json_writer.hpp"
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

@@ -9,7 +9,7 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/expect.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

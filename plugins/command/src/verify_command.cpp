@@ -2,8 +2,8 @@
 #include "options.hpp"
 
 #include <hauberk/results/document.hpp>
-#include <hauberk/results/json_text.hpp>
 #include <hauberk/verify/verify.hpp>
+#include "document/json_text.hpp"
 
 #include <fmt/format.h>
 

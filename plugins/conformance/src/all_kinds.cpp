@@ -4,9 +4,9 @@
 #include "trace.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/check.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/host/floating_point.hpp>
+#include "document/check.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include <hauberk/conformance/report.hpp>
 
 #include <fmt/format.h>
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/version.hpp>
+#include "document/json_writer.hpp"
 
 #include <algorithm>
 

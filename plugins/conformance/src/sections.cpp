@@ -2,10 +2,10 @@
 
 #include "verdict.hpp"
 
-#include <hauberk/experiment/check.hpp>
-#include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/host/factories.hpp>
+#include "document/check.hpp"
+#include "document/json_writer.hpp"
+#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 #include "sections.hpp"
 
 #include <hauberk/error.hpp>
@@ -17,7 +17,8 @@ namespace {
 constexpr double same_components = 1e-9;
 
 /// What keeps `directions` from meaning anything here.
-bool applies(const Node& section, const Node& directions, const Experiment& experiment, Problems& problems)
+bool applies(const Node& section, const Node& directions, bool angles_only, const Experiment& experiment,
+             Problems& problems)
 {
   bool good = true;
   const auto refuse = [&](const Node& at, const std::string& why) {
@@ -30,7 +31,7 @@ bool applies(const Node& section, const Node& directions, const Experiment& expe
     refuse(*senses,
            "directions have one sense, further along them: leave out senses, and give the opposite "
            "direction for the other one");
-  if (experiment.task == "design")
+  if (angles_only)
     refuse(directions, "targets and profiles of a design are taken at angles: use directions_deg");
   if (experiment.load_case && !experiment.load_case->takes_components()) {
     refuse(directions,
@@ -91,10 +92,10 @@ std::vector<Direction> read_list(const Node& list, const LoadCase& load_case, Pr
 
 }  // namespace
 
-void read_directions(const Node& section, Problems& problems, Experiment& experiment)
+void read_directions(const Node& section, bool angles_only, Problems& problems, Experiment& experiment)
 {
   const Node* directions = section.find("directions");
-  if (directions == nullptr || !applies(section, *directions, experiment, problems)) return;
+  if (directions == nullptr || !applies(section, *directions, angles_only, experiment, problems)) return;
   if (!experiment.load_case) return;
   if (directions->is(Node::Type::array)) {
     experiment.directions = read_list(*directions, *experiment.load_case, problems);

@@ -1,5 +1,5 @@
 #include <hauberk/experiment/expect.hpp>
-#include <hauberk/experiment/json_writer.hpp>
+#include "document/json_writer.hpp"
 
 #include <boost/json/serialize.hpp>
 

@@ -1,7 +1,7 @@
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 #include "sections.hpp"
 
-#include <hauberk/experiment/json_writer.hpp>
+#include "document/json_writer.hpp"
 
 namespace hauberk {
 

@@ -1,18 +1,17 @@
 #include <hauberk/experiment/experiment.hpp>
 
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 #include "scene_reader.hpp"
 #include "sections.hpp"
 #include "weave.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/fields.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/experiment/overrides.hpp>
+#include "document/check.hpp"
+#include "document/jsonc.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -24,20 +23,21 @@ namespace hauberk {
 
 namespace {
 
-/// Tasks that have a section of their own.
-constexpr std::array section_tasks{"design", "stability", "transition", "sweep", "chart"};
+const TaskFormat* format_named(TaskFormats formats, std::string_view name)
+{
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [name](const TaskFormat& format) { return format.name == name; });
+  return found == formats.end() ? nullptr : &*found;
+}
 
-void read_task(const Node& root, Problems& problems, Experiment& experiment)
+void read_task(const Node& root, TaskFormats formats, Problems& problems, Experiment& experiment)
 {
   const Node* task = root.find("task");
-  if (task == nullptr || task->string == "limits") return;
-  for (const char* name : section_tasks) {
-    if (task->string != name) continue;
-    experiment.task = name;
-    if (root.find(name) == nullptr)
-      problems.add(root, std::string("missing key '") + name + "': task " + name + " needs it");
-    return;
-  }
+  const TaskFormat* format = task == nullptr ? nullptr : format_named(formats, task->string);
+  if (format == nullptr) return;
+  experiment.task = format->name;
+  if (root.find(format->name) == nullptr)
+    problems.add(root, "missing key '" + experiment.task + "': task " + experiment.task + " needs it");
 }
 
 /// Of contact mesh: what the paper compares with.
@@ -55,8 +55,8 @@ double scene_length(const Node& root, const SceneSpec& scene, bool scene_complet
   return 1.0;
 }
 
-/// Without directions of its own a design's final profile is taken in the directions of its targets.
-void complete_directions(Node& root, Problems& problems, Experiment& experiment)
+/// A task that brings directions has its final limits in these where the load case names none.
+void complete_directions(Node& root, TaskFormats formats, Problems& problems, Experiment& experiment)
 {
   Node* section = find_mutable(root, "load_case");
   if (section == nullptr) return;
@@ -67,16 +67,18 @@ void complete_directions(Node& root, Problems& problems, Experiment& experiment)
       if (pointer_within(problem.pointer, pointer)) return;  // given, but wrong
     }
   }
-  if (experiment.task != "design") {
+  const TaskFormat* format = format_named(formats, experiment.task);
+  if (format == nullptr || !format->brings_directions) {
     problems.add(
         *section,
         "missing key 'directions_deg': expected an array of at least 1 numbers, or key 'directions'");
-  } else if (experiment.design) {
-    for (const ExperimentTarget& target : experiment.design->targets) {
-      experiment.directions_deg.push_back(target.direction_deg);
-    }
-    set_default(*section, "directions_deg", numbers_node(experiment.directions_deg));
+    return;
   }
+  for (const std::shared_ptr<const TaskSection>& s : experiment.sections) {
+    for (const double direction : s->own_directions()) experiment.directions_deg.push_back(direction);
+  }
+  if (!experiment.directions_deg.empty())
+    set_default(*section, "directions_deg", numbers_node(experiment.directions_deg));
 }
 
 }  // namespace
@@ -90,7 +92,8 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   if (!root) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
   const std::string folder = std::filesystem::path(source.file).parent_path().string();
-  return read_tree(std::move(*root), {lookup, source.weaves, folder, source.files}, diagnostics);
+  return read_tree(std::move(*root), {lookup, source.weaves, folder, source.files, source.formats},
+                   diagnostics);
 }
 
 std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnostics& diagnostics,
@@ -99,9 +102,9 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   Problems& problems = diagnostics.problems;
   if (well_formed) *well_formed = false;
   std::optional<Node> root(std::move(given));
-  constexpr std::array variant_sections{"stability", "sweep", "chart"};
-  const bool has_variants = std::any_of(variant_sections.begin(), variant_sections.end(),
-                                        [&root](const char* key) { return root->find(key) != nullptr; });
+  const bool has_variants =
+      std::any_of(lookups.formats.begin(), lookups.formats.end(),
+                  [&root](const TaskFormat& f) { return f.makes_variants && root->find(f.name) != nullptr; });
   const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
@@ -114,7 +117,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };
-  if (!check_fields(*root, expanded_fields(), problems, extra)) return std::nullopt;
+  if (!check_fields(*root, expanded_fields(lookups.formats), problems, extra)) return std::nullopt;
   if (well_formed) *well_formed = problems.empty();
 
   Experiment experiment;
@@ -125,7 +128,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   }
   experiment.length_unit = string_or(*root, "length_unit", "mm");
   experiment.seed = seed_or(*root, "seed", 1);
-  read_task(*root, problems, experiment);
+  read_task(*root, lookups.formats, problems, experiment);
 
   ReadScene scene = read_scene(*root, plugins, problems);
   experiment.scene = std::move(scene.spec);
@@ -135,25 +138,24 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   if (Node* solver = find_mutable(*root, "solver")) experiment.solver = read_solver(*solver, experiment.seed);
   if (experiment.solver.contact == "mesh")
     experiment.scene.facets = experiment.solver.facets.value_or(default_facets);
-  read_load_case(*root, plugins, problems, experiment);
-  if (Node* design = find_mutable(*root, "design")) {
-    experiment.design = read_design(*design, plugins, problems, experiment, scene.tile_of, scene_complete);
+  const TaskFormat* task = format_named(lookups.formats, experiment.task);
+  read_load_case(*root, plugins, task != nullptr && task->brings_directions, problems, experiment);
+  SectionContext context{experiment, scene.tile_of, scene_complete, base, plugins, problems};
+  std::vector<const TaskFormat*> of_sections;
+  for (const TaskFormat& format : lookups.formats) {
+    if (Node* section = find_mutable(*root, format.name)) {
+      experiment.sections.push_back(format.read(*section, context));
+      of_sections.push_back(&format);
+    }
   }
-  if (const Node* stability = root->find("stability"))
-    experiment.stability = read_stability(*stability, base, problems);
-  if (const Node* sweep = root->find("sweep"))
-    experiment.sweep = read_sweep(*sweep, base, experiment, problems);
-  if (const Node* chart = root->find("chart")) experiment.chart = read_chart(*chart, base, problems);
-  if (Node* transition = find_mutable(*root, "transition")) {
-    experiment.transition =
-        read_transition(*transition, experiment.scene, experiment.solver.clearance, scene_complete, problems);
-  }
-  complete_directions(*root, problems, experiment);
+  complete_directions(*root, lookups.formats, problems, experiment);
   if (const Node* expect = find_typed(*root, "expect", Node::Type::array)) {
     experiment.expect = read_expectations(*expect, problems);
   }
   if (!problems.empty()) return std::nullopt;
-  if (experiment.sweep) check_sweep_pointers(root->at("sweep"), *experiment.sweep, *root, problems);
+  for (std::size_t k = 0; k < of_sections.size(); ++k) {
+    if (of_sections[k]->check != nullptr) of_sections[k]->check(*experiment.sections[k], *root, problems);
+  }
   if (!problems.empty()) return std::nullopt;
   experiment.expanded = *root;
   // Variants are made from the weave again when this is read again.
@@ -185,11 +187,11 @@ std::string read_text_file(const std::string& path)
 }
 
 Experiment load_experiment(const std::string& path, const std::vector<std::string>& overrides,
-                           const PluginLookup& plugins)
+                           const PluginLookup& plugins, TaskFormats formats)
 {
   Diagnostics diagnostics;
   std::optional<Experiment> experiment =
-      read_experiment({path, read_text_file(path), overrides}, plugins, diagnostics);
+      read_experiment({path, read_text_file(path), overrides, {}, {}, formats}, plugins, diagnostics);
   if (!experiment) throw InputError(diagnostics.text());
   return std::move(*experiment);
 }

@@ -1,8 +1,8 @@
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 #include "sections.hpp"
 
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/suggestion.hpp>
+#include "document/json_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -89,7 +89,8 @@ void check_extent(const Node& root, const Node& section, const LoadCase& load_ca
 
 }  // namespace
 
-void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Experiment& experiment)
+void read_load_case(Node& root, PluginResolver& plugins, bool angles_only, Problems& problems,
+                    Experiment& experiment)
 {
   Node* section = find_mutable(root, "load_case");
   if (section == nullptr) return;
@@ -100,7 +101,7 @@ void read_load_case(Node& root, PluginResolver& plugins, Problems& problems, Exp
     if (section->find("directions") == nullptr)
       read_senses(*section, *experiment.load_case, problems, experiment.senses);
   }
-  read_directions(*section, problems, experiment);
+  read_directions(*section, angles_only, problems, experiment);
 
   if (const Node* list = find_typed(*section, "directions_deg", Node::Type::array)) {
     std::vector<std::pair<const Node*, double>> directions;

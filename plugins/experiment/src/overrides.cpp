@@ -1,6 +1,6 @@
-#include <hauberk/experiment/diagnostics.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/experiment/overrides.hpp>
+#include "document/diagnostics.hpp"
+#include "document/jsonc.hpp"
 
 #include <charconv>
 

@@ -1,4 +1,4 @@
-#include "plugin_resolver.hpp"
+#include <hauberk/experiment/plugin_resolver.hpp>
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/fields.hpp>

@@ -1,7 +1,7 @@
-#include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
+#include "document/check.hpp"
 
 namespace hauberk {
 
@@ -98,9 +98,9 @@ std::string fields_reference(const std::vector<Field>& fields, const std::string
   return out.substr(1);  // without the empty line before the first heading
 }
 
-std::string experiment_reference(std::span<const PluginTable* const> plugins)
+std::string experiment_reference(std::span<const PluginTable* const> plugins, TaskFormats formats)
 {
-  const Field root = experiment_fields();
+  const Field root = experiment_fields(formats);
   std::string out = introduction;
   write_section({"", "", &root.children}, out);
   for (const PluginTable* plugin : plugins) {

@@ -1,6 +1,6 @@
 #include "rotation.hpp"
 
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/experiment/jsonc.hpp>
+#include "document/jsonc.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "plugin_resolver.hpp"
+#include <hauberk/experiment/plugin_resolver.hpp>
 
 #include <hauberk/scene.hpp>
 
@@ -16,11 +16,5 @@ struct ReadScene {
 /// built all the same, so that later sections can be checked too. Writes the values of all parameters into
 /// elements/*/parameters of `root`.
 ReadScene read_scene(Node& root, PluginResolver& plugins, Problems& problems);
-
-/// Names of a shape's parameters.
-std::vector<std::string> parameter_names(const Shape& shape);
-
-/// Index of a parameter, -1 when the shape has none of that name.
-int parameter_index(const Shape& shape, std::string_view name);
 
 }  // namespace hauberk

@@ -1,9 +1,10 @@
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 
-#include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
+#include "document/check.hpp"
+#include "document/merge_fields.hpp"
 
 #include <cmath>
 
@@ -174,12 +175,12 @@ class SchemaWriter {
 
 }  // namespace
 
-Node experiment_schema(std::span<const PluginTable* const> plugins)
+Node experiment_schema(std::span<const PluginTable* const> plugins, TaskFormats formats)
 {
   Node root = object_node();
   set_default(root, "$schema", string_node("http://json-schema.org/draft-07/schema#"));
   set_default(root, "title", string_node("Hauberk experiment"));
-  Node body = SchemaWriter(plugins).write(experiment_fields());
+  Node body = SchemaWriter(plugins).write(experiment_fields(formats));
   for (auto& [key, value] : body.members) set_default(root, key, std::move(value));
   return root;
 }

@@ -1,10 +1,9 @@
-#include "node_access.hpp"
+#include "document/node_access.hpp"
 #include "sections.hpp"
 
 #include <hauberk/experiment/overrides.hpp>
 
 #include <algorithm>
-#include <array>
 
 namespace hauberk {
 
@@ -20,10 +19,11 @@ void set_member(Node& root, const std::string& key, Node value)
 
 VariantBase variant_base(const Node& file, const Lookups& lookups)
 {
-  constexpr std::array dropped{"stability", "transition", "sweep", "chart", "design", "expect"};
-  VariantBase base{file, lookups.weaves, lookups.folder, lookups.files};
-  std::erase_if(base.file.members, [&dropped](const auto& member) {
-    return std::find(dropped.begin(), dropped.end(), member.first) != dropped.end();
+  VariantBase base{file, lookups.formats, lookups.weaves, lookups.folder, lookups.files};
+  std::erase_if(base.file.members, [&lookups](const auto& member) {
+    return member.first == "expect" ||
+           std::any_of(lookups.formats.begin(), lookups.formats.end(),
+                       [&member](const TaskFormat& format) { return format.name == member.first; });
   });
   set_member(base.file, "task", string_node("limits"));
   return base;
@@ -43,8 +43,8 @@ VariantReading read_variant(const VariantBase& base, const std::vector<Assignmen
   bool well_formed = false;
   VariantReading out;
   if (found.empty())
-    out.experiment =
-        read_tree(std::move(root), {lookup, base.weaves, base.folder, base.files}, found, &well_formed);
+    out.experiment = read_tree(std::move(root), {lookup, base.weaves, base.folder, base.files, base.formats},
+                               found, &well_formed);
   for (const Problem& problem : found.problems.list()) {
     if (!well_formed) {
       diagnostics.problems.add({problem.pointer, problem.line, place + problem.message});

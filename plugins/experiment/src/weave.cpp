@@ -1,12 +1,12 @@
 #include "weave.hpp"
 
-#include "field_helpers.hpp"
-#include "node_access.hpp"
+#include "document/field_helpers.hpp"
+#include "document/node_access.hpp"
 
-#include <hauberk/experiment/check.hpp>
 #include <hauberk/experiment/fields.hpp>
-#include <hauberk/experiment/jsonc.hpp>
 #include <hauberk/suggestion.hpp>
+#include "document/check.hpp"
+#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -162,9 +162,9 @@ Field weave_field()
                     "{}")});
 }
 
-Field expanded_fields()
+Field expanded_fields(TaskFormats formats)
 {
-  Field root = experiment_fields();
+  Field root = experiment_fields(formats);
   child(root, "elements").required = true;
   Field& cell = child(root, "cell");
   child(cell, "place").required = true;

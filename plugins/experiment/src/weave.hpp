@@ -10,7 +10,7 @@ namespace hauberk {
 Field weave_field();
 
 /// The table of fields of an experiment without weaves: what must be there after `expand_weave`.
-Field expanded_fields();
+Field expanded_fields(TaskFormats formats);
 
 /// Replaces cell.weave by the elements, vectors and places that it stands for; a tree without it stays as it
 /// is. Elements of the experiment stay beside those of the weave. False when it cannot be done, which is

@@ -1,5 +1,5 @@
 #include <hauberk/results/boundary.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include "boundary_points.hpp"
 

@@ -1,6 +1,6 @@
 #include "csv_cells.hpp"
 
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 namespace hauberk::detail {
 

@@ -1,12 +1,16 @@
 #include <hauberk/error.hpp>
 #include <hauberk/results/designed_experiment.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include "json_parts.hpp"
 
 #include <Eigen/Geometry>
 
 #include <set>
+
+#include <algorithm>
+
+#include <array>
 
 namespace hauberk {
 namespace {
@@ -80,9 +84,15 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
   out["name"] =
       (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
   out["task"] = "limits";
-  for (const char* section : {"design", "sweep", "chart", "stability", "transition", "expect"})
-    out.erase(section);
-  return out;
+  // Sections of tasks and what they are expected to give belong to the file as it was.
+  constexpr std::array kept{"$schema", "name",     "description", "task",      "length_unit",
+                            "seed",    "elements", "cell",        "load_case", "solver"};
+  json::object scene_only;
+  for (json::key_value_pair& member : out) {
+    if (std::find(kept.begin(), kept.end(), member.key()) != kept.end())
+      scene_only[member.key()] = std::move(member.value());
+  }
+  return scene_only;
 }
 
 }  // namespace hauberk

@@ -1,5 +1,5 @@
 #include <hauberk/results/document.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include "json_parts.hpp"
 

@@ -1,7 +1,7 @@
 #include <hauberk/results/document.hpp>
 #include <hauberk/results/report.hpp>
 
-#include "json_place.hpp"
+#include "document/json_place.hpp"
 
 #include <fmt/format.h>
 #include <boost/json/array.hpp>

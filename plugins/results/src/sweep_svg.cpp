@@ -1,5 +1,5 @@
-#include <hauberk/results/json_text.hpp>
 #include <hauberk/results/sweep.hpp>
+#include "document/json_text.hpp"
 
 #include "line_panel.hpp"
 #include "strokes.hpp"

@@ -1,6 +1,7 @@
 #include "tasks/chart/chart_loading.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/nearest_node.hpp"
+#include "tasks/chart/chart_section.hpp"
 
 #include <fmt/format.h>
 
@@ -13,9 +14,9 @@ namespace {
 std::optional<Experiment> load_scene(const Experiment& e, std::size_t scene, const PluginLookup& lookup,
                                      Diagnostics& diagnostics)
 {
-  const ChartScene& from = e.chart->scenes[scene];
+  const ChartScene& from = e.section<ExperimentChart>()->scenes[scene];
   const std::string pointer = fmt::format("/chart/scenes/{}", scene);
-  VariantReading reading = read_chart_scene(*e.chart, scene, lookup, diagnostics);
+  VariantReading reading = read_chart_scene(*e.section<ExperimentChart>(), scene, lookup, diagnostics);
   if (!reading.refusal.empty()) {
     diagnostics.problems.add(nearest_node(e.resolved, pointer),
                              fmt::format("scene '{}': {}", from.name, reading.refusal));
@@ -42,17 +43,18 @@ bool same_limits(const Experiment& a, const Experiment& b)
 void load_settings(const Experiment& e, std::size_t scene, std::size_t method, const PluginLookup& lookup,
                    Diagnostics& diagnostics, LoadedChart& out)
 {
-  const ChartMethod& by = e.chart->methods[method];
+  const ChartMethod& by = e.section<ExperimentChart>()->methods[method];
   for (std::size_t k = 0; k < by.settings.size(); ++k) {
     const std::size_t before = diagnostics.problems.list().size();
-    VariantReading reading = read_chart_setting(*e.chart, scene, method, k, lookup, diagnostics);
+    VariantReading reading =
+        read_chart_setting(*e.section<ExperimentChart>(), scene, method, k, lookup, diagnostics);
     if (reading.experiment && !same_limits(*reading.experiment, *out.scenes[scene])) {
       diagnostics.problems.add(
           nearest_node(e.resolved, fmt::format("/chart/methods/{}", method)),
           fmt::format(
               "method '{}' has other limits than scene '{}': it may set how they are found, not which "
               "they are",
-              by.name, e.chart->scenes[scene].name));
+              by.name, e.section<ExperimentChart>()->scenes[scene].name));
     }
     // What is wrong with one setting is wrong with all, as a rule.
     if (diagnostics.problems.list().size() > before) return;
@@ -64,7 +66,7 @@ void load_settings(const Experiment& e, std::size_t scene, std::size_t method, c
 
 LoadedChart load_chart(const Experiment& e, const PluginLookup& lookup, Diagnostics& diagnostics)
 {
-  const ExperimentChart& chart = e.chart.value();
+  const ExperimentChart& chart = *e.section<ExperimentChart>();
   LoadedChart out;
   for (std::size_t scene = 0; scene < chart.scenes.size(); ++scene) {
     out.scenes.push_back(load_scene(e, scene, lookup, diagnostics));

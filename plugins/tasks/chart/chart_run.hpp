@@ -3,6 +3,7 @@
 
 #include "run/progress.hpp"
 #include "tasks/chart/chart_loading.hpp"
+#include "tasks/chart/chart_section.hpp"
 
 #include <hauberk/results/chart.hpp>
 

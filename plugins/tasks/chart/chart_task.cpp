@@ -3,6 +3,7 @@
 #include "run/machine.hpp"
 #include "tasks/chart/chart_loading.hpp"
 #include "tasks/chart/chart_run.hpp"
+#include "tasks/chart/chart_section.hpp"
 #include "tasks/chart/chart_summary.hpp"
 
 #include <hauberk/error.hpp>
@@ -80,7 +81,7 @@ class ChartTask final : public TaskRun {
   bool failed() const override { return any_failed(chart_); }
 
  private:
-  const ExperimentChart& chart() const { return prepared_.experiment.chart.value(); }
+  const ExperimentChart& chart() const { return *prepared_.experiment.section<ExperimentChart>(); }
 
   const Prepared& prepared_;
   LoadedChart loaded_;

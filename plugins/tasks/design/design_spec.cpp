@@ -1,5 +1,8 @@
 #include "tasks/design/design_spec.hpp"
 #include "run/presets.hpp"
+#include "tasks/design/design_section.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +28,7 @@ DesignQuantity quantity_of(const std::string& name)
 
 DesignSpec design_spec(const Experiment& experiment)
 {
-  const ExperimentDesign& from = experiment.design.value();
+  const ExperimentDesign& from = *experiment.section<ExperimentDesign>();
   DesignSpec design;
   design.quantity = quantity_of(from.quantity);
   design.quantity_name = from.quantity;
@@ -56,6 +59,29 @@ std::vector<LimitTask> design_tasks(const DesignSpec& design, const std::vector<
     if (!known) tasks.push_back(t);
   }
   return tasks;
+}
+
+std::vector<Problem> design_solver_problems(const ExperimentSolver& solver)
+{
+  std::vector<Problem> out;
+  const auto refuse = [&out](const char* key) {
+    out.push_back({fmt::format("/solver/{}", key), 0,
+                   fmt::format("{} is for limits only in this version; remove it from a design", key)});
+  };
+  if (solver.preset == "paper") {
+    out.push_back({"/solver/preset", 0,
+                   "preset 'paper' computes limits only in this version; use accurate for a design"});
+  } else {
+    if (solver.finite_target) refuse("finite_target");
+    if (solver.ccd == "sampled") refuse("ccd");
+    if (solver.closest_points == "sampled") refuse("closest_points");
+  }
+  if (solver.contact == "constrained" || solver.contact == "mesh") {
+    out.push_back(
+        {"/solver/contact", 0,
+         fmt::format("contact '{}' is for limits only; use auto or arc for a design", solver.contact)});
+  }
+  return out;
 }
 
 }  // namespace hauberk

@@ -15,4 +15,8 @@ DesignSpec design_spec(const Experiment& experiment);
 /// profile that are not among them; directions count modulo 180 degrees.
 std::vector<LimitTask> design_tasks(const DesignSpec& design, const std::vector<LimitTask>& profile);
 
+/// What of the section `solver` a design cannot be searched with (places as pointers, no lines): its search
+/// takes certified steps under a constant load.
+std::vector<Problem> design_solver_problems(const ExperimentSolver& solver);
+
 }  // namespace hauberk

@@ -5,6 +5,7 @@
 #include "run/nearest_node.hpp"
 #include "run/presets.hpp"
 #include "run/run_folder.hpp"
+#include "tasks/design/design_section.hpp"
 #include "tasks/design/design_spec.hpp"
 #include "tasks/design/design_tables.hpp"
 #include "tasks/design/evaluation_log.hpp"
@@ -15,9 +16,9 @@
 
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/results/designed_experiment.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,10 @@ class DesignTask final : public TaskRun {
         spec_(design_spec(experiment_)),
         tasks_(design_tasks(spec_, profile_tasks(experiment_)))
   {
+    run_.scene = prepared.scene;
+    for (const Problem& problem : design_solver_problems(experiment_.solver))
+      diagnostics.problems.add(nearest_node(experiment_.resolved, problem.pointer), problem.message);
+    if (!diagnostics.empty()) return;
     try {
       DesignProblem problem(prepared.scene, *experiment_.load_case, experiment_.solver.clearance,
                             prepared.settings, spec_, 1, [] { return true; });
@@ -61,7 +66,6 @@ class DesignTask final : public TaskRun {
     } catch (const ComputationError& error) {  // not even the rest state can be computed
       diagnostics.problems.add(nearest_node(experiment_.resolved, "/design"), error.what());
     }
-    run_.scene = prepared.scene;
   }
 
   std::vector<LimitTask> limit_tasks() const override { return tasks_; }
@@ -238,7 +242,8 @@ class DesignTask final : public TaskRun {
 
   void search()
   {
-    const TappedOptimizer optimizer(*experiment_.design->optimizer, experiment_.design->max_iterations,
+    const auto& section = *experiment_.section<ExperimentDesign>();
+    const TappedOptimizer optimizer(*section.optimizer, section.max_iterations,
                                     [this](const DesignPoint& p) { point_ = &p; });
     EvaluationLog log(context_->folder / journal_file, context_->identity, context_->resumed,
                       [this](const std::string& warning) { context_->progress.warn(warning); });

@@ -1,5 +1,6 @@
 #pragma once
 #include "run/prepared.hpp"
+#include "tasks/stability/stability_section.hpp"
 
 namespace hauberk {
 

@@ -4,10 +4,10 @@
 #include "run/variant_run.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/parallel.hpp>
 #include <hauberk/stability/check.hpp>
 #include <hauberk/stability/classify.hpp>
+#include "document/json_writer.hpp"
 
 #include <algorithm>
 #include <mutex>

@@ -2,6 +2,7 @@
 #include "run/limit_tasks.hpp"
 #include "tasks/stability/stability_loading.hpp"
 #include "tasks/stability/stability_run.hpp"
+#include "tasks/stability/stability_section.hpp"
 #include "tasks/stability/stability_summary.hpp"
 
 #include <hauberk/error.hpp>
@@ -110,7 +111,10 @@ class StabilityTask final : public TaskRun {
   bool failed() const override { return false; }
 
  private:
-  const ExperimentStability& stability() const { return prepared_.experiment.stability.value(); }
+  const ExperimentStability& stability() const
+  {
+    return *prepared_.experiment.section<ExperimentStability>();
+  }
 
   const Prepared& prepared_;
   std::vector<StabilityItem> items_;  ///< by family, member, method

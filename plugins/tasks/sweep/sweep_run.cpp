@@ -5,9 +5,9 @@
 #include "tasks/sweep/row_lessons.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/parallel.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 
 #include <fmt/format.h>
 

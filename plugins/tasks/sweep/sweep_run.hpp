@@ -3,6 +3,7 @@
 
 #include "run/prepared.hpp"
 #include "run/progress.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 
 #include <hauberk/results/sweep.hpp>
 

@@ -2,6 +2,7 @@
 #include "run/labels.hpp"
 #include "run/limit_tasks.hpp"
 #include "tasks/sweep/sweep_run.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -15,12 +16,13 @@ namespace {
 class SweepTask final : public TaskRun {
  public:
   SweepTask(const Prepared& prepared, Diagnostics& diagnostics)
-      : prepared_(prepared), table_(empty_table(prepared.experiment.sweep.value()))
+      : prepared_(prepared), table_(empty_table(*prepared.experiment.section<ExperimentSweep>()))
   {
     const Experiment& e = prepared.experiment;
-    readings_.reserve(e.sweep->row_count());
-    for (std::size_t row = 0; row < e.sweep->row_count(); ++row)
-      readings_.push_back(read_sweep_row(*e.sweep, row, e.name, prepared.lookup, diagnostics));
+    const auto& sweep = *e.section<ExperimentSweep>();
+    readings_.reserve(sweep.row_count());
+    for (std::size_t row = 0; row < sweep.row_count(); ++row)
+      readings_.push_back(read_sweep_row(sweep, row, e.name, prepared.lookup, diagnostics));
   }
 
   std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }

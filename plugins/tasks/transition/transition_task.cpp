@@ -2,6 +2,7 @@
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/nearest_node.hpp"
+#include "tasks/transition/transition_section.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/results/transition.hpp>
@@ -22,7 +23,7 @@ std::string jump_text(const TransitionJump& jump)
 
 TransitionSpec transition_spec(const Prepared& prepared)
 {
-  const ExperimentTransition& from = prepared.experiment.transition.value();
+  const ExperimentTransition& from = *prepared.experiment.section<ExperimentTransition>();
   const double length = prepared.model.length;
   TransitionSpec spec;
   spec.model = &prepared.model;
@@ -69,16 +70,31 @@ std::string transition_summary(const TransitionResult& result)
   return text;
 }
 
+bool only_tori(const Model& model)
+{
+  return std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+    return body.kind != PrimitiveKind::curve_tube && body.kind != PrimitiveKind::triangle_mesh;
+  });
+}
+
 class TransitionTask final : public TaskRun {
  public:
   TransitionTask(const Prepared& prepared, Diagnostics& diagnostics)
       : prepared_(prepared), spec_(transition_spec(prepared))
   {
     const Experiment& e = prepared.experiment;
+    if (!only_tori(prepared.model)) {
+      diagnostics.problems.add(
+          nearest_node(e.resolved, "/task"),
+          "this scene has elements that are triangle meshes or tubes around curves, and task "
+          "'transition' knows tori only; use task limits");
+      return;
+    }
     for (const auto& [path, problem] : transition_problems(spec_)) {
       const std::string pointer = fmt::format("/transition/paths/{}", path);
-      diagnostics.problems.add(nearest_node(e.resolved, pointer),
-                               fmt::format("path '{}': {}", e.transition->paths[path].name, problem));
+      diagnostics.problems.add(
+          nearest_node(e.resolved, pointer),
+          fmt::format("path '{}': {}", e.section<ExperimentTransition>()->paths[path].name, problem));
     }
   }
 

@@ -1,6 +1,7 @@
 /// The section chart: scenes, methods, settings, and what is wrong with them.
 
 #include "fake_plugins.hpp"
+#include "tasks/chart/chart_section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ TEST(Chart, ReadsScenesAndMethods)
 {
   const Experiment e = read_ok(text());
   EXPECT_EQ(e.task, "chart");
-  const ExperimentChart& c = *e.chart;
+  const ExperimentChart& c = *e.section<ExperimentChart>();
   EXPECT_EQ(c.repeats, 5);
   EXPECT_EQ(c.threads, (std::vector<int>{1, 0}));
   ASSERT_EQ(c.scenes.size(), 2U);
@@ -42,24 +43,26 @@ TEST(Chart, ReadsScenesAndMethods)
   EXPECT_EQ(c.methods[1].labels, std::vector<std::string>{""}) << "one setting";
   EXPECT_EQ(c.methods[1].scenes, std::vector<std::size_t>{1});
   const Experiment one = read_ok(text(with(section, "[0.5, null]", "0.5")));
-  EXPECT_EQ(one.chart->scenes[0].exact, std::vector<std::optional<double>>{0.5});
+  EXPECT_EQ(one.section<ExperimentChart>()->scenes[0].exact, std::vector<std::optional<double>>{0.5});
 }
 
 TEST(Chart, APointIsAnOrdinaryExperiment)
 {
   const Experiment e = read_ok(text());
   Diagnostics diagnostics;
-  const VariantReading point = read_chart_setting(*e.chart, 0, 0, 1, fake_lookup, diagnostics);
+  const VariantReading point =
+      read_chart_setting(*e.section<ExperimentChart>(), 0, 0, 1, fake_lookup, diagnostics);
   ASSERT_TRUE(point.experiment) << point.refusal << diagnostics.text();
   EXPECT_EQ(point.experiment->name, "thin, arc, 1e-04");
   EXPECT_EQ(point.experiment->task, "limits");
-  EXPECT_FALSE(point.experiment->chart);
+  EXPECT_FALSE(point.experiment->section<ExperimentChart>());
   EXPECT_EQ(point.experiment->scene.elements[0].parameters[1], 0.25);
   EXPECT_EQ(point.experiment->solver.contact, "arc");
   EXPECT_EQ(point.experiment->solver.tolerance, 1e-4);
   EXPECT_EQ(point.experiment->solver.starts, 4);
   EXPECT_EQ(point.experiment->seed, 4U);
-  const VariantReading reference = read_chart_scene(*e.chart, 1, fake_lookup, diagnostics);
+  const VariantReading reference =
+      read_chart_scene(*e.section<ExperimentChart>(), 1, fake_lookup, diagnostics);
   ASSERT_TRUE(reference.experiment);
   EXPECT_EQ(reference.experiment->solver.starts, 7);
   EXPECT_EQ(diagnostics.text(), "");
@@ -103,7 +106,8 @@ TEST(Chart, MistakesOfFormInAPointNameIt)
 {
   const Experiment e = read_ok(text(with(section, "/solver/contact", "/solver/contract")));
   Diagnostics diagnostics;
-  EXPECT_FALSE(read_chart_setting(*e.chart, 0, 0, 1, fake_lookup, diagnostics).experiment);
+  EXPECT_FALSE(
+      read_chart_setting(*e.section<ExperimentChart>(), 0, 0, 1, fake_lookup, diagnostics).experiment);
   EXPECT_NE(
       diagnostics.text().find("scene 'thin', method 'arc', setting '1e-04': unknown key 'contract'; did you "
                               "mean 'contact'?"),

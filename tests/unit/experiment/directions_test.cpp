@@ -1,6 +1,7 @@
 /// load_case.directions: what is read, and what is refused.
 
 #include "fake_plugins.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -89,10 +90,10 @@ TEST(Directions, NameTheColumnsOfASweep)
     { "name": "R", "pointers": [{ "pointer": "/elements/link/parameters/ring.R" }], "values": [4, 5] } ] },
   "solver")");
   const Experiment e = read_ok(swept);
-  ASSERT_EQ(e.sweep->measure.size(), 2U);
-  EXPECT_EQ(e.sweep->measure[0].name, "along (1, 0, 0)");
-  EXPECT_EQ(e.sweep->measure[1].name, "along (0, 0.5, 0.25)");
-  EXPECT_EQ(e.sweep->measure[1].pointer, "/limits/1/value");
+  ASSERT_EQ(e.section<ExperimentSweep>()->measure.size(), 2U);
+  EXPECT_EQ(e.section<ExperimentSweep>()->measure[0].name, "along (1, 0, 0)");
+  EXPECT_EQ(e.section<ExperimentSweep>()->measure[1].name, "along (0, 0.5, 0.25)");
+  EXPECT_EQ(e.section<ExperimentSweep>()->measure[1].pointer, "/limits/1/value");
 }
 
 }  // namespace

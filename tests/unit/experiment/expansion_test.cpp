@@ -1,9 +1,11 @@
 /// From a correct file to plain types and kernel structs, and back to a file.
 
 #include "fake_plugins.hpp"
+#include "tasks/design/design_section.hpp"
+#include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/experiment/json_writer.hpp>
+#include "document/json_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -108,10 +110,10 @@ TEST(Expansion, ResolvesSettingsAndDefaults)
   EXPECT_EQ(e.solver.starts, 1);
   EXPECT_EQ(e.solver.start_seed, 1u);
   EXPECT_FALSE(e.solver.max_stages);
-  EXPECT_EQ(e.design->optimizer_plugin, "search");
-  EXPECT_EQ(e.design->quantity, "eta");
-  ASSERT_EQ(e.design->targets.size(), 1u);
-  EXPECT_EQ(e.design->targets[0].weight, 1.0);
+  EXPECT_EQ(e.section<ExperimentDesign>()->optimizer_plugin, "search");
+  EXPECT_EQ(e.section<ExperimentDesign>()->quantity, "eta");
+  ASSERT_EQ(e.section<ExperimentDesign>()->targets.size(), 1u);
+  EXPECT_EQ(e.section<ExperimentDesign>()->targets[0].weight, 1.0);
   EXPECT_EQ(e.resolved.at("design").at("optimizer").at("steps").number, 40.0);
   EXPECT_EQ(e.resolved.at("load_case").at("measure").string, "tensor");
   EXPECT_EQ(e.resolved.at("elements").at("link").at("parameters").at("count").number, 1.0);
@@ -131,7 +133,7 @@ TEST(Expansion, VariablesPerElementTypeAndAll)
     const Experiment e = read_ok(with(text, "{ \"parameters\": \"ring.R\",",
                                       "{ \"parameters\": " + parameters + ", \"per\": \"" + per + "\","));
     std::string out;
-    for (const ExperimentVariable& variable : e.design->variables) {
+    for (const ExperimentVariable& variable : e.section<ExperimentDesign>()->variables) {
       out += variable.name + ":";
       for (const ParameterRef& ref : variable.parameters) {
         out += " (" + std::to_string(ref.element) + "," + std::to_string(ref.parameter) + ")";
@@ -153,10 +155,10 @@ TEST(Expansion, AListOfParametersGivesAVariableEach)
   const Experiment e =
       read_ok(with(valid_text(), "{ \"parameters\": \"ring.R\", \"lower\": 4.0",
                    "{ \"parameters\": [\"ring.r\", \"ring.R\"], \"per\": \"all\", \"lower\": 0.5"));
-  ASSERT_EQ(e.design->variables.size(), 2u);
-  EXPECT_EQ(e.design->variables[0].name, "*/ring.r");
-  EXPECT_EQ(e.design->variables[0].initial, 0.7);
-  EXPECT_EQ(e.design->variables[1].name, "*/ring.R");
+  ASSERT_EQ(e.section<ExperimentDesign>()->variables.size(), 2u);
+  EXPECT_EQ(e.section<ExperimentDesign>()->variables[0].name, "*/ring.r");
+  EXPECT_EQ(e.section<ExperimentDesign>()->variables[0].initial, 0.7);
+  EXPECT_EQ(e.section<ExperimentDesign>()->variables[1].name, "*/ring.R");
 }
 
 TEST(Expansion, ADesignWithoutDirectionsUsesThoseOfItsTargets)
@@ -181,12 +183,14 @@ void expect_same(const Experiment& a, const Experiment& b)
   EXPECT_EQ(a.scene.lattice, b.scene.lattice);
   EXPECT_EQ(a.directions_deg, b.directions_deg);
   EXPECT_EQ(a.senses, b.senses);
-  ASSERT_EQ(a.design.has_value(), b.design.has_value());
-  if (!a.design) return;
-  ASSERT_EQ(a.design->variables.size(), b.design->variables.size());
-  for (std::size_t k = 0; k < a.design->variables.size(); ++k) {
-    EXPECT_EQ(a.design->variables[k].name, b.design->variables[k].name);
-    EXPECT_EQ(a.design->variables[k].initial, b.design->variables[k].initial);
+  ASSERT_EQ(a.section<ExperimentDesign>() != nullptr, b.section<ExperimentDesign>() != nullptr);
+  if (!a.section<ExperimentDesign>()) return;
+  ASSERT_EQ(a.section<ExperimentDesign>()->variables.size(), b.section<ExperimentDesign>()->variables.size());
+  for (std::size_t k = 0; k < a.section<ExperimentDesign>()->variables.size(); ++k) {
+    EXPECT_EQ(a.section<ExperimentDesign>()->variables[k].name,
+              b.section<ExperimentDesign>()->variables[k].name);
+    EXPECT_EQ(a.section<ExperimentDesign>()->variables[k].initial,
+              b.section<ExperimentDesign>()->variables[k].initial);
   }
 }
 
@@ -274,7 +278,8 @@ TEST(Expansion, DamagedExperimentsNeverCrashTheReader)
       }
     }
     Diagnostics diagnostics;
-    const auto experiment = read_experiment({"t.json", text, {}}, fake_lookup, diagnostics);
+    const auto experiment =
+        read_experiment({"t.json", text, {}, {}, {}, task_formats()}, fake_lookup, diagnostics);
     EXPECT_EQ(experiment.has_value(), diagnostics.empty());
     refused += !diagnostics.empty();
   }
@@ -289,7 +294,7 @@ TEST(Expansion, ASceneBecomesAnExperimentOfItsOwn)
   const Experiment written = read_ok(write_json(scene_experiment(e, scene, "pair_designed")));
   EXPECT_EQ(written.name, "pair_designed");
   EXPECT_EQ(written.task, "limits");
-  EXPECT_FALSE(written.design);
+  EXPECT_FALSE(written.section<ExperimentDesign>());
   EXPECT_EQ(written.directions_deg, e.directions_deg);
   ASSERT_EQ(written.scene.elements.size(), 4u);
   EXPECT_EQ(written.scene.elements[3].parameters, (std::vector<double>{5.3, 0.7, 1.0}));
@@ -305,7 +310,7 @@ TEST(Expansion, Files)
 {
   const std::string missing = ::testing::TempDir() + "no_such_experiment.json";
   try {
-    load_experiment(missing, {}, fake_lookup);
+    load_experiment(missing, {}, fake_lookup, task_formats());
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()), "cannot read '" + missing + "': No such file or directory");
@@ -313,9 +318,9 @@ TEST(Expansion, Files)
   EXPECT_THROW(read_text_file(::testing::TempDir()), InputError);
   const std::string path = ::testing::TempDir() + "experiment_test.json";
   std::ofstream(path) << valid_text();
-  EXPECT_EQ(load_experiment(path, {}, fake_lookup).name, "pair");
+  EXPECT_EQ(load_experiment(path, {}, fake_lookup, task_formats()).name, "pair");
   try {
-    load_experiment(path, {"/seed=-1"}, fake_lookup);
+    load_experiment(path, {"/seed=-1"}, fake_lookup, task_formats());
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "command line: /seed: expected an integer >= 0, found -1");

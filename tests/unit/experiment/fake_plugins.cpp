@@ -1,4 +1,5 @@
 #include "fake_plugins.hpp"
+#include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -251,7 +252,7 @@ std::string problems_of(const std::string& text, const std::vector<std::string>&
 {
   Diagnostics diagnostics;
   const std::optional<Experiment> experiment =
-      read_experiment({"t.json", text, overrides}, fake_lookup, diagnostics);
+      read_experiment({"t.json", text, overrides, {}, {}, task_formats()}, fake_lookup, diagnostics);
   EXPECT_EQ(experiment.has_value(), diagnostics.empty());
   return diagnostics.text();
 }
@@ -260,7 +261,7 @@ Experiment read_ok(const std::string& text, const std::vector<std::string>& over
 {
   Diagnostics diagnostics;
   std::optional<Experiment> experiment =
-      read_experiment({"t.json", text, overrides}, fake_lookup, diagnostics);
+      read_experiment({"t.json", text, overrides, {}, {}, task_formats()}, fake_lookup, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   if (!experiment) throw std::runtime_error("no experiment");
   return std::move(*experiment);

@@ -1,6 +1,6 @@
-#include <hauberk/experiment/diagnostics.hpp>
-#include <hauberk/experiment/json_writer.hpp>
-#include <hauberk/experiment/jsonc.hpp>
+#include "document/jsonc.hpp"
+#include "document/diagnostics.hpp"
+#include "document/json_writer.hpp"
 
 #include <gtest/gtest.h>
 

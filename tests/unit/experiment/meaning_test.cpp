@@ -1,6 +1,7 @@
 /// Messages about meaning: references, geometry, bounds, clearances. One edit of a correct file each.
 
 #include "fake_plugins.hpp"
+#include "tasks/design/design_section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -161,8 +162,8 @@ TEST(Meaning, DesignClearances)
       "t.json:16: /design/hole_clearance: expected at least solver.clearance, which is 0.2, found 0.1\n"
       "t.json:16: /design/rest_clearance: expected at least solver.clearance, which is 0.2, found 0.15");
   const Experiment experiment = read_ok(text);
-  EXPECT_EQ(experiment.design->hole_clearance, 0.2);
-  EXPECT_EQ(experiment.design->rest_clearance, 0.2);
+  EXPECT_EQ(experiment.section<ExperimentDesign>()->hole_clearance, 0.2);
+  EXPECT_EQ(experiment.section<ExperimentDesign>()->rest_clearance, 0.2);
 }
 
 TEST(Meaning, DesignVariables)

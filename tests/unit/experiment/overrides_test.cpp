@@ -2,7 +2,7 @@
 
 #include "fake_plugins.hpp"
 
-#include <hauberk/experiment/jsonc.hpp>
+#include "document/jsonc.hpp"
 
 #include <gtest/gtest.h>
 

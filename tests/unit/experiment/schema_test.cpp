@@ -4,9 +4,10 @@
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/experiment/fields.hpp>
-#include <hauberk/experiment/json_writer.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/registry.hpp>
+#include "document/json_writer.hpp"
+#include "tasks/table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,12 +50,13 @@ void expect_file(const std::string& path, const std::string& text)
 TEST(Schema, CheckedInFileIsUpToDate)
 {
   expect_file(HAUBERK_SOURCE_DIR "/share/schema/experiment.schema.json",
-              write_json(experiment_schema(own_plugins())) + "\n");
+              write_json(experiment_schema(own_plugins(), task_formats())) + "\n");
 }
 
 TEST(Schema, CheckedInReferenceIsUpToDate)
 {
-  expect_file(HAUBERK_SOURCE_DIR "/share/doc/experiment.md", experiment_reference(own_plugins()));
+  expect_file(HAUBERK_SOURCE_DIR "/share/doc/experiment.md",
+              experiment_reference(own_plugins(), task_formats()));
 }
 
 TEST(Schema, HoldsWhatAFieldDeclares)
@@ -115,14 +117,15 @@ TEST(Schema, ShippedExperimentsAreCorrect)
       if (entry.path().extension() != ".json") continue;
       SCOPED_TRACE(entry.path().string());
       Diagnostics diagnostics;
-      const auto experiment =
-          read_experiment({entry.path(), read_text_file(entry.path()), {}, weaves}, lookup, diagnostics);
+      const auto experiment = read_experiment(
+          {entry.path(), read_text_file(entry.path()), {}, weaves, {}, task_formats()}, lookup, diagnostics);
       EXPECT_EQ(diagnostics.text(), "");
       if (experiment) {
         Diagnostics again;
         // Beside it, as files of plugins are relative to it.
         const std::string beside = entry.path().parent_path() / "resolved";
-        EXPECT_TRUE(read_experiment({beside, write_json(experiment->resolved), {}, weaves}, lookup, again))
+        EXPECT_TRUE(read_experiment(
+            {beside, write_json(experiment->resolved), {}, weaves, {}, task_formats()}, lookup, again))
             << again.text();
       }
       ++count;

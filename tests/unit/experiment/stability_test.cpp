@@ -1,6 +1,8 @@
 /// Families and methods of a stability experiment, and the ordinary experiments made of them.
 
 #include "fake_plugins.hpp"
+#include "tasks/design/design_section.hpp"
+#include "tasks/stability/stability_section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,14 +24,15 @@ std::string text(const std::string& what = section)
 VariantReading read_member(const Experiment& e, std::size_t member, std::size_t method,
                            Diagnostics& diagnostics)
 {
-  return read_stability_member(*e.stability, 0, member, method, fake_lookup, diagnostics);
+  return read_stability_member(*e.section<ExperimentStability>(), 0, member, method, fake_lookup,
+                               diagnostics);
 }
 
 TEST(Stability, ReadsFamiliesAndMethods)
 {
   const Experiment e = read_ok(text());
   EXPECT_EQ(e.task, "stability");
-  const ExperimentStability& s = *e.stability;
+  const ExperimentStability& s = *e.section<ExperimentStability>();
   EXPECT_EQ(s.tolerance, 1e-6);
   ASSERT_EQ(s.methods.size(), 2U);
   EXPECT_EQ(s.methods[1].set.at(0).pointer, "/solver/contact");
@@ -50,8 +53,8 @@ TEST(Stability, AMemberIsAnOrdinaryExperiment)
   const Experiment& m = *reading.experiment;
   EXPECT_EQ(m.name, "thin, 0.5, arc");
   EXPECT_EQ(m.task, "limits");
-  EXPECT_FALSE(m.stability);
-  EXPECT_FALSE(m.design);
+  EXPECT_FALSE(m.section<ExperimentStability>());
+  EXPECT_FALSE(m.section<ExperimentDesign>());
   EXPECT_EQ(m.solver.contact, "arc");
   EXPECT_EQ(m.solver.starts, 3);
   EXPECT_EQ(m.solver.start_seed, 7U) << "defaults follow what the member sets";

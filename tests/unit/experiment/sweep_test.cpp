@@ -1,8 +1,10 @@
 /// The section sweep: rows, values, names, and what is wrong with it; and cell.weave.
 
 #include "fake_plugins.hpp"
+#include "tasks/sweep/sweep_section.hpp"
+#include "tasks/table.hpp"
 
-#include <hauberk/experiment/json_writer.hpp>
+#include "document/json_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,17 +28,17 @@ std::string after(const std::string& from, const std::string& to)
 
 VariantReading read_row(const Experiment& e, std::size_t row, Diagnostics& diagnostics)
 {
-  return read_sweep_row(*e.sweep, row, e.name, fake_lookup, diagnostics);
+  return read_sweep_row(*e.section<ExperimentSweep>(), row, e.name, fake_lookup, diagnostics);
 }
 
 TEST(Sweep, RowsAreAllCombinationsTheLastTheFastest)
 {
   const Experiment e = read_ok(text());
   EXPECT_EQ(e.task, "sweep");
-  ASSERT_EQ(e.sweep->row_count(), 6U);
-  EXPECT_EQ(e.sweep->indices(0), (std::vector<std::size_t>{0, 0}));
-  EXPECT_EQ(e.sweep->indices(5), (std::vector<std::size_t>{1, 2}));
-  const std::vector<Node>& x = e.sweep->axes[1].values;
+  ASSERT_EQ(e.section<ExperimentSweep>()->row_count(), 6U);
+  EXPECT_EQ(e.section<ExperimentSweep>()->indices(0), (std::vector<std::size_t>{0, 0}));
+  EXPECT_EQ(e.section<ExperimentSweep>()->indices(5), (std::vector<std::size_t>{1, 2}));
+  const std::vector<Node>& x = e.section<ExperimentSweep>()->axes[1].values;
   EXPECT_EQ(x[0].number, 4.0);
   EXPECT_DOUBLE_EQ(x[1].number, 8.0) << "the geometric mean";
   EXPECT_EQ(x[2].number, 16.0);
@@ -47,31 +49,33 @@ TEST(Sweep, RowsAreAllCombinationsTheLastTheFastest)
   EXPECT_EQ(row.experiment->seed, 5U) << "2 x 2 + 1";
   EXPECT_DOUBLE_EQ(row.experiment->scene.elements[1].rest.position.x(), 8.0);
   EXPECT_EQ(row.experiment->task, "limits");
-  EXPECT_FALSE(row.experiment->sweep.has_value());
+  EXPECT_EQ(row.experiment->section<ExperimentSweep>(), nullptr);
 }
 
 TEST(Sweep, MeasuresAllLimitsUnlessItSaysWhat)
 {
   const Experiment e = read_ok(text());
-  ASSERT_EQ(e.sweep->measure.size(), 4U);
-  EXPECT_EQ(e.sweep->measure[0].name, "stretch 0");
-  EXPECT_EQ(e.sweep->measure[3].name, "compress 30");
-  EXPECT_EQ(e.sweep->measure[3].pointer, "/limits/3/value");
+  ASSERT_EQ(e.section<ExperimentSweep>()->measure.size(), 4U);
+  EXPECT_EQ(e.section<ExperimentSweep>()->measure[0].name, "stretch 0");
+  EXPECT_EQ(e.section<ExperimentSweep>()->measure[3].name, "compress 30");
+  EXPECT_EQ(e.section<ExperimentSweep>()->measure[3].pointer, "/limits/3/value");
   const Experiment turned = read_ok(text(with(section, "\"/seed\"", "\"/load_case/directions_deg/0\"")));
-  EXPECT_EQ(turned.sweep->measure[0].name, "stretch in direction 1") << "0 degrees in no row";
+  EXPECT_EQ(turned.section<ExperimentSweep>()->measure[0].name, "stretch in direction 1")
+      << "0 degrees in no row";
   for (const char* touched : {"/load_case/senses", "/load_case/plugin", "/load_case"}) {
     // Read only: what the rows would be does not matter here.
     const Experiment other =
         read_ok(with(text(with(section, "\"/seed\"", std::string("\"") + touched + "\"")),
                      "\"plugin\": \"plane\"", R"("plugin": "plane", "senses": ["stretch"])"));
-    ASSERT_EQ(other.sweep->measure.size(), 2U);
-    EXPECT_EQ(other.sweep->measure[1].name, "limit 2") << "not the same sense in every row: " << touched;
+    ASSERT_EQ(other.section<ExperimentSweep>()->measure.size(), 2U);
+    EXPECT_EQ(other.section<ExperimentSweep>()->measure[1].name, "limit 2")
+        << "not the same sense in every row: " << touched;
   }
   const Experiment chosen =
       read_ok(text(with(section, "\"sweep\": {",
                         R"("sweep": { "measure": [{ "name": "eta", "pointer": "/profiles/0/eta" }],)")));
-  ASSERT_EQ(chosen.sweep->measure.size(), 1U);
-  EXPECT_EQ(chosen.sweep->measure[0].name, "eta");
+  ASSERT_EQ(chosen.section<ExperimentSweep>()->measure.size(), 1U);
+  EXPECT_EQ(chosen.section<ExperimentSweep>()->measure[0].name, "eta");
 }
 
 TEST(Sweep, ReportsWhatMakesNoSense)
@@ -146,7 +150,9 @@ std::optional<Experiment> read_weave(const std::string& tail, Diagnostics& diagn
  "load_case": { "plugin": "plane", "directions_deg": [0] })" +
                               tail + "}",
                           {},
-                          weaves},
+                          weaves,
+                          {},
+                          task_formats()},
                          fake_lookup, diagnostics);
 }
 

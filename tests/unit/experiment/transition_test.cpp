@@ -1,6 +1,7 @@
 /// The section transition: values, defaults, and what is wrong with it.
 
 #include "fake_plugins.hpp"
+#include "tasks/transition/transition_section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ TEST(Transition, ReadsPathsAndFillsDefaults)
 {
   const Experiment e = read_ok(text());
   EXPECT_EQ(e.task, "transition");
-  const ExperimentTransition& t = *e.transition;
+  const ExperimentTransition& t = *e.section<ExperimentTransition>();
   EXPECT_EQ(t.fixed, 0);
   EXPECT_EQ(t.moving, 1);
   EXPECT_EQ(t.activation_distance, 0.1);
@@ -46,7 +47,7 @@ TEST(Transition, RangeIsBeyondTheClearance)
 {
   const Experiment e =
       read_ok(with(text(), "\"tolerance\": 1e-3", "\"tolerance\": 1e-3, \"clearance\": 0.5"));
-  EXPECT_DOUBLE_EQ(e.transition->range, 0.8);
+  EXPECT_DOUBLE_EQ(e.section<ExperimentTransition>()->range, 0.8);
 }
 
 TEST(Transition, ReportsWhatMakesNoSense)

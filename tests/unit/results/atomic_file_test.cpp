@@ -1,5 +1,5 @@
+#include "document/atomic_file.hpp"
 #include <hauberk/error.hpp>
-#include <hauberk/results/atomic_file.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

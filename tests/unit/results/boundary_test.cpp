@@ -4,7 +4,7 @@
 #include <hauberk/results/csv.hpp>
 #include <hauberk/results/direction_json.hpp>
 #include <hauberk/results/document.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

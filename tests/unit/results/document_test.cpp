@@ -2,7 +2,7 @@
 #include <hauberk/results/csv.hpp>
 #include <hauberk/results/designed_experiment.hpp>
 #include <hauberk/results/document.hpp>
-#include <hauberk/results/json_text.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/value.hpp>

@@ -1,5 +1,5 @@
+#include "document/json_text.hpp"
 #include <hauberk/error.hpp>
-#include <hauberk/results/json_text.hpp>
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>

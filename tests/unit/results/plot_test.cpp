@@ -1,6 +1,6 @@
-#include <hauberk/results/json_text.hpp>
 #include <hauberk/results/polar_svg.hpp>
 #include <hauberk/results/sweep.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/results/document.hpp>
-#include <hauberk/results/json_text.hpp>
 #include <hauberk/results/report.hpp>
+#include "document/json_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 /// A report of many results: designs and limits in one text, one table and one page of plots.
 
 #include <hauberk/results.hpp>
-#include <hauberk/results/atomic_file.hpp>
+#include "document/atomic_file.hpp"
 
 #include <boost/json/value.hpp>
 

@@ -57,7 +57,8 @@ struct FailedSearch {
 ///
 /// Words: `confirmed`: independent searches ended here, or a relation that must hold between true limits
 /// does; `single`: one search ended here; `contradicted`: a relation that must hold does not, or a search
-/// that failed came further; `none`: there is no locked state.
+/// that failed came further; `none`: there is no locked state. In partial results also `alone`: the limit's
+/// own searches are done, others may still teach it; and `unfinished`: it was learning from others.
 struct Confidence {
   std::string word = "none";
   int searches = 0;    ///< all of them
@@ -65,6 +66,9 @@ struct Confidence {
   int distinct = 0;    ///< locked states of the fabric that were found
   std::vector<std::string> confirmed_by, contradicted_by;
   std::vector<FailedSearch> failed_searches;
+
+  /// Nothing of the run that this is of can change it.
+  bool is_final() const { return word != "alone" && word != "unfinished"; }
 };
 
 /// A state of the motion that shows that nothing stops a load.

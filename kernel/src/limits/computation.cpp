@@ -41,6 +41,7 @@ struct TaskState {
   std::size_t missing = 0;          ///< starts not done
   bool narrow = false;              ///< the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
+  bool learning = false;            ///< others have taught it something, or have begun to
 
   bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
 };
@@ -80,13 +81,16 @@ class Computation {
   std::vector<LimitResult> run(unsigned threads, const std::vector<std::optional<LimitResult>>& known)
   {
     std::vector<std::pair<std::size_t, std::size_t>> items;  // task, start
-    const bool complete = known.size() == asked_ && std::all_of(known.begin(), known.end(),
-                                                                [](const auto& r) { return r.has_value(); });
+    const bool complete =
+        known.size() == asked_ && std::all_of(known.begin(), known.end(), [](const auto& r) {
+          return r.has_value() && r->confidence.is_final();
+        });
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
       // What was learnt from other limits is learnt again unless all is known: then nothing depends on
       // where a run was interrupted.
       std::optional<LimitResult> there;
       if (k < known.size() && known[k] && (complete || !learnt(*known[k]))) there = known[k];
+      if (there && there->confidence.word == "unfinished") there.reset();
       if (there || (complete && k >= asked_)) {
         if (there) results_[k] = std::move(*there);
         states_[k].known = true;
@@ -110,8 +114,10 @@ class Computation {
     if (unfinished_ == 0 && !complete) {
       const Donors donors(model_, tasks_);
       if (settings_.lessons && inherit(donors, threads)) learn(donors, threads);
-      enter_relations(results_, model_, settings_, tasks_, donors);
+      if (going()) enter_relations(results_, model_, settings_, tasks_, donors);
+      ended_ = going();
     }
+    ended_ = ended_ || complete;
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
     if (observer_.on_unreported) {
@@ -128,8 +134,7 @@ class Computation {
       }
       observer_.on_states(states);
     }
-    results_.resize(asked_);
-    return std::move(results_);
+    return so_far();
   }
 
  private:
@@ -142,10 +147,20 @@ class Computation {
 
   bool going() const { return !observer_.keep_going || observer_.keep_going(); }
 
+  /// Results of the limits asked for, as far as they are.
+  std::vector<LimitResult> so_far() const
+  {
+    std::vector<LimitResult> out(results_.begin(), results_.begin() + static_cast<std::ptrdiff_t>(asked_));
+    for (std::size_t k = 0; k < asked_ && !ended_; ++k) {
+      if (out[k].confidence.word != "none")
+        out[k].confidence.word = states_[k].learning ? "unfinished" : "alone";
+    }
+    return out;
+  }
+
   void tell() const
   {
-    if (observer_.on_limit)
-      observer_.on_limit({results_.begin(), results_.begin() + static_cast<std::ptrdiff_t>(asked_)});
+    if (observer_.on_limit) observer_.on_limit(so_far());
   }
 
   /// Begun from the state of another limit.
@@ -468,6 +483,7 @@ class Computation {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::size_t k = items[i].first;
       if (found[i]) states_[k].further.push_back(std::move(*found[i]));
+      states_[k].learning = true;
       results_[k] = result_of(k);
     }
     return true;
@@ -515,6 +531,7 @@ class Computation {
       for (std::size_t i = 0; i < lessons.size(); ++i) {
         const std::size_t task = lessons[i].learner;
         if (found[i]) states_[task].further.push_back(std::move(*found[i]));
+        states_[task].learning = true;
         results_[task] = result_of(task);
       }
     }
@@ -544,6 +561,7 @@ class Computation {
   std::mutex mutex_;  ///< guards all below
   std::vector<TaskState> states_;
   std::size_t unfinished_ = 0, unfinished_asked_ = 0;  ///< tasks
+  bool ended_ = false;                                 ///< nothing more will be learnt
   std::vector<LimitResult> results_;
   std::vector<LimitResult> unreported_;  ///< of scenes that this one contains
 };

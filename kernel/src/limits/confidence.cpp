@@ -89,7 +89,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
 {
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     LimitResult& own = results[k];
-    if (own.status != LimitStatus::locked || !own.value || own.resumed) continue;
+    if (own.status != LimitStatus::locked || !own.value) continue;
     const double value = towards(m, tasks[k], own);
     double most = 0.0;  // by which any state is further
     std::string furthest;

@@ -19,6 +19,21 @@ std::optional<double> optional_number(const json::value& v)
 
 std::string text(const json::value& v) { return std::string(v.as_string()); }
 
+Confidence read_confidence(const json::value& entry)
+{
+  Confidence c;
+  c.word = text(entry.at("word"));
+  c.searches = entry.at("searches").to_number<int>();
+  c.ended_here = entry.at("ended_here").to_number<int>();
+  c.distinct = entry.at("distinct").to_number<int>();
+  for (const json::value& by : entry.at("confirmed_by").as_array()) c.confirmed_by.push_back(text(by));
+  for (const json::value& by : entry.at("contradicted_by").as_array()) c.contradicted_by.push_back(text(by));
+  for (const json::value& search : entry.at("failed_searches").as_array())
+    c.failed_searches.push_back({text(search.at("origin")), search.at("seed").to_number<std::uint64_t>(),
+                                 text(search.at("status")), optional_number(search.at("reached"))});
+  return c;
+}
+
 /// What tables, plots and profiles need; poses and forces stay in the entry, which is kept as it is.
 std::optional<LimitResult> read_limit(const json::object& entry, const std::vector<std::string>& companions)
 {
@@ -47,8 +62,7 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   r.links_kept = entry.at("links_kept").as_bool();
   r.z_range = number(entry.at("z_range"));
   r.better_state = entry.at("better_state").as_bool();
-  if (const json::value* confidence = entry.if_contains("confidence"))
-    r.confidence.word = text(confidence->at("word"));
+  r.confidence = read_confidence(entry.at("confidence"));
   r.force_balance = optional_number(entry.at("force_balance"));
   // Where states came from: what was learnt from other limits is learnt again.
   for (const json::value& start : entry.at("starts").as_array()) {
@@ -80,7 +94,9 @@ KeptLimits kept_limits(const json::value& results, const Experiment& experiment,
       out.limits.back() = read_limit(o, companions);
       if (out.limits.back()) out.entries.back() = entry;
     }
-    out.complete = out.complete && out.limits.back();
+    if (out.limits.back() && out.limits.back()->confidence.word == "unfinished") out.limits.back().reset();
+    if (!out.limits.back()) out.entries.back() = nullptr;
+    out.complete = out.complete && out.limits.back() && out.limits.back()->confidence.is_final();
   }
   return out;
 }

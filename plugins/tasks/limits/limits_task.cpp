@@ -51,7 +51,10 @@ class LimitsTask final : public TaskRun {
     boost::json::array& limits = results["limits"].as_array();
     for (std::size_t k = 0; k < kept_.entries.size() && k < limits.size(); ++k) {
       // A limit that was there may have learnt from one that was not: then it is a new one.
-      if (run_.limits[k].resumed) limits[k] = kept_.entries[k];
+      if (!run_.limits[k].resumed) continue;
+      const boost::json::value confidence = limits[k].at("confidence");
+      limits[k] = kept_.entries[k];
+      limits[k].as_object()["confidence"] = confidence;  // others may confirm it
     }
   }
 

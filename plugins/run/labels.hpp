@@ -2,7 +2,7 @@
 /// What pictures of an experiment's limits say in words.
 
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/results/polar_svg.hpp>
+#include "pictures/polar_svg.hpp"
 
 namespace hauberk {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <hauberk/results/document.hpp>
+#include "results/document.hpp"
 
 namespace hauberk {
 

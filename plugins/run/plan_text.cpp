@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 #include <boost/json/array.hpp>
 #include <boost/json/value_from.hpp>
-#include <hauberk/results/direction_json.hpp>
+#include "results/direction_json.hpp"
 
 #include <map>
 

@@ -5,7 +5,7 @@
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/registry.hpp>
 #include <hauberk/limits/limits.hpp>
-#include <hauberk/results/document.hpp>
+#include "results/document.hpp"
 
 #include <functional>
 #include <memory>

@@ -12,7 +12,7 @@
 #include "tasks/transition/transition_section.hpp"
 #include "tasks/transition/transition_task.hpp"
 
-#include <hauberk/results/document.hpp>
+#include "results/document.hpp"
 
 #include <algorithm>
 #include <array>

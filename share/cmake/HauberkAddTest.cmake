@@ -15,7 +15,7 @@ function(hauberk_add_test name)
     ${name} PRIVATE HAUBERK_BINARY_DIR="${PROJECT_BINARY_DIR}" HAUBERK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                     ${arg_DEFINITIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin/tests")
-  if(arg_LIBRARIES MATCHES "hauberk::results|hauberk::document|hauberk::run|hauberk::experiment|hauberk::verify|hauberk::stability|hauberk::transition|hauberk::tasks|hauberk_command_parts")
+  if(arg_LIBRARIES MATCHES "hauberk::results|hauberk::document|hauberk::run|hauberk::experiment|hauberk::verify|hauberk::report|hauberk::pictures|hauberk::tasks|hauberk_command_parts")
     hauberk_precompile(${name} JSON TEST)
   else()
     hauberk_precompile(${name} TEST)

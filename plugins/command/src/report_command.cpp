@@ -1,10 +1,10 @@
 #include "dispatch.hpp"
 #include "options.hpp"
 
-#include <hauberk/results/designed_experiment.hpp>
-#include <hauberk/results/document.hpp>
-#include <hauberk/results/report.hpp>
 #include "document/json_text.hpp"
+#include "report/report.hpp"
+#include "results/designed_experiment.hpp"
+#include "results/document.hpp"
 
 #include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>

@@ -1,9 +1,9 @@
 #include "dispatch.hpp"
 #include "options.hpp"
 
-#include <hauberk/results/document.hpp>
 #include <hauberk/verify/verify.hpp>
 #include "document/json_text.hpp"
+#include "results/document.hpp"
 
 #include <fmt/format.h>
 

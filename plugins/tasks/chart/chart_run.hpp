@@ -5,7 +5,7 @@
 #include "tasks/chart/chart_loading.hpp"
 #include "tasks/chart/chart_section.hpp"
 
-#include <hauberk/results/chart.hpp>
+#include "tasks/chart/chart_results.hpp"
 
 #include <functional>
 

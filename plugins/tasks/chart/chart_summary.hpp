@@ -1,5 +1,5 @@
 #pragma once
-#include <hauberk/results/chart.hpp>
+#include "tasks/chart/chart_results.hpp"
 
 #include <string>
 

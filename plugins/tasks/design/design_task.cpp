@@ -16,9 +16,9 @@
 
 #include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
-#include <hauberk/results/designed_experiment.hpp>
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
+#include "results/designed_experiment.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "tasks/task.hpp"
 
-#include <hauberk/results/designed_experiment.hpp>
+#include "results/designed_experiment.hpp"
 
 #include <array>
 

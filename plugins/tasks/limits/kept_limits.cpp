@@ -1,7 +1,7 @@
 #include "tasks/limits/kept_limits.hpp"
 
-#include <hauberk/results/direction_json.hpp>
-#include <hauberk/results/document.hpp>
+#include "results/direction_json.hpp"
+#include "results/document.hpp"
 
 #include <boost/json/array.hpp>
 

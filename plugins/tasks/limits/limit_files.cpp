@@ -1,9 +1,9 @@
 #include "tasks/limits/limit_files.hpp"
 #include "run/labels.hpp"
 
-#include <hauberk/results/boundary.hpp>
-#include <hauberk/results/csv.hpp>
-#include <hauberk/results/polar_svg.hpp>
+#include "pictures/boundary.hpp"
+#include "pictures/polar_svg.hpp"
+#include "results/csv.hpp"
 
 namespace hauberk {
 

@@ -5,9 +5,9 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/parallel.hpp>
-#include <hauberk/stability/check.hpp>
-#include <hauberk/stability/classify.hpp>
 #include "document/json_writer.hpp"
+#include "tasks/stability/classify.hpp"
+#include "tasks/stability/independent_check.hpp"
 
 #include <algorithm>
 #include <mutex>

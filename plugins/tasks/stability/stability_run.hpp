@@ -4,7 +4,7 @@
 #include "run/progress.hpp"
 #include "tasks/stability/stability_loading.hpp"
 
-#include <hauberk/results/stability.hpp>
+#include "tasks/stability/stability_results.hpp"
 
 #include <functional>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-#include <hauberk/results/stability.hpp>
+#include "tasks/stability/stability_results.hpp"
 
 #include <string>
 

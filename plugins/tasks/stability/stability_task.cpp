@@ -6,7 +6,7 @@
 #include "tasks/stability/stability_summary.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/results/direction_json.hpp>
+#include "results/direction_json.hpp"
 
 #include <fmt/format.h>
 

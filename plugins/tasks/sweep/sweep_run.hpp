@@ -5,7 +5,7 @@
 #include "run/progress.hpp"
 #include "tasks/sweep/sweep_section.hpp"
 
-#include <hauberk/results/sweep.hpp>
+#include "tasks/sweep/sweep_results.hpp"
 
 #include <functional>
 

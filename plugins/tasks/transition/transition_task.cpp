@@ -5,8 +5,8 @@
 #include "tasks/transition/transition_section.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/results/transition.hpp>
-#include <hauberk/transition/run.hpp>
+#include "tasks/transition/transition_results.hpp"
+#include "tasks/transition/transition_run.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 /// The boundary on the disk: PLY, read back; picture; table; JSON.
 
-#include <hauberk/results/boundary.hpp>
-#include <hauberk/results/csv.hpp>
-#include <hauberk/results/direction_json.hpp>
-#include <hauberk/results/document.hpp>
+#include "pictures/boundary.hpp"
 #include "document/json_text.hpp"
+#include "results/csv.hpp"
+#include "results/direction_json.hpp"
+#include "results/document.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Errors, Pareto fronts, table and pictures of a chart.
 
-#include <hauberk/results/chart.hpp>
 #include "document/json_text.hpp"
+#include "tasks/chart/chart_results.hpp"
 
 #include <gtest/gtest.h>
 

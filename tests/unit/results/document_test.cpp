@@ -1,8 +1,8 @@
+#include "results/document.hpp"
 #include <hauberk/error.hpp>
-#include <hauberk/results/csv.hpp>
-#include <hauberk/results/designed_experiment.hpp>
-#include <hauberk/results/document.hpp>
 #include "document/json_text.hpp"
+#include "results/csv.hpp"
+#include "results/designed_experiment.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/value.hpp>

@@ -1,6 +1,6 @@
-#include <hauberk/results/polar_svg.hpp>
-#include <hauberk/results/sweep.hpp>
 #include "document/json_text.hpp"
+#include "pictures/polar_svg.hpp"
+#include "tasks/sweep/sweep_results.hpp"
 
 #include <gtest/gtest.h>
 

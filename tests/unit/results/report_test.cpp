@@ -1,9 +1,9 @@
 /// Reports of designs that are made up, so that every figure is known.
 
+#include "report/report.hpp"
 #include <hauberk/error.hpp>
-#include <hauberk/results/document.hpp>
-#include <hauberk/results/report.hpp>
 #include "document/json_text.hpp"
+#include "results/document.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <hauberk/results.hpp>
-#include <hauberk/results/document.hpp>
+#include "results/document.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 /// Outcomes of claims that are right, short, honest and wrong.
 
-#include <hauberk/stability/check.hpp>
-#include <hauberk/stability/classify.hpp>
+#include "tasks/stability/classify.hpp"
+#include "tasks/stability/independent_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Counts, tables and the picture of a map.
 
-#include <hauberk/results/stability.hpp>
 #include "document/json_text.hpp"
+#include "tasks/stability/stability_results.hpp"
 
 #include <gtest/gtest.h>
 

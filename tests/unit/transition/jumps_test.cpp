@@ -1,6 +1,6 @@
 /// Discontinuities of known functions: found however small, and not found where a function is only steep.
 
-#include <hauberk/transition/jumps.hpp>
+#include "tasks/transition/jumps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Rigid motions: end points, and derivatives against differences.
 
-#include <hauberk/transition/motion.hpp>
+#include "tasks/transition/motion.hpp"
 
 #include <gtest/gtest.h>
 

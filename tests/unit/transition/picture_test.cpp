@@ -1,6 +1,6 @@
 /// The document and the picture of a transition.
 
-#include <hauberk/results/transition.hpp>
+#include "tasks/transition/transition_results.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/value.hpp>

@@ -3,8 +3,8 @@
 
 #include "scenes.hpp"
 
-#include <hauberk/transition/evaluation.hpp>
-#include <hauberk/transition/run.hpp>
+#include "tasks/transition/evaluation.hpp"
+#include "tasks/transition/transition_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Contacts keep their number along a path.
 
-#include <hauberk/transition/tracks.hpp>
+#include "tasks/transition/tracks.hpp"
 
 #include <gtest/gtest.h>
 

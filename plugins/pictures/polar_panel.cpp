@@ -1,0 +1,213 @@
+#include "pictures/polar_panel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hauberk::detail {
+namespace {
+
+constexpr double radius = 155.0;  ///< of the outermost ring
+constexpr double title_height = 30.0;
+constexpr double label_margin = 28.0;  ///< room for the degrees around the rings
+constexpr double legend_line = 20.0;
+constexpr double longest_join_deg = 45.0;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+/// Smallest of 1, 2, 2.5, 5 times a power of ten that divides [0, largest] into at most five rings.
+double ring_step(double largest)
+{
+  const double raw = largest / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 2.5, 5.0})
+    if (factor * power >= raw * (1.0 - 1e-12)) return factor * power;
+  return 10.0 * power;
+}
+
+class Diagram {
+ public:
+  Diagram(Svg& svg, Point2 centre, double largest) : svg_(svg), centre_(centre)
+  {
+    step_ = largest > 0.0 ? ring_step(largest) : 0.2;
+    rings_ = largest > 0.0 ? static_cast<int>(std::ceil(largest / step_ * (1.0 - 1e-12))) : 5;
+    rings_ = std::max(rings_, 1);
+  }
+
+  void grid() const
+  {
+    for (int i = 1; i <= rings_; ++i)
+      svg_.circle(centre_, radius * i / rings_, "none",
+                  {i == rings_ ? "#888" : "#ccc", i == rings_ ? 1.0 : 0.7, ""});
+    for (int degrees = 0; degrees < 360; degrees += 30) {
+      svg_.line(centre_, at(degrees, rings_ * step_), {"#ccc", 0.7, ""});
+      const Point2 p = at(degrees, rings_ * step_ * (1.0 + 15.0 / radius));
+      svg_.text({p.x, p.y + 4.0}, fmt::format("{}\u00b0", degrees), 11, "middle");
+    }
+  }
+
+  /// On top of the curves: values along the direction between two spokes.
+  void ring_labels() const
+  {
+    for (int i = 1; i <= rings_; ++i) {
+      const Point2 p = at(75.0, step_ * i);
+      svg_.text({p.x, p.y + 4.0}, fmt::format("{:.4g}", step_ * i), 10, "middle", false, true);
+    }
+  }
+
+  void curve(const Curve& curve) const
+  {
+    if (curve.joined) join(curve);
+    for (const Bar& bar : curve.bars)
+      for (const double turn : {0.0, 180.0})
+        draw_bar(svg_, at(bar.degrees + turn, bar.lowest), at(bar.degrees + turn, bar.highest), curve.stroke);
+    for (const auto& [degrees, value] : curve.points) {
+      const bool hollow = std::find(curve.hollow.begin(), curve.hollow.end(), degrees) != curve.hollow.end();
+      for (const double turn : {0.0, 180.0}) {
+        if (hollow)
+          svg_.circle(at(degrees + turn, value), 3.6, "#fff", {curve.stroke.colour, 1.4, ""});
+        else
+          draw_marker(svg_, at(degrees + turn, value), curve);
+      }
+    }
+  }
+
+  /// Infinity signs in the curve's colour, inside the outermost ring; `row` keeps those of several curves
+  /// apart.
+  void endless(const Curve& curve, int row) const
+  {
+    const double value = rings_ * step_ * (1.0 - (10.0 + 15.0 * row) / radius);
+    for (const double degrees : curve.endless)
+      for (const double turn : {0.0, 180.0}) {
+        const Point2 p = at(degrees + turn, value);
+        svg_.text({p.x, p.y + 5.0}, "\u221e", 15, "middle", true, true, curve.stroke.colour);
+      }
+  }
+
+  static void draw_bar(Svg& svg, Point2 a, Point2 b, const Stroke& stroke)
+  {
+    svg.line(a, b, stroke);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0.0)) return;
+    constexpr double half = 4.0;
+    const Point2 across{-(b.y - a.y) / length * half, (b.x - a.x) / length * half};
+    for (const Point2& end : {a, b})
+      svg.line({end.x - across.x, end.y - across.y}, {end.x + across.x, end.y + across.y}, stroke);
+  }
+
+  static void draw_marker(Svg& svg, Point2 p, const Curve& curve)
+  {
+    switch (curve.marker) {
+      case Curve::Marker::none:
+        break;
+      case Curve::Marker::dot:
+        svg.circle(p, 2.4, curve.stroke.colour, {"#fff", 0.6, ""});
+        break;
+      case Curve::Marker::square:
+        svg.square(p, 2.4, "#fff", {curve.stroke.colour, 1.2, ""});
+        break;
+      case Curve::Marker::target:
+        svg.circle(p, 5.0, curve.stroke.colour, {"#fff", 1.2, ""});
+        break;
+      case Curve::Marker::cross:
+        for (const Stroke& stroke : {Stroke{"#fff", 2.8, ""}, Stroke{curve.stroke.colour, 1.6, ""}}) {
+          constexpr double half = 4.6;
+          svg.line({p.x - half, p.y - half}, {p.x + half, p.y + half}, stroke);
+          svg.line({p.x - half, p.y + half}, {p.x + half, p.y - half}, stroke);
+        }
+        break;
+    }
+  }
+
+ private:
+  Point2 at(double degrees, double value) const
+  {
+    const double r = radius * value / (rings_ * step_);
+    return {centre_.x + r * std::cos(radians(degrees)), centre_.y - r * std::sin(radians(degrees))};
+  }
+
+  /// Joins neighbours around the circle, in runs without interruption.
+  void join(const Curve& curve) const
+  {
+    struct Entry {
+      double degrees, value;
+      bool hole;
+    };
+    std::vector<Entry> entries;
+    for (const double turn : {0.0, 180.0}) {
+      for (const auto& [degrees, value] : curve.points) entries.push_back({degrees + turn, value, false});
+      for (const double degrees : curve.holes) entries.push_back({degrees + turn, 0.0, true});
+    }
+    if (entries.empty()) return;
+    std::sort(entries.begin(), entries.end(), [](auto& a, auto& b) { return a.degrees < b.degrees; });
+    const std::size_t n = entries.size();
+    const auto joined_to_next = [&](std::size_t i) {
+      const Entry &a = entries[i], &b = entries[(i + 1) % n];
+      const double distance = b.degrees - a.degrees + (i + 1 == n ? 360.0 : 0.0);
+      return !a.hole && !b.hole && distance <= longest_join_deg + 1e-9;
+    };
+    std::size_t first = 0;  // just after an interruption, or anywhere when there is none
+    while (first < n && joined_to_next((first + n - 1) % n)) ++first;
+    const bool closed = first == n;
+    std::vector<Point2> run;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = (first + k) % n;
+      if (!entries[i].hole) run.push_back(at(entries[i].degrees, entries[i].value));
+      if ((!closed && !joined_to_next(i)) || k + 1 == n) {
+        if (run.size() > 1) svg_.path(run, closed, curve.stroke);
+        run.clear();
+      }
+    }
+  }
+
+  Svg& svg_;
+  Point2 centre_;
+  double step_ = 1.0;
+  int rings_ = 5;
+};
+
+void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves)
+{
+  double y = corner.y;
+  for (const Curve& curve : curves) {
+    if (curve.joined) svg.line({corner.x, y}, {corner.x + 44.0, y}, curve.stroke);
+    if (!curve.bars.empty()) Diagram::draw_bar(svg, {corner.x + 10.0, y}, {corner.x + 34.0, y}, curve.stroke);
+    Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve);
+    svg.text({corner.x + 54.0, y + 4.0},
+             curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)") +
+                 (curve.hollow.empty() ? "" : " (hollow: in doubt)"),
+             12);
+    y += legend_line;
+  }
+}
+
+}  // namespace
+
+double panel_height(std::size_t entries)
+{
+  return title_height + 2.0 * (radius + label_margin) + 18.0 + legend_line * static_cast<double>(entries);
+}
+
+void draw_panel(Svg& svg, Point2 corner, const Panel& panel)
+{
+  double largest = 0.0;
+  for (const Curve& curve : panel.curves) {
+    for (const auto& [degrees, value] : curve.points) largest = std::max(largest, value);
+    for (const Bar& bar : curve.bars) largest = std::max(largest, bar.highest);
+  }
+  const Point2 centre{corner.x + panel_width / 2.0, corner.y + title_height + label_margin + radius};
+  svg.text({centre.x, corner.y + 14.0}, panel.title, 14, "middle");
+  if (!panel.subtitle.empty()) svg.text({centre.x, corner.y + 30.0}, panel.subtitle, 12, "middle");
+  const Diagram diagram(svg, centre, largest);
+  diagram.grid();
+  for (const Curve& curve : panel.curves) diagram.curve(curve);
+  int row = 0;
+  for (const Curve& curve : panel.curves)
+    if (!curve.endless.empty()) diagram.endless(curve, row++);
+  diagram.ring_labels();
+  draw_legend(svg, {centre.x - radius + 30.0, centre.y + radius + label_margin + 14.0}, panel.curves);
+}
+
+}  // namespace hauberk::detail

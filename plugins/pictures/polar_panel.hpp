@@ -1,0 +1,45 @@
+#pragma once
+/// One polar diagram: rings, spokes, curves, legend.
+
+#include "pictures/svg.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk::detail {
+
+/// A range of values in one direction.
+struct Bar {
+  double degrees = 0.0, lowest = 0.0, highest = 0.0;
+};
+
+/// Values (>= 0) against direction in degrees; only finite ones.
+struct Curve {
+  enum class Marker { none, dot, square, target, cross };
+  std::string label;
+  Stroke stroke;
+  Marker marker = Marker::none;
+  bool joined = true;
+  std::vector<std::pair<double, double>> points;
+  /// Directions that were asked for but have no value: the curve is interrupted there.
+  std::vector<double> holes;
+  /// Those of the holes where there is no limit at all: marked at the rim.
+  std::vector<double> endless;
+  std::vector<double> hollow;  ///< directions whose markers are hollow: values that are in doubt
+  std::vector<Bar> bars;       ///< drawn along their directions, with ends across them
+};
+
+struct Panel {
+  std::string title;
+  std::string subtitle;  ///< below the title, smaller; may be empty
+  std::vector<Curve> curves;
+};
+
+inline constexpr double panel_width = 430.0;
+/// Height of a panel with `entries` lines of legend.
+double panel_height(std::size_t entries);
+
+void draw_panel(Svg& svg, Point2 corner, const Panel& panel);
+
+}  // namespace hauberk::detail

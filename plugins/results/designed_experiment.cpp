@@ -1,0 +1,98 @@
+#include "results/designed_experiment.hpp"
+#include <hauberk/error.hpp>
+#include "document/json_text.hpp"
+
+#include "results/json_parts.hpp"
+
+#include <Eigen/Geometry>
+
+#include <set>
+
+#include <algorithm>
+
+#include <array>
+
+namespace hauberk {
+namespace {
+
+namespace json = boost::json;
+using detail::number;
+
+/// {"axis", "degrees"} of a rotation, as experiments write it.
+json::object rotation_json(const Mat3& rotation)
+{
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(rotation).normalized());
+  json::object out;
+  out["axis"] = detail::vector_json(turn.axis());
+  out["degrees"] = number(turn.angle() / degree);
+  return out;
+}
+
+/// The entry of `elements` for one placed element: its type's entry with all parameters as numbers.
+json::value own_entry(const json::object& elements, const ElementType& type, const PlacedElement& element)
+{
+  json::value entry = elements.at(type.name);
+  json::object& parameters = entry.as_object()["parameters"].emplace_object();
+  const auto& infos = type.shape->parameters();
+  for (std::size_t i = 0; i < infos.size() && i < element.parameters.size(); ++i)
+    parameters[infos[i].name] = number(element.parameters[i]);
+  return entry;
+}
+
+}  // namespace
+
+json::object designed_experiment(const std::string& experiment_json, const SceneSpec& scene)
+{
+  json::object out = parse_json(experiment_json, "resolved experiment").as_object();
+  const json::object old_elements = out.at("elements").as_object();
+  std::set<std::string> names;
+  json::object elements;
+  json::array place;
+  for (std::size_t k = 0; k < scene.elements.size(); ++k) {
+    const PlacedElement& element = scene.elements[k];
+    const ElementType& type = scene.types.at(static_cast<std::size_t>(element.type));
+    std::string name = type.name + "_" + std::to_string(k);
+    while (!names.insert(name).second) name += "_";
+    elements[name] = own_entry(old_elements, type, element);
+    json::object entry;
+    entry["element"] = name;
+    entry["position"] = detail::vector_json(element.rest.position);
+    entry["rotation"] = rotation_json(element.rest.rotation);
+    place.push_back(std::move(entry));
+  }
+  out["elements"] = std::move(elements);
+
+  json::object& cell = out.at("cell").as_object();
+  if (scene.lattice.empty()) {  // a patch: one cell that holds every element
+    json::object& patch = cell.at("patch").as_object();
+    patch["outline"] = json::object{{"rectangle", {1, 1}}};
+    patch["tile"] = {1, 1};
+  } else {
+    json::array vectors;
+    for (const Vec3& v : scene.lattice) {
+      if (scene.lattice.size() == 2)
+        vectors.push_back({number(v.x()), number(v.y())});
+      else
+        vectors.push_back(detail::vector_json(v));
+    }
+    cell["vectors"] = std::move(vectors);
+    cell["repeat"] = {1, 1};
+  }
+  cell["place"] = std::move(place);
+
+  const json::value* name = out.if_contains("name");
+  out["name"] =
+      (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
+  out["task"] = "limits";
+  // Sections of tasks and what they are expected to give belong to the file as it was.
+  constexpr std::array kept{"$schema", "name",     "description", "task",      "length_unit",
+                            "seed",    "elements", "cell",        "load_case", "solver"};
+  json::object scene_only;
+  for (json::key_value_pair& member : out) {
+    if (std::find(kept.begin(), kept.end(), member.key()) != kept.end())
+      scene_only[member.key()] = std::move(member.value());
+  }
+  return scene_only;
+}
+
+}  // namespace hauberk

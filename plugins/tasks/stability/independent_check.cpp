@@ -1,0 +1,38 @@
+#include "tasks/stability/independent_check.hpp"
+
+#include "results/document.hpp"
+
+#include <boost/json/value.hpp>
+
+namespace hauberk {
+
+std::vector<VerifyLine> independent_check(const RunResult& run, const std::string& experiment_json)
+{
+  const boost::json::value document = results_document(run, experiment_json, {});
+  std::vector<VerifyLine> lines = verify(document).lines;
+  // A document that cannot be read at all gives a single line, which then is about every limit; the line
+  // about the profiles, which comes last, is nobody's.
+  const VerifyLine whole = lines.empty() ? VerifyLine{false, "the check said nothing"} : lines.back();
+  lines.resize(run.limits.size(), whole);
+  return lines;
+}
+
+void enter_claim(StabilityCase& into, const LimitResult& limit, const VerifyLine& check)
+{
+  into.status = to_string(limit.status);
+  into.message = limit.message;
+  into.contact = limit.contact;
+  into.value = limit.value;
+  into.min_gap = limit.min_gap;
+  into.error_estimate = limit.error_estimate;
+  into.force_balance = limit.force_balance;
+  into.iterations = limit.iterations;
+  into.evaluations = limit.evaluations;
+  into.seconds = limit.seconds;
+  into.slack = 0.0;
+  for (const ContactForce& contact : limit.contacts) into.slack += contact.force * contact.gap;
+  into.checked = check.ok;
+  into.check = check.text;
+}
+
+}  // namespace hauberk

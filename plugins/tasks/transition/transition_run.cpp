@@ -1,0 +1,275 @@
+#include "tasks/transition/transition_run.hpp"
+
+#include <hauberk/contact/published.hpp>
+#include <hauberk/error.hpp>
+#include <hauberk/parallel.hpp>
+#include "tasks/transition/jumps.hpp"
+#include "tasks/transition/tracks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+namespace hauberk {
+namespace {
+
+/// Intervals of a path that the search for discontinuities starts from, and how often it halves one: enough
+/// to follow a dozen discontinuities down to 1e-9 of the path.
+constexpr int first_intervals = 64;
+constexpr int most_splits = 400;
+
+/// Discontinuities below this part of the largest value are not looked for.
+constexpr double smallest_jump = 1e-9;
+
+/// Panels that the quadrature is measured against, relative to those in use: Gauss's rule is then better by
+/// orders of magnitude where the integrand is analytic, 16 times where the barrier sets in.
+constexpr double finer_panels = 0.5;
+
+/// A contact that moves farther than this between two samples counts as another one; L.
+constexpr double contact_reach = 0.5;
+
+MovingPair pair_of(const TransitionSpec& spec, std::size_t path)
+{
+  return {spec.model, spec.fixed, spec.moving, spec.paths[path].motion};
+}
+
+/// The gradient with forces as torques with the arm L: all components in one unit.
+double size_of(const PathPoint& p) { return p.gradient.norm(); }
+
+TransitionForce in_file_units(const PathPoint& p, double length)
+{
+  TransitionForce f;
+  f.energy = p.energy;
+  for (int k = 0; k < 6; ++k) f.wrench[static_cast<std::size_t>(k)] = -p.gradient[k] / (k < 3 ? length : 1.0);
+  f.along = -p.slope;
+  return f;
+}
+
+/// One formulation on one path: an item of work for the threads.
+struct CurveItem {
+  std::size_t path = 0, curve = 0;
+  MovingPair pair;
+  ContactSettings settings;
+  std::vector<PathPoint> points;
+  TransitionCurve result;
+  double regularity = std::numeric_limits<double>::infinity();  ///< smallest of all points
+  std::size_t same_as = 0;  ///< item of the same path and formulation, itself if it is the first
+};
+
+bool is_automatic(const TransitionSpec& spec, std::size_t curve)
+{
+  return contact_named(spec.contacts[curve]) == ContactChoice::automatic;
+}
+
+/// Thrown where KeepGoing says no.
+struct Stopped {};
+
+/// `evaluate` that can be interrupted.
+PathPoint evaluated(const CurveItem& item, const ContactSettings& settings, double s, int order,
+                    const KeepGoing& keep_going)
+{
+  if (!keep_going()) throw Stopped{};
+  return evaluate(item.pair, settings, s, order);
+}
+
+void sample_curve(const TransitionSpec& spec, CurveItem& item, const KeepGoing& keep_going)
+{
+  const int steps = spec.paths[item.path].steps;
+  for (int k = 0; k <= steps; ++k) {
+    item.points.push_back(evaluated(item, item.settings, static_cast<double>(k) / steps, 1, keep_going));
+    item.result.largest_energy = std::max(item.result.largest_energy, std::abs(item.points.back().energy));
+    item.result.largest_force = std::max(item.result.largest_force, size_of(item.points.back()));
+  }
+}
+
+TransitionJump relative(const Jump& jump, double largest)
+{
+  if (largest <= 0.0) return {};
+  return {jump.size / largest, jump.at, jump.resolution / largest};
+}
+
+void search_jumps(CurveItem& item, const KeepGoing& keep_going)
+{
+  // Both searches halve many of the same intervals.
+  std::map<double, PathPoint> known;
+  const auto f = [&](double s) {
+    const auto found = known.find(s);
+    return found != known.end()
+               ? found->second
+               : known.emplace(s, evaluated(item, item.settings, s, 2, keep_going)).first->second;
+  };
+  const auto search = [&](Quantity quantity, double largest) {
+    const Jump jump = largest_jump(f, quantity, first_intervals, most_splits, smallest_jump * largest);
+    return relative(jump, largest);
+  };
+  item.result.energy = search(Quantity::energy, item.result.largest_energy);
+  item.result.force = search(Quantity::force, item.result.largest_force);
+  item.result.evaluations = static_cast<int>(known.size());
+  for (const auto& [s, point] : known) item.regularity = std::min(item.regularity, point.regularity);
+}
+
+void measure_quadrature(CurveItem& item, const KeepGoing& keep_going)
+{
+  if (item.settings.formulation != Formulation::arc) return;
+  ContactSettings finer = item.settings;
+  finer.panel_ratio *= finer_panels;
+  double energy = 0.0, force = 0.0;
+  for (const PathPoint& p : item.points) {
+    const PathPoint better = evaluated(item, finer, p.s, 1, keep_going);
+    energy = std::max(energy, std::abs(better.energy - p.energy));
+    force = std::max(force, (better.gradient - p.gradient).norm());
+  }
+  const auto over = [](double x, double largest) { return largest > 0.0 ? x / largest : 0.0; };
+  item.result.quadrature = {over(energy, item.result.largest_energy), over(force, item.result.largest_force)};
+}
+
+void compute_curve(const TransitionSpec& spec, CurveItem& item, const KeepGoing& keep_going)
+{
+  sample_curve(spec, item, keep_going);
+  search_jumps(item, keep_going);
+  const bool merges = item.settings.formulation == Formulation::nearest &&
+                      item.regularity < least_regular_curvature(item.settings.g_hat);
+  if (is_automatic(spec, item.curve) && merges) {
+    // What a stage does that meets a merge on its way: it begins again with arc.
+    item.settings.formulation = Formulation::arc;
+    item.result.formulation = name_of(Formulation::arc);
+    item.result.largest_energy = item.result.largest_force = 0.0;
+    item.points.clear();
+    sample_curve(spec, item, keep_going);
+    search_jumps(item, keep_going);
+  }
+  measure_quadrature(item, keep_going);
+}
+
+TransitionPath sampled_path(const TransitionSpec& spec, std::size_t path)
+{
+  const TransitionMotion& from = spec.paths[path];
+  const MovingPair pair = pair_of(spec, path);
+  const double length = spec.model->length;
+  TransitionPath out;
+  out.name = from.name;
+  out.rotates = from.motion.angle_from != from.motion.angle_to;
+  out.axis = out.rotates ? "rotation (degrees)" : fmt::format("translation ({})", spec.length_unit);
+  for (int k = 0; k <= from.steps; ++k) {
+    TransitionSample sample;
+    sample.s = static_cast<double>(k) / from.steps;
+    sample.degrees = from.motion.angle(sample.s) / degree;
+    sample.shift = (from.motion.shift(sample.s) - from.motion.shift_from).norm() * length;
+    sample.minima = minima_at(pair, spec.range, sample.s);
+    out.samples.push_back(std::move(sample));
+  }
+  number_contacts(out.samples, contact_reach * length);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::size_t, std::string>> transition_problems(const TransitionSpec& spec)
+{
+  std::vector<std::pair<std::size_t, std::string>> out;
+  for (std::size_t p = 0; p < spec.paths.size(); ++p) {
+    const MovingPair pair = pair_of(spec, p);
+    for (int k = 0; k <= spec.paths[p].steps; ++k) {
+      const double s = static_cast<double>(k) / spec.paths[p].steps;
+      if (gap_at(pair, s, 1e-6) > 0.0) continue;
+      out.emplace_back(p,
+                       fmt::format("the surfaces touch or overlap at step {} of {}; keep them apart on the "
+                                   "whole path",
+                                   k, spec.paths[p].steps));
+      break;
+    }
+  }
+  return out;
+}
+
+TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
+                                const TransitionObserver& observer, const KeepGoing& keep_going)
+{
+  const Model& m = *spec.model;
+  TransitionResult out;
+  out.length = m.length;
+  out.length_unit = spec.length_unit;
+  out.activation_distance = spec.g_hat * m.length;
+  out.range = spec.range * m.length;
+  out.clearance = m.clearance * m.length;
+  out.eigenvalue_threshold = published::lambda_bar * out.activation_distance * out.activation_distance;
+
+  std::vector<CurveItem> items;
+  for (std::size_t p = 0; p < spec.paths.size(); ++p) {
+    for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+      CurveItem item;
+      item.path = p;
+      item.curve = c;
+      item.pair = pair_of(spec, p);
+      item.settings = {formulation_at(contact_named(spec.contacts[c]), spec.g_hat, spec.schedule), spec.g_hat,
+                       m.clearance};
+      item.result.contact = spec.contacts[c];
+      item.result.formulation = name_of(item.settings.formulation);
+      item.same_as = items.size();
+      for (std::size_t k = 0; k < items.size(); ++k) {
+        // Automatic with nearest may change to arc on the way.
+        const bool same = items[k].path == p && items[k].settings.formulation == item.settings.formulation &&
+                          (item.settings.formulation != Formulation::nearest ||
+                           is_automatic(spec, items[k].curve) == is_automatic(spec, c));
+        if (same) item.same_as = std::min(item.same_as, k);
+      }
+      items.push_back(std::move(item));
+    }
+  }
+  const std::size_t paths = spec.paths.size(), total = paths + items.size();
+  std::vector<TransitionPath> sampled(paths);
+  std::vector<char> done(total, 0);
+  std::mutex mutex;  // guards the observer and its count
+  std::size_t finished = 0;
+  std::vector<std::string> failures(total);
+  parallel_for(total, threads, [&](std::size_t i) {
+    if (!keep_going()) return;
+    try {
+      if (i < paths) {
+        sampled[i] = sampled_path(spec, i);
+      } else {
+        CurveItem& item = items[i - paths];
+        if (item.same_as == i - paths) {
+          compute_curve(spec, item, keep_going);
+        }
+      }
+    } catch (const Stopped&) {
+      return;
+    } catch (const ComputationError& error) {
+      failures[i] =
+          fmt::format("path {}: {}", spec.paths[i < paths ? i : items[i - paths].path].name, error.what());
+      return;
+    }
+    done[i] = 1;
+    const std::lock_guard lock(mutex);
+    observer(++finished, total);
+  });
+  for (const std::string& failure : failures)
+    if (out.message.empty()) out.message = failure;
+  for (std::size_t p = 0; p < paths; ++p) {
+    // Rows and pictures have the same curves on every path: one that lacks some is left out.
+    bool whole = done[p] != 0;
+    for (const CurveItem& item : items) whole = whole && (item.path != p || done[paths + item.same_as] != 0);
+    if (!whole) continue;
+    TransitionPath& path = sampled[p];
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const std::size_t same = items[i].same_as;
+      if (items[i].path != p) continue;
+      if (same != i) {
+        const std::string contact = items[i].result.contact;
+        items[i].points = items[same].points;
+        items[i].result = items[same].result;
+        items[i].result.contact = contact;
+      }
+      path.curves.push_back(items[i].result);
+      for (std::size_t k = 0; k < path.samples.size(); ++k)
+        path.samples[k].forces.push_back(in_file_units(items[i].points[k], m.length));
+    }
+    out.paths.push_back(std::move(path));
+  }
+  return out;
+}
+
+}  // namespace hauberk

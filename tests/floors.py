@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""Draws the floors of the house: which folder includes headers of which others. Fails on an arrow that is not
+in the plan below, and on one of the plan that nothing needs.
+
+    tests/floors.py ROOT
+"""
+
+import pathlib
+import re
+import sys
+
+# A folder may include itself and what is listed for it; the order is from the ground upwards, so that a list names
+# folders of former lines only.
+TASK = ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/pictures", "plugins/run",
+        "plugins/tasks/task.hpp"]
+PLAN = {
+    "kernel": [],
+    "shapes": ["kernel"],
+    "loadcases": ["kernel"],
+    "optimizers": ["kernel"],
+    "plugins/host": ["kernel"],
+    "plugins/document": ["kernel"],
+    "plugins/experiment": ["kernel", "plugins/host", "plugins/document"],
+    "plugins/results": ["kernel", "plugins/document"],
+    "plugins/pictures": ["kernel", "plugins/document"],
+    "plugins/report": ["kernel", "plugins/document", "plugins/results", "plugins/pictures"],
+    "plugins/verify": [],  # independent: it reads results by itself
+    "plugins/conformance": ["kernel", "plugins/host", "plugins/document"],
+    "plugins/run": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
+                    "plugins/pictures"],
+    "plugins/tasks/task.hpp": ["kernel", "plugins/run"],
+    "plugins/tasks/variants": ["kernel", "plugins/document", "plugins/experiment"],
+    "plugins/tasks/limits": ["kernel", "plugins/results", "plugins/pictures", "plugins/experiment", "plugins/run",
+                             "plugins/tasks/task.hpp"],
+    "plugins/tasks/design": ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/run",
+                             "plugins/tasks/task.hpp", "plugins/tasks/limits"],
+    "plugins/tasks/sweep": TASK + ["plugins/tasks/variants"],
+    "plugins/tasks/chart": TASK + ["plugins/tasks/variants"],
+    "plugins/tasks/stability": TASK + ["plugins/tasks/variants", "plugins/verify"],
+    "plugins/tasks/transition": TASK,
+    # The table of all tasks, and what check, plan and run begin from.
+    "plugins/tasks": ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/run",
+                      "plugins/tasks/task.hpp", "plugins/tasks/limits", "plugins/tasks/design", "plugins/tasks/sweep",
+                      "plugins/tasks/chart", "plugins/tasks/stability", "plugins/tasks/transition"],
+    "plugins/command": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
+                        "plugins/report", "plugins/verify", "plugins/conformance", "plugins/run",
+                        "plugins/tasks"],
+}
+
+
+def folder_of(root, path):
+    parts = path.relative_to(root).parts
+    if parts[:2] == ("plugins", "tasks") and (len(parts) > 3 or parts[2] == "task.hpp"):
+        return "/".join(parts[:3])
+    return "/".join(parts[:2]) if parts[0] == "plugins" else parts[0]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    tops = ["kernel", "shapes", "loadcases", "optimizers", "plugins"]
+    files = [f for top in tops for f in (root / top).rglob("*.?pp")]
+    files = [f for f in files if "template" not in f.parts and "test" not in f.relative_to(root).parts]
+    # What an include means: the folder of the header that its text ends.
+    homes = {}
+    for f in files:
+        if f.suffix != ".hpp":
+            continue
+        relative = f.relative_to(root).parts
+        for k in range(1, len(relative)):
+            homes.setdefault("/".join(relative[k:]), set()).add(folder_of(root, f))
+    found = {}
+    for f in files:
+        own = folder_of(root, f)
+        for line, text in enumerate(f.read_text().splitlines(), 1):
+            match = re.match(r'\s*#include\s+["<]([^">]+)[">]', text)
+            owners = homes.get(match.group(1), set()) if match else set()
+            if not owners or own in owners:
+                continue
+            for owner in owners:
+                found.setdefault((own, owner), f"{f.relative_to(root)}:{line}")
+    wrong = 0
+    for (own, owner), place in sorted(found.items()):
+        if owner not in PLAN.get(own, []):
+            print(f"{place}: {own} includes {owner}, which the plan (tests/floors.py) does not allow")
+            wrong += 1
+    names = list(PLAN)
+    for own, allowed in PLAN.items():
+        for owner in allowed:
+            if names.index(owner) >= names.index(own):
+                print(f"the plan is no house: {own} stands below {owner}")
+                wrong += 1
+            if (own, owner) not in found:
+                print(f"nothing needs {own} to include {owner}: take it out of the plan (tests/floors.py)")
+                wrong += 1
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -132,7 +132,7 @@ std::unique_ptr<const Prepared> prepare_experiment(
   prepared.lookup = recording_lookup(*prepared.registry, prepared.plugins);
   Diagnostics diagnostics;
   const auto stop_on_problems = [&diagnostics] {
-    if (!diagnostics.empty()) throw ReportedProblems(diagnostics.text());
+    if (!diagnostics.empty()) throw ReportedProblems(diagnostics);
   };
   const auto weaves = std::make_shared<WeaveTexts>();
   const auto files = std::make_shared<Fingerprints>();

@@ -1,6 +1,8 @@
 #pragma once
 /// From a file to a scene that can be solved: what every task begins from.
 
+#include "document/diagnostics.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/registry.hpp>
@@ -16,10 +18,17 @@
 
 namespace hauberk {
 
-/// Problems of a file, a line each that already starts with the place; printed as they are.
+/// Problems of a file; as text a line each that already starts with the place, printed as it is.
 class ReportedProblems : public InputError {
  public:
-  using InputError::InputError;
+  explicit ReportedProblems(const Diagnostics& diagnostics)
+      : InputError(diagnostics.text()), problems_(diagnostics.problems.list())
+  {
+  }
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
 };
 
 /// An experiment whose scene passed every check, at a rest state with room. It is made once and outlives

@@ -57,6 +57,53 @@ TEST(CommandLine, HelpAndVersion)
   EXPECT_EQ(run_program({"--version"}).out.find("hauberk 0."), 0U);
 }
 
+/// The answers of commands as documents: exit codes and what they say are those of the text.
+TEST(CommandLine, Json)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  const auto document = [](const Outcome& o) { return parse_json(o.out, "answer"); };
+  Outcome o = run_program({"check", file, "--json"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_TRUE(document(o).at("ok").as_bool());
+  EXPECT_NE(std::string(document(o).at("summary").as_string()).find(" elements, "), std::string::npos);
+
+  o = run_program({"check", file, "--json", "--set", "/solver/starts=0", "--set", "/cell/repeat=[0,1]"});
+  EXPECT_EQ(o.code, 2);
+  const boost::json::array problems = document(o).at("problems").as_array();
+  ASSERT_EQ(problems.size(), 2U) << o.out;
+  EXPECT_FALSE(document(o).at("ok").as_bool());
+  EXPECT_TRUE(document(o).at("summary").is_null());
+  for (const boost::json::value& problem : problems) EXPECT_FALSE(problem.at("message").as_string().empty());
+
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--quiet"}).code, 0);
+  o = run_program({"verify", folder / "out", "--json"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_TRUE(document(o).at("ok").as_bool());
+  EXPECT_EQ(document(o).at("fields").at("failed").as_int64(), 0);
+  EXPECT_GT(document(o).at("fields").at("passed").as_int64(), 100);
+
+  o = run_program({"room", file, "--json", "--starts", "1"});
+  EXPECT_EQ(o.code, 0);
+  const boost::json::value room = document(o);
+  const boost::json::value& ring = room.at("rings").at(0);
+  // Two circles of a chain are at most R apart (the bound by discs: ratio 2), which the search comes close
+  // to.
+  EXPECT_GE(ring.at("smallest_ratio").as_double(), 2.0) << o.out;
+  EXPECT_LT(ring.at("smallest_ratio").as_double(), 2.001) << o.out;
+  EXPECT_NEAR(ring.at("thickest_wire").as_double(), ring.at("wire").as_double() + room.at("room").as_double(),
+              1e-12);
+
+  o = run_program({"plugins", "list", "--json"});
+  EXPECT_EQ(o.code, 0);
+  bool torus_union = false;
+  const boost::json::value plugins = document(o);
+  for (const boost::json::value& plugin : plugins.as_array()) {
+    torus_union = torus_union || (plugin.at("id") == "torus_union" && plugin.at("kind") == "shape");
+  }
+  EXPECT_TRUE(torus_union) << o.out;
+}
+
 TEST(CommandLine, Check)
 {
   const TemporaryFolder folder;

@@ -28,6 +28,8 @@ Options::Options(std::string synopsis, std::string summary, std::string position
   shown_.add_options()("help,h", "show this and exit");
 }
 
+void Options::add_json_option() { shown_.add_options()("json", "as JSON, for programs"); }
+
 void Options::add_experiment_options()
 {
   shown_.add_options()("set", po::value<std::vector<std::string>>()->composing()->value_name("path=value"),

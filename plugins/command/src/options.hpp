@@ -40,6 +40,9 @@ class Options {
   /// Options are added to this.
   boost::program_options::options_description& add() { return shown_; }
 
+  /// --json: the answer as a JSON document on standard output.
+  void add_json_option();
+
   /// --plugin-path, --set: for every command that reads experiments.
   void add_experiment_options();
 

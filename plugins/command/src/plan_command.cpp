@@ -14,7 +14,7 @@ int plan_command(const std::vector<std::string>& words)
   Options options("plan EXPERIMENT.json [options]",
                   "Says what will be modelled and why, and describes the rest state. Computes no limit.",
                   "EXPERIMENT.json");
-  options.add().add_options()("json", "as JSON, like `plan` in results.json");
+  options.add_json_option();
   options.add_experiment_options();
   options.parse(words);
   const Job job = open_job(options);

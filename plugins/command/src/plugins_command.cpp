@@ -6,8 +6,11 @@
 #include <hauberk/host/factories.hpp>
 #include <hauberk/suggestion.hpp>
 #include "document/check.hpp"
+#include "document/json_text.hpp"
 
 #include <fmt/format.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 #include <boost/program_options/value_semantic.hpp>
 
 #include <cmath>
@@ -51,6 +54,29 @@ int list(const Registry& registry)
       broken = true;
     }
   }
+  return broken ? exit_failed : exit_done;
+}
+
+/// [{id, kind, version, summary, file}], with `problem` instead of the middle three where one cannot be used.
+int list_as_json(const Registry& registry)
+{
+  boost::json::array out;
+  bool broken = false;
+  for (const PluginEntry& entry : registry.list()) {
+    boost::json::object plugin{{"id", entry.id}, {"file", entry.file.string()}};
+    if (entry.table != nullptr) {
+      plugin["kind"] = kind_text(entry.table->kind);
+      plugin["version"] = entry.table->version;
+      plugin["summary"] = entry.table->summary;
+    } else if (entry.shadowed_by) {
+      plugin["problem"] = fmt::format("not used: {} is found before", entry.shadowed_by->string());
+    } else {
+      plugin["problem"] = entry.problem;
+      broken = true;
+    }
+    out.push_back(std::move(plugin));
+  }
+  fmt::print("{}", write_json(out));
   return broken ? exit_failed : exit_done;
 }
 
@@ -116,10 +142,12 @@ int plugins_command(const std::vector<std::string>& words)
   options.add().add_options()("plugin-path",
                               po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
                               "folder that is searched for plugins first; may be repeated");
+  options.add_json_option();
   options.parse(words);
   const std::vector<std::string> what = options.list("positional");
   const auto registry = open_registry(options);
-  if (what.empty() || (what.size() == 1 && what[0] == "list")) return list(*registry);
+  if (what.empty() || (what.size() == 1 && what[0] == "list"))
+    return options.has("json") ? list_as_json(*registry) : list(*registry);
   if (what.size() == 2 && what[0] == "describe") return describe(*registry, what[1]);
   if (what[0] == "describe") throw UsageError("describe: expected the id of one plugin", options.usage());
   if (what[0] == "list") throw UsageError("list: expected nothing after it", options.usage());

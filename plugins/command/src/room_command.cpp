@@ -5,9 +5,12 @@
 #include <hauberk/error.hpp>
 #include <hauberk/limits/room.hpp>
 #include "document/atomic_file.hpp"
+#include "document/json_text.hpp"
 #include "document/json_writer.hpp"
 
 #include <fmt/format.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 #include <boost/program_options/value_semantic.hpp>
 
 #include <algorithm>
@@ -36,6 +39,7 @@ Options room_options()
   add("fixed-cell", "keep the cell: poses only");
   add("output,o", po::value<std::string>()->value_name("FILE"),
       "write the rest state found as an experiment, to a file that must not exist");
+  options.add_json_option();
   options.add_experiment_options();
   return options;
 }
@@ -56,21 +60,53 @@ SceneSpec scene_in(const Prepared& prepared, const Model& m, const State& state)
   return scene;
 }
 
-/// Ratios of the round rings whose tubes are `grow` thicker than now, each kind once.
-std::string ratios(const Model& m, double grow)
+/// Radii of rings and tubes, each kind once.
+std::set<std::pair<double, double>> round_rings(const Model& m)
 {
   std::set<std::pair<double, double>> rings;
   for (const Body& body : m.bodies) {
     if (body.is_tube()) rings.emplace(body.R, body.r0);
   }
+  return rings;
+}
+
+/// Ratios of the round rings whose tubes are `grow` thicker than now, each kind once.
+std::string ratios(const Model& m, double grow)
+{
   std::string text;
-  for (const auto& [R, r] : rings) {
+  for (const auto& [R, r] : round_rings(m)) {
     const double thick = r + grow;
     text += fmt::format(
         "  ring of radius {:.6g}, wire {:.6g} -> {:.8g}: inner diameter / wire {:.6f} -> {:.6f}\n",
         R * m.length, 2.0 * r * m.length, 2.0 * thick * m.length, (R - r) / r, (R - thick) / thick);
   }
   return text;
+}
+
+/// {name, length_unit, room, seed, rings: [{radius, wire, thickest_wire, ratio, smallest_ratio}], starts,
+/// near, worst, interrupted}; lengths in the unit of the file.
+boost::json::object as_json(const Prepared& prepared, const Room& room, const std::vector<double>& gaps,
+                            long near)
+{
+  const Model& m = prepared.model;
+  boost::json::array rings;
+  for (const auto& [R, r] : round_rings(m)) {
+    const double thick = r + 0.5 * room.best.gap;
+    rings.push_back({{"radius", R * m.length},
+                     {"wire", 2.0 * r * m.length},
+                     {"thickest_wire", 2.0 * thick * m.length},
+                     {"ratio", (R - r) / r},
+                     {"smallest_ratio", (R - thick) / thick}});
+  }
+  return {{"name", prepared.experiment.name},
+          {"length_unit", prepared.experiment.length_unit},
+          {"room", room.best.gap * m.length},
+          {"seed", room.best.seed},
+          {"rings", std::move(rings)},
+          {"starts", room.gaps.size()},
+          {"near", near},
+          {"worst", gaps.empty() ? 0.0 : gaps.back() * m.length},
+          {"interrupted", interrupted()}};
 }
 
 }  // namespace
@@ -94,25 +130,29 @@ int room_command(const std::vector<std::string>& words)
   settings.seed = prepared.experiment.seed;
   const Model& m = prepared.model;
   const Room room = find_room(m, settings, 0, [] { return !interrupted(); });
-  const std::string unit = prepared.experiment.length_unit;
-  fmt::print("{}\nlargest rest clearance {:.8g} {} more than solver.clearance (seed {})\n",
-             prepared.experiment.name, room.best.gap * m.length, unit, room.best.seed);
-  fmt::print("{}", ratios(m, 0.5 * room.best.gap));
   std::vector<double> gaps = room.gaps;
   std::erase_if(gaps, [](double gap) { return !std::isfinite(gap); });  // starts that lost links
   std::sort(gaps.begin(), gaps.end(), std::greater<>());
   const auto near =
       std::count_if(gaps.begin(), gaps.end(), [&](double g) { return room.best.gap - g < 1e-4; });
-  fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, room.gaps.size(),
-             gaps.empty() ? 0.0 : gaps.back() * m.length);
-  if (interrupted()) fmt::print("{}", "interrupted: the search is not done, there may be more room\n");
+  if (options.has("json")) {
+    fmt::print("{}", write_json(as_json(prepared, room, gaps, near)));
+  } else {
+    fmt::print("{}\nlargest rest clearance {:.8g} {} more than solver.clearance (seed {})\n",
+               prepared.experiment.name, room.best.gap * m.length, prepared.experiment.length_unit,
+               room.best.seed);
+    fmt::print("{}", ratios(m, 0.5 * room.best.gap));
+    fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, room.gaps.size(),
+               gaps.empty() ? 0.0 : gaps.back() * m.length);
+    if (interrupted()) fmt::print("{}", "interrupted: the search is not done, there may be more room\n");
+  }
   if (options.has("output")) {
     const auto& file = options.get<std::string>("output");
     const Node experiment = scene_experiment(prepared.experiment, scene_in(prepared, m, room.best.state),
                                              prepared.experiment.name + "_room");
     const std::string folder = std::filesystem::path(file).parent_path().string();
     write_new_file_atomically(file, write_json(in_folder(experiment, prepared.experiment, folder)) + "\n");
-    fmt::print("written to {}\n", file);
+    if (!options.has("json")) fmt::print("written to {}\n", file);
   }
   return interrupted() ? exit_interrupted : exit_done;
 }

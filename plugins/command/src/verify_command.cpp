@@ -6,11 +6,39 @@
 #include "results/document.hpp"
 
 #include <fmt/format.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <system_error>
 
 namespace hauberk::command {
+namespace {
+
+namespace json = boost::json;
+
+/// {ok, lines: [{outcome, text}], fields: {passed, failed, not_checked}, failed: [pointers]}.
+json::object as_json(const VerifyReport& report)
+{
+  json::object out{
+      {"ok", report.ok}, {"lines", json::array()}, {"fields", nullptr}, {"failed", json::array()}};
+  for (const VerifyLine& line : report.lines) {
+    const char* outcome = !line.checked ? "not_checked" : line.ok ? "passed" : "failed";
+    out["lines"].as_array().push_back({{"outcome", outcome}, {"text", line.text}});
+  }
+  std::int64_t passed = 0, failed = 0, unchecked = 0;
+  for (const VerifyField& field : report.fields) {
+    passed += field.outcome == VerifyOutcome::passed ? 1 : 0;
+    failed += field.outcome == VerifyOutcome::failed ? 1 : 0;
+    unchecked += field.outcome == VerifyOutcome::not_checked ? 1 : 0;
+    if (field.outcome == VerifyOutcome::failed) out["failed"].as_array().emplace_back(field.pointer);
+  }
+  out["fields"] = {{"passed", passed}, {"failed", failed}, {"not_checked", unchecked}};
+  return out;
+}
+
+}  // namespace
 
 int verify_command(const std::vector<std::string>& words)
 {
@@ -19,12 +47,13 @@ int verify_command(const std::vector<std::string>& words)
       "Rechecks a result from its file alone: gaps, links, force balance, values. A line per limit; exits "
       "with 1 when anything fails. A folder stands for the results.json in it.",
       "RESULTS.json");
+  options.add_json_option();
   options.parse(words);
   std::filesystem::path file = options.positional();
   std::error_code unknown;  // then reading tells
   if (std::filesystem::is_directory(file, unknown)) file /= results_file;
   const VerifyReport report = verify(read_json_file(file.string()));
-  fmt::print("{}", report.text());
+  fmt::print("{}", options.has("json") ? write_json(as_json(report)) : report.text());
   return report.ok ? exit_done : exit_failed;
 }
 

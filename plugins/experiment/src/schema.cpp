@@ -179,6 +179,7 @@ Node experiment_schema(std::span<const PluginTable* const> plugins, TaskFormats 
 {
   Node root = object_node();
   set_default(root, "$schema", string_node("http://json-schema.org/draft-07/schema#"));
+  set_default(root, "$id", string_node("urn:hauberk:experiment"));
   set_default(root, "title", string_node("Hauberk experiment"));
   Node body = SchemaWriter(plugins).write(experiment_fields(formats));
   for (auto& [key, value] : body.members) set_default(root, key, std::move(value));

@@ -37,6 +37,10 @@ VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads)
   observer.on_states = [&out](const auto& states) { out.states = states; };
   out.limits =
       compute_limits(prepared.model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
+  // A variant is done as a whole or again: what others were still teaching its limits is not kept apart.
+  for (LimitResult& limit : out.limits) {
+    if (!limit.confidence.is_final()) limit.status = LimitStatus::interrupted;
+  }
   return out;
 }
 

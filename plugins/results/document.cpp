@@ -148,13 +148,13 @@ std::optional<LimitStatus> limit_status(const std::string& name)
 }
 
 json::object document_without_results(const std::string& experiment_json, const Provenance& provenance,
-                                      const std::string& plan_json, const SceneSpec& scene)
+                                      json::value plan, const SceneSpec& scene)
 {
   json::object out;
   out["format"] = results_format;
   out["experiment"] = parse_json(experiment_json, "resolved experiment");
   out["provenance"] = provenance_json(provenance);
-  out["plan"] = plan_json.empty() ? json::value(nullptr) : parse_json(plan_json, "plan");
+  out["plan"] = std::move(plan);
   out["scene"] = detail::scene_json(scene);
   out["limits"] = json::array();
   out["profiles"] = json::array();
@@ -172,12 +172,11 @@ void enter_run(json::object& document, const RunResult& run, const std::vector<s
 }
 
 json::object results_document(const RunResult& run, const std::string& experiment_json,
-                              const Provenance& provenance, const ResultNames& names)
+                              const std::vector<std::string>& macro_names)
 {
-  json::object out = document_without_results(experiment_json, provenance, run.plan_json, run.scene);
-  enter_run(out, run, names.macro);
-  json::object& files = out["files"].emplace_object();
-  for (const auto& [what, file] : names.files) files[what] = file;
+  json::object out = document_without_results(experiment_json, {}, nullptr, run.scene);
+  enter_run(out, run, macro_names);
+  out["files"].emplace_object();
   return out;
 }
 

@@ -45,32 +45,26 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> files = {};
 };
 
-/// Names the document needs beyond what the results carry.
-struct ResultNames {
-  /// Of the macroscopic unknowns, for `starts` of limits whose own `macro` is empty.
-  std::vector<std::string> macro{"exx", "eyy", "exy"};
-  /// Files beside results.json: what it is -> file name.
-  std::vector<std::pair<std::string, std::string>> files;
-};
-
 /// As in the document. Thread safe.
 boost::json::object provenance_json(const Provenance& provenance);
 
-/// The document of a run that has no results yet: without limits and without `files`, which is its last key.
-/// Throws InputError when a JSON text is malformed, and what shapes throw. Thread safe.
+/// The document of a run that has no results yet: without limits, and without `files`, which is its last key.
+/// `experiment_json` is the resolved experiment as strict JSON text. Throws InputError when that is
+/// malformed, and what shapes throw. Thread safe.
 boost::json::object document_without_results(const std::string& experiment_json, const Provenance& provenance,
-                                             const std::string& plan_json, const SceneSpec& scene);
+                                             boost::json::value plan, const SceneSpec& scene);
 
-/// Enters scene, limits, profiles, design and boundary. Thread safe.
+/// Enters scene, limits, profiles, design and boundary. `macro_names`: of the macroscopic unknowns, for
+/// `starts` of limits whose own `macro` is empty. Thread safe.
 void enter_run(boost::json::object& document, const RunResult& run,
                const std::vector<std::string>& macro_names);
 
-/// Builds the whole document. `experiment_json` is the resolved experiment as strict JSON text; lengths are
-/// in its unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite
+/// The document of limits by themselves, without provenance, plan and files. Lengths are in the experiment's
+/// unit. Quaternions are [w, x, y, z], unit, w >= 0; absent optionals and numbers that are not finite
 /// are null. Keys have a fixed order. Throws InputError when a JSON text is malformed, and what shapes throw.
 /// Thread safe.
 boost::json::object results_document(const RunResult& run, const std::string& experiment_json,
-                                     const Provenance& provenance, const ResultNames& names = {});
+                                     const std::vector<std::string>& macro_names);
 
 /// The status of that name, as `to_string` gives it; none where there is none. Thread safe.
 std::optional<LimitStatus> limit_status(const std::string& name);

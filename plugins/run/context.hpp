@@ -16,7 +16,7 @@ struct RunContext {
   std::filesystem::path folder;  ///< of the results
   bool resumed = false;          ///< the folder holds partial results of this very run
   /// What is computed and by which program, on one line: results of one identity are the same.
-  std::string identity;
+  std::function<std::string()> identity;
   /// Writes what there is if the last time was a few seconds ago; a kill loses at most this much.
   std::function<void()> save_sometimes;
   /// Writes what there is.

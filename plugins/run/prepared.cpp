@@ -2,8 +2,6 @@
 #include "run/nearest_node.hpp"
 #include "run/presets.hpp"
 
-#include <hauberk/plan/plan.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,24 +82,16 @@ FileObserver recording_files(std::shared_ptr<Fingerprints> files)
 void prepare_scene(Prepared& prepared, Diagnostics& diagnostics)
 {
   const Experiment& e = prepared.experiment;
-  const auto problem = [&](const std::string& what) {
-    diagnostics.problems.add(nearest_node(e.resolved, "/cell"), what);
-  };
+  std::vector<std::string> problems;
   try {
-    const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
-    const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
-    for (const std::string& what : wrong) problem(what);
-    if (!wrong.empty()) return;
-    PreparedScene rest = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
-    prepared.scene = std::move(rest.scene);
-    prepared.moved = rest.moved;
-    prepared.start = std::move(rest.start);
-    prepared.model = make_model(prepared.scene, *e.load_case, e.solver.clearance);
+    static_cast<SceneAtRest&>(prepared) = scene_at_rest(e, problems);
   } catch (const InputError& error) {
-    problem(error.what());
+    problems.emplace_back(error.what());
   } catch (const ComputationError& error) {  // not even the rest state can be computed
-    problem(error.what());
+    problems.emplace_back(error.what());
   }
+  for (const std::string& problem : problems)
+    diagnostics.problems.add(nearest_node(e.resolved, "/cell"), problem);
 }
 
 }  // namespace
@@ -148,8 +138,6 @@ std::unique_ptr<const Prepared> prepare_experiment(
   if (meshes_without_contact(e)) stop_on_problems();  // the scene would say so again
   prepare_scene(prepared, diagnostics);
   stop_on_problems();
-  prepared.settings = limit_settings(e.solver, prepared.scene, e.length_unit);
-  prepared.settings.start = prepared.start;
   then(prepared, diagnostics);
   stop_on_problems();
   if (e.has_variants) prepared.weaves.assign(weaves->begin(), weaves->end());

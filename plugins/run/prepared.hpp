@@ -2,6 +2,7 @@
 /// From a file to a scene that can be solved: what every task begins from.
 
 #include "document/diagnostics.hpp"
+#include "run/scene_at_rest.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/experiment.hpp>
@@ -33,7 +34,7 @@ class ReportedProblems : public InputError {
 
 /// An experiment whose scene passed every check, at a rest state with room. It is made once and outlives
 /// whatever computes it.
-struct Prepared {
+struct Prepared : SceneAtRest {
   std::shared_ptr<const Registry> registry;
   /// Finds plugins and notes them in `plugins`.
   PluginLookup lookup;
@@ -44,11 +45,6 @@ struct Prepared {
   /// Path as written and fingerprint of files that plugins have read.
   std::vector<std::pair<std::string, std::string>> files;
   Experiment experiment;
-  SceneSpec scene;             ///< rest as used: relaxed where elements touched
-  double moved = 0.0;          ///< farthest that relaxation moved an element, file units
-  std::optional<State> start;  ///< where limits start, if not at rest (PreparedScene)
-  Model model;                 ///< of `scene`
-  LimitSettings settings;
 };
 
 /// Reads and checks an experiment up to its rest state, and lets `then` add what the task needs (which may

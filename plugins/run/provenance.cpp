@@ -4,6 +4,7 @@
 #include <hauberk/error.hpp>
 #include <hauberk/version.hpp>
 #include "document/json_text.hpp"
+#include "document/json_values.hpp"
 #include "document/json_writer.hpp"
 
 #include <cholmod.h>
@@ -17,8 +18,6 @@ namespace hauberk {
 namespace {
 
 namespace json = boost::json;
-
-std::string text_of(const json::value& v) { return std::string(v.as_string()); }
 
 using Named = std::vector<std::pair<std::string, std::string>>;
 

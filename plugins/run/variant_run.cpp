@@ -5,7 +5,6 @@
 #include "run/presets.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/plan/plan.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,14 +16,9 @@ PreparedVariant prepare_variant(const Experiment& experiment)
   const Experiment& e = experiment;
   if (const std::vector<Problem> problems = solver_problems(e); !problems.empty())
     throw InputError(problems.front().message);
-  const Model model = make_model(e.scene, *e.load_case, e.solver.clearance);
-  const std::vector<std::string> wrong = rest_problems(e.scene, model, e.relax);
+  std::vector<std::string> wrong;
+  PreparedVariant out{scene_at_rest(e, wrong), profile_tasks(e)};
   if (!wrong.empty()) throw InputError(fmt::format("{}", fmt::join(wrong, "; ")));
-  PreparedScene rest = prepare_rest(e.scene, *e.load_case, e.solver.clearance);
-  PreparedVariant out{std::move(rest.scene), profile_tasks(e), {}, {}};
-  out.settings = limit_settings(e.solver, out.scene, e.length_unit);
-  out.settings.start = std::move(rest.start);
-  out.model = make_model(out.scene, *e.load_case, e.solver.clearance);
   return out;
 }
 

@@ -2,6 +2,8 @@
 /// One variant of a file (a member of a stability family, a row of a sweep, a point of a chart) from its
 /// experiment to its results.
 
+#include "run/scene_at_rest.hpp"
+
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/limits/limits.hpp>
 #include <hauberk/results.hpp>
@@ -9,11 +11,8 @@
 namespace hauberk {
 
 /// Everything that comes before the solve.
-struct PreparedVariant {
-  SceneSpec scene;  ///< rest as used
+struct PreparedVariant : SceneAtRest {
   std::vector<LimitTask> tasks;
-  LimitSettings settings;
-  Model model;  ///< of `scene` under the experiment's load case, which has to outlive it
 };
 
 /// The rest state of an ordinary limits experiment, with all checks that `check` makes of it. Throws

@@ -23,13 +23,16 @@ Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource
   return job;
 }
 
-std::vector<NamedContent> result_content(const Job& job, const Provenance& provenance,
-                                         const std::filesystem::path& folder, boost::json::object& document)
+boost::json::object blank_document(const Job& job, const Provenance& provenance)
 {
   const Prepared& prepared = *job.prepared;
-  document =
-      document_without_results(write_json(prepared.experiment.resolved), provenance,
-                               write_json(boost::json::value(plan_json(prepared, job.plan))), prepared.scene);
+  return document_without_results(write_json(prepared.experiment.resolved), provenance,
+                                  plan_json(prepared, job.plan), prepared.scene);
+}
+
+std::vector<NamedContent> result_content(const Job& job, const std::filesystem::path& folder,
+                                         boost::json::object& document)
+{
   job.task->enter(document);
   std::vector<NamedContent> out;
   boost::json::object& names = document["files"].emplace_object();

@@ -19,8 +19,12 @@ struct Job {
 /// Throws ReportedProblems with a line per problem, InputError when a file cannot be read.
 Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource& source);
 
-/// The document of results.json and the files beside it, results.json last.
-std::vector<NamedContent> result_content(const Job& job, const Provenance& provenance,
-                                         const std::filesystem::path& folder, boost::json::object& document);
+/// The document of results.json without results: what does not change while the task runs.
+boost::json::object blank_document(const Job& job, const Provenance& provenance);
+
+/// Enters the job's results into a blank document, and returns it with the files beside it, results.json
+/// last.
+std::vector<NamedContent> result_content(const Job& job, const std::filesystem::path& folder,
+                                         boost::json::object& document);
 
 }  // namespace hauberk

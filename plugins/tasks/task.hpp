@@ -3,6 +3,7 @@
 /// into its results.
 
 #include "run/context.hpp"
+#include "run/limit_tasks.hpp"
 #include "run/prepared.hpp"
 
 #include <hauberk/plan/plan.hpp>
@@ -29,13 +30,13 @@ struct ResultFile {
 /// the context saves, it can be entered into results: partial ones while it runs. Not thread safe.
 class TaskRun {
  public:
-  TaskRun() = default;
+  explicit TaskRun(const Prepared& prepared) : prepared_(prepared) {}
   virtual ~TaskRun() = default;
   TaskRun(const TaskRun&) = delete;
   TaskRun& operator=(const TaskRun&) = delete;
 
   /// Limits of the experiment as it is, which the plan speaks of; in the order of the results.
-  virtual std::vector<LimitTask> limit_tasks() const = 0;
+  virtual std::vector<LimitTask> limit_tasks() const { return profile_tasks(prepared_.experiment); }
   /// Adds problems that only the plan shows.
   virtual void check_plan(const Plan& /*plan*/, Diagnostics& /*diagnostics*/) const {}
   /// What `check` says of an experiment without problems: "19 elements, 4 limits".
@@ -60,6 +61,9 @@ class TaskRun {
   virtual std::string summary() const = 0;
   /// Whether something that was asked for has no answer.
   virtual bool failed() const = 0;
+
+ protected:
+  const Prepared& prepared_;
 };
 
 /// An entry of the table of tasks.

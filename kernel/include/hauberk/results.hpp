@@ -185,8 +185,7 @@ struct BoundarySurface {
 
 /// Everything a run produces except the resolved experiment and provenance.
 struct RunResult {
-  std::string plan_json;  ///< the plan as JSON text
-  SceneSpec scene;        ///< rest as used, after relaxation; the final design's
+  SceneSpec scene;  ///< rest as used, after relaxation; the final design's
   std::vector<LimitResult> limits;
   std::vector<ProfilePoint> profiles;
   std::optional<DesignResult> design;

@@ -85,12 +85,13 @@ class Computation {
         known.size() == asked_ && std::all_of(known.begin(), known.end(), [](const auto& r) {
           return r.has_value() && r->confidence.is_final();
         });
+    ended_ = complete;
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
       // What was learnt from other limits is learnt again unless all is known: then nothing depends on
       // where a run was interrupted.
       std::optional<LimitResult> there;
-      if (k < known.size() && known[k] && (complete || !learnt(*known[k]))) there = known[k];
-      if (there && there->confidence.word == "unfinished") there.reset();
+      if (k < known.size() && known[k] && known[k]->confidence.word != "unfinished") there = known[k];
+      if (there && there->status != LimitStatus::locked) there->confidence.word = "none";
       if (there || (complete && k >= asked_)) {
         if (there) results_[k] = std::move(*there);
         states_[k].known = true;
@@ -117,7 +118,6 @@ class Computation {
       if (going()) enter_relations(results_, model_, settings_, tasks_, donors);
       ended_ = going();
     }
-    ended_ = ended_ || complete;
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
     tell();
     if (observer_.on_unreported) {
@@ -152,8 +152,7 @@ class Computation {
   {
     std::vector<LimitResult> out(results_.begin(), results_.begin() + static_cast<std::ptrdiff_t>(asked_));
     for (std::size_t k = 0; k < asked_ && !ended_; ++k) {
-      if (out[k].confidence.word != "none")
-        out[k].confidence.word = states_[k].learning ? "unfinished" : "alone";
+      out[k].confidence.word = states_[k].learning ? "unfinished" : "alone";
     }
     return out;
   }
@@ -161,13 +160,6 @@ class Computation {
   void tell() const
   {
     if (observer_.on_limit) observer_.on_limit(so_far());
-  }
-
-  /// Begun from the state of another limit.
-  static bool learnt(const LimitResult& r)
-  {
-    return std::any_of(r.starts.begin(), r.starts.end(),
-                       [](const LockedState& s) { return s.origin.starts_with(learnt_origin); });
   }
 
   Attempt attempt(std::size_t task, std::size_t start) const

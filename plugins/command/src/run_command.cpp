@@ -193,19 +193,22 @@ int run_command(const std::vector<std::string>& words)
   Progress progress(Progress::detect(options.has("quiet")));
   if (options.has("resume"))
     progress.note(resuming ? job.task->resume_note() : "nothing to resume: starting anew");
+  const boost::json::object blank = blank_document(job, origin);
   boost::json::object document;  // as it was written last
   const auto note_peak_memory = [&origin] {
     origin.peak_memory_bytes = std::max(origin.peak_memory_bytes, peak_memory_bytes());
   };
   RunFolder output(folder, names, resuming, progress, [&] {
     note_peak_memory();
-    return result_content(job, origin, folder, document);
+    document = blank;
+    document["provenance"] = provenance_json(origin);
+    return result_content(job, folder, document);
   });
   RunContext context{threads,
                      progress,
                      folder,
                      resuming,
-                     identity(*job.prepared, origin),
+                     [&] { return identity(*job.prepared, origin); },
                      [&output] { output.write_sometimes(); },
                      [&output] { output.write_partial(); },
                      note_peak_memory};

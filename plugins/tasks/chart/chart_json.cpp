@@ -1,6 +1,7 @@
 #include "results/direction_json.hpp"
 #include "tasks/chart/chart_results.hpp"
 
+#include "document/json_values.hpp"
 #include "results/csv_cells.hpp"
 #include "results/json_parts.hpp"
 
@@ -25,8 +26,7 @@ json::array numbers_json(const Values& values)
 Values read_numbers(const json::value& list)
 {
   Values out;
-  for (const json::value& x : list.as_array())
-    out.push_back(x.is_null() ? std::nullopt : std::optional(x.to_number<double>()));
+  for (const json::value& x : list.as_array()) out.push_back(number_or_none(x));
   return out;
 }
 

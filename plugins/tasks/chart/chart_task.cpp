@@ -1,4 +1,5 @@
 #include "tasks/chart/chart_task.hpp"
+#include "document/json_values.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/machine.hpp"
 #include "tasks/chart/chart_loading.hpp"
@@ -20,7 +21,7 @@ namespace json = boost::json;
 /// Times of two machines do not belong into one picture.
 void check_machine(const json::value& then, const Machine& now)
 {
-  const std::string processor = std::string(then.at("processor").as_string());
+  const std::string processor = text_of(then.at("processor"));
   const int processors = then.at("processors").to_number<int>();
   if (processor != now.processor || processors != now.processors)
     throw InputError(fmt::format(
@@ -31,12 +32,10 @@ void check_machine(const json::value& then, const Machine& now)
 class ChartTask final : public TaskRun {
  public:
   ChartTask(const Prepared& prepared, Diagnostics& diagnostics)
-      : prepared_(prepared), loaded_(load_chart(prepared.experiment, prepared.lookup, diagnostics))
+      : TaskRun(prepared), loaded_(load_chart(prepared.experiment, prepared.lookup, diagnostics))
   {
     if (diagnostics.empty()) chart_ = empty_chart(chart(), loaded_);
   }
-
-  std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }
 
   std::string check_line(const Plan& /*plan*/) const override
   {
@@ -83,7 +82,6 @@ class ChartTask final : public TaskRun {
  private:
   const ExperimentChart& chart() const { return *prepared_.experiment.section<ExperimentChart>(); }
 
-  const Prepared& prepared_;
   LoadedChart loaded_;
   PrecisionChart chart_;
 };

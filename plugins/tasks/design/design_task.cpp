@@ -46,7 +46,7 @@ bool ended_well(const std::string& status)
 class DesignTask final : public TaskRun {
  public:
   DesignTask(const Prepared& prepared, Diagnostics& diagnostics)
-      : prepared_(prepared),
+      : TaskRun(prepared),
         experiment_(prepared.experiment),
         spec_(design_spec(experiment_)),
         tasks_(design_tasks(spec_, profile_tasks(experiment_)))
@@ -245,7 +245,7 @@ class DesignTask final : public TaskRun {
     const auto& section = *experiment_.section<ExperimentDesign>();
     const TappedOptimizer optimizer(*section.optimizer, section.max_iterations,
                                     [this](const DesignPoint& p) { point_ = &p; });
-    EvaluationLog log(context_->folder / journal_file, context_->identity, context_->resumed,
+    EvaluationLog log(context_->folder / journal_file, context_->identity(), context_->resumed,
                       [this](const std::string& warning) { context_->progress.warn(warning); });
     if (context_->resumed)
       context_->progress.note(fmt::format("resuming: {} evaluations of the search are known", log.known()));
@@ -309,7 +309,6 @@ class DesignTask final : public TaskRun {
     finish_design(d, spec_, d.initial_limits, run_.limits);
   }
 
-  const Prepared& prepared_;
   const Experiment& experiment_;
   DesignSpec spec_;
   std::vector<LimitTask> tasks_;  ///< targets first

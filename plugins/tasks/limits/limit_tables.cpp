@@ -112,7 +112,7 @@ std::string remarks(const RunResult& run)
 
 std::string rest_remark(const Prepared& prepared)
 {
-  if (prepared.start)
+  if (prepared.settings.start)
     return "The rest state touches itself in a cell without room: limits start from a slightly strained "
            "state.\n\n";
   if (prepared.moved > 0.0)

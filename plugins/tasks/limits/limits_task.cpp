@@ -15,7 +15,7 @@ namespace {
 class LimitsTask final : public TaskRun {
  public:
   explicit LimitsTask(const Prepared& prepared)
-      : prepared_(prepared), tasks_(profile_tasks(prepared.experiment))
+      : TaskRun(prepared), tasks_(profile_tasks(prepared.experiment))
   {
     run_.scene = prepared.scene;
   }
@@ -81,7 +81,6 @@ class LimitsTask final : public TaskRun {
         boundary_of(prepared_.experiment, prepared_.settings, prepared_.model.length, run_.limits);
   }
 
-  const Prepared& prepared_;
   std::vector<LimitTask> tasks_;
   KeptLimits kept_;
   RunResult run_;

@@ -6,9 +6,10 @@
 
 namespace hauberk {
 
-std::vector<VerifyLine> independent_check(const RunResult& run, const std::string& experiment_json)
+std::vector<VerifyLine> independent_check(const RunResult& run, const std::string& experiment_json,
+                                          const std::vector<std::string>& macro_names)
 {
-  const boost::json::value document = results_document(run, experiment_json, {});
+  const boost::json::value document = results_document(run, experiment_json, macro_names);
   std::vector<VerifyLine> lines = verify(document).lines;
   // A document that cannot be read at all gives a single line, which then is about every limit; the line
   // about the profiles, which comes last, is nobody's.

@@ -50,7 +50,8 @@ void solve(const StabilityItem& item, std::vector<StabilityCase>& cases)
   } catch (const InputError& error) {
     return refuse(cases, "refused", error.what());
   }
-  const std::vector<VerifyLine> lines = independent_check(run, write_json(e.resolved));
+  const std::vector<VerifyLine> lines =
+      independent_check(run, write_json(e.resolved), macro_names(*e.load_case));
   for (std::size_t k = 0; k < cases.size(); ++k) enter_claim(cases[k], run.limits[k], lines[k]);
 }
 

@@ -6,6 +6,7 @@
 #include "tasks/stability/stability_summary.hpp"
 
 #include <hauberk/error.hpp>
+#include "document/json_values.hpp"
 #include "results/direction_json.hpp"
 
 #include <fmt/format.h>
@@ -17,54 +18,43 @@ namespace {
 
 namespace json = boost::json;
 
-double number(const json::value& v) { return v.is_null() ? 0.0 : v.to_number<double>(); }
-
-std::optional<double> optional_number(const json::value& v)
-{
-  return v.is_null() ? std::nullopt : std::optional(v.to_number<double>());
-}
-
-std::string text(const json::value& v) { return std::string(v.as_string()); }
-
 bool same_case(const json::object& entry, const StabilityMap& map, const StabilityCase& c)
 {
-  return text(entry.at("family")) == map.families[c.family].name &&
-         text(entry.at("member")) == map.families[c.family].labels[c.member] &&
-         text(entry.at("method")) == map.methods[c.method] &&
+  return text_of(entry.at("family")) == map.families[c.family].name &&
+         text_of(entry.at("member")) == map.families[c.family].labels[c.member] &&
+         text_of(entry.at("method")) == map.methods[c.method] &&
          (c.sense.empty() ? entry.at("sense").is_null()
-                          : text(entry.at("sense")) == c.sense && entered_direction(entry) == c.direction);
+                          : text_of(entry.at("sense")) == c.sense && entered_direction(entry) == c.direction);
 }
 
 void take_case(const json::object& entry, StabilityCase& c)
 {
   for (const Outcome outcome : outcomes) {
-    if (to_string(outcome) == text(entry.at("outcome"))) c.outcome = outcome;
+    if (to_string(outcome) == text_of(entry.at("outcome"))) c.outcome = outcome;
   }
   if (c.outcome == Outcome::interrupted) return;
-  c.status = text(entry.at("status"));
-  c.message = text(entry.at("message"));
-  c.contact = text(entry.at("contact"));
-  c.value = optional_number(entry.at("value"));
-  c.slack = number(entry.at("slack"));
+  c.status = text_of(entry.at("status"));
+  c.message = text_of(entry.at("message"));
+  c.contact = text_of(entry.at("contact"));
+  c.value = number_or_none(entry.at("value"));
+  c.slack = number_or_zero(entry.at("slack"));
   c.checked = entry.at("checked").as_bool();
-  c.check = text(entry.at("check"));
-  c.min_gap = optional_number(entry.at("min_gap"));
-  c.error_estimate = optional_number(entry.at("error_estimate"));
-  c.force_balance = optional_number(entry.at("force_balance"));
-  c.iterations = static_cast<int>(number(entry.at("iterations")));
-  c.evaluations = static_cast<long>(number(entry.at("evaluations")));
-  c.seconds = number(entry.at("seconds"));
+  c.check = text_of(entry.at("check"));
+  c.min_gap = number_or_none(entry.at("min_gap"));
+  c.error_estimate = number_or_none(entry.at("error_estimate"));
+  c.force_balance = number_or_none(entry.at("force_balance"));
+  c.iterations = static_cast<int>(number_or_zero(entry.at("iterations")));
+  c.evaluations = static_cast<long>(number_or_zero(entry.at("evaluations")));
+  c.seconds = number_or_zero(entry.at("seconds"));
 }
 
 class StabilityTask final : public TaskRun {
  public:
   StabilityTask(const Prepared& prepared, Diagnostics& diagnostics)
-      : prepared_(prepared), items_(load_stability(stability(), prepared.lookup, diagnostics))
+      : TaskRun(prepared), items_(load_stability(stability(), prepared.lookup, diagnostics))
   {
     if (diagnostics.empty()) map_ = empty_map(stability(), items_);
   }
-
-  std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }
 
   std::string check_line(const Plan& /*plan*/) const override
   {
@@ -116,7 +106,6 @@ class StabilityTask final : public TaskRun {
     return *prepared_.experiment.section<ExperimentStability>();
   }
 
-  const Prepared& prepared_;
   std::vector<StabilityItem> items_;  ///< by family, member, method
   StabilityMap map_;
 };

@@ -58,9 +58,9 @@ json::object row_json(const SweepTable& table, const SweepRow& row)
 }  // namespace
 
 void enter_result(const SweepTable& table, SweepRow& row, const RunResult& run,
-                  const std::string& experiment_json, const ResultNames& names)
+                  const std::string& experiment_json, const std::vector<std::string>& macro_names)
 {
-  json::object document = results_document(run, experiment_json, {}, names);
+  json::object document = results_document(run, experiment_json, macro_names);
   for (const char* key : {"provenance", "plan", "files"}) document.erase(key);
   std::tie(row.status, row.message) = status_of(run.limits);
   if (row.status == RowStatus::interrupted) return;

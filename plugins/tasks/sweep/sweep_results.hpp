@@ -41,7 +41,7 @@ struct SweepTable {
 
 /// Enters the results of a computed row: the document, what is measured of it, status and message.
 void enter_result(const SweepTable& table, SweepRow& row, const RunResult& run,
-                  const std::string& experiment_json, const ResultNames& names);
+                  const std::string& experiment_json, const std::vector<std::string>& macro_names);
 
 /// The part `sweep` of results.json; share/doc/results.md explains every field.
 boost::json::object sweep_json(const SweepTable& table);

@@ -111,8 +111,7 @@ void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& rea
   const std::vector<std::vector<std::size_t>> donors = row_donors(scenes), rounds = row_rounds(donors);
   const std::vector<bool> needed = needed_rows(left, donors, rounds);
 
-  ResultNames names;
-  names.macro = macro_names(load_case);
+  const std::vector<std::string> names = macro_names(load_case);
   std::vector<std::vector<std::optional<State>>> states(n);
   std::mutex mutex;  // guards the rows of table, progress and observer
   std::size_t done = 0;

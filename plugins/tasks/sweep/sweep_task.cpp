@@ -16,7 +16,7 @@ namespace {
 class SweepTask final : public TaskRun {
  public:
   SweepTask(const Prepared& prepared, Diagnostics& diagnostics)
-      : prepared_(prepared), table_(empty_table(*prepared.experiment.section<ExperimentSweep>()))
+      : TaskRun(prepared), table_(empty_table(*prepared.experiment.section<ExperimentSweep>()))
   {
     const Experiment& e = prepared.experiment;
     const auto& sweep = *e.section<ExperimentSweep>();
@@ -24,8 +24,6 @@ class SweepTask final : public TaskRun {
     for (std::size_t row = 0; row < sweep.row_count(); ++row)
       readings_.push_back(read_sweep_row(sweep, row, e.name, prepared.lookup, diagnostics));
   }
-
-  std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }
 
   std::string check_line(const Plan& /*plan*/) const override
   {
@@ -71,7 +69,6 @@ class SweepTask final : public TaskRun {
   bool failed() const override { return any_failed(table_); }
 
  private:
-  const Prepared& prepared_;
   std::vector<VariantReading> readings_;  ///< by row
   SweepTable table_;
 };

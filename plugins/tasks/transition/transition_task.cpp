@@ -80,7 +80,7 @@ bool only_tori(const Model& model)
 class TransitionTask final : public TaskRun {
  public:
   TransitionTask(const Prepared& prepared, Diagnostics& diagnostics)
-      : prepared_(prepared), spec_(transition_spec(prepared))
+      : TaskRun(prepared), spec_(transition_spec(prepared))
   {
     const Experiment& e = prepared.experiment;
     if (!only_tori(prepared.model)) {
@@ -97,8 +97,6 @@ class TransitionTask final : public TaskRun {
           fmt::format("path '{}': {}", e.section<ExperimentTransition>()->paths[path].name, problem));
     }
   }
-
-  std::vector<LimitTask> limit_tasks() const override { return profile_tasks(prepared_.experiment); }
 
   std::string check_line(const Plan& /*plan*/) const override
   {
@@ -145,7 +143,6 @@ class TransitionTask final : public TaskRun {
   bool failed() const override { return !result_.message.empty(); }
 
  private:
-  const Prepared& prepared_;
   TransitionSpec spec_;
   TransitionResult result_;
 };

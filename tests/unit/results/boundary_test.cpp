@@ -165,7 +165,7 @@ TEST(BoundarySvg, ShowsEveryTriangleInFourViews)
 TEST(BoundaryDocument, HoldsTheSurface)
 {
   const RunResult run = octahedron();
-  const auto document = results_document(run, test::sample_experiment(), test::sample_provenance());
+  const auto document = results_document(run, test::sample_experiment(), names);
   const boost::json::object& first = document.at("limits").as_array()[0].as_object();
   EXPECT_TRUE(first.at("direction_deg").is_null());
   EXPECT_EQ(entered_direction(first), run.limits[0].direction);

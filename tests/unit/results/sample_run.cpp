@@ -84,7 +84,6 @@ std::vector<ProfilePoint> profile(const std::vector<LimitResult>& limits)
 RunResult sample_run()
 {
   RunResult run;
-  run.plan_json = R"({"pairs": [{"kernel": "circle-circle"}]})";
   run.scene = scene();
   run.limits = limits(1.0);
   run.profiles = profile(run.limits);
@@ -108,13 +107,6 @@ RunResult sample_design()
   design.initial_limits = limits(0.5);
   run.design = design;
   return run;
-}
-
-Provenance sample_provenance()
-{
-  return {
-      "0.1.0", "RelWithDebInfo", "gcc 12", {{"Eigen", "3.4.0"}}, {{"torus_union", "shape", "0.1.0"}}, {}, 7,
-      2};
 }
 
 std::string sample_experiment()

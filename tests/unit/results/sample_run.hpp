@@ -12,7 +12,6 @@ namespace hauberk::test {
 RunResult sample_run();
 /// The same with a design of eta.
 RunResult sample_design();
-Provenance sample_provenance();
 std::string sample_experiment();
 
 }  // namespace hauberk::test

@@ -29,7 +29,7 @@ PLAN = {
     "plugins/run": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
                     "plugins/pictures"],
     "plugins/tasks/task.hpp": ["kernel", "plugins/run"],
-    "plugins/tasks/variants": ["kernel", "plugins/document", "plugins/experiment"],
+    "plugins/tasks/variants": ["kernel", "plugins/document", "plugins/experiment", "plugins/run"],
     "plugins/tasks/limits": ["kernel", "plugins/document", "plugins/results", "plugins/pictures", "plugins/experiment",
                              "plugins/run", "plugins/tasks/task.hpp"],
     "plugins/tasks/design": ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/run",

@@ -11,8 +11,8 @@ namespace hauberk {
 namespace {
 
 /// The scene as its reference has it, or as it is.
-std::optional<Experiment> load_scene(const Experiment& e, std::size_t scene, const PluginLookup& lookup,
-                                     Diagnostics& diagnostics)
+VariantReading load_scene(const Experiment& e, std::size_t scene, const PluginLookup& lookup,
+                          Diagnostics& diagnostics)
 {
   const ChartScene& from = e.section<ExperimentChart>()->scenes[scene];
   const std::string pointer = fmt::format("/chart/scenes/{}", scene);
@@ -21,14 +21,14 @@ std::optional<Experiment> load_scene(const Experiment& e, std::size_t scene, con
     diagnostics.problems.add(nearest_node(e.resolved, pointer),
                              fmt::format("scene '{}': {}", from.name, reading.refusal));
   }
-  if (!reading.experiment) return std::nullopt;
+  if (!reading.experiment) return reading;
   const std::size_t limits = profile_tasks(*reading.experiment).size();
   if (!from.exact.empty() && from.exact.size() != limits) {
     diagnostics.problems.add(
         nearest_node(e.resolved, pointer + "/exact"),
         fmt::format("expected {} exact values, one per limit, found {}", limits, from.exact.size()));
   }
-  return std::move(reading.experiment);
+  return reading;
 }
 
 bool same_limits(const Experiment& a, const Experiment& b)
@@ -48,7 +48,7 @@ void load_settings(const Experiment& e, std::size_t scene, std::size_t method, c
     const std::size_t before = diagnostics.problems.list().size();
     VariantReading reading =
         read_chart_setting(*e.section<ExperimentChart>(), scene, method, k, lookup, diagnostics);
-    if (reading.experiment && !same_limits(*reading.experiment, *out.scenes[scene])) {
+    if (reading.experiment && !same_limits(*reading.experiment, *out.scenes[scene].experiment)) {
       diagnostics.problems.add(
           nearest_node(e.resolved, fmt::format("/chart/methods/{}", method)),
           fmt::format(
@@ -58,7 +58,7 @@ void load_settings(const Experiment& e, std::size_t scene, std::size_t method, c
     }
     // What is wrong with one setting is wrong with all, as a rule.
     if (diagnostics.problems.list().size() > before) return;
-    out.items.push_back({scene, method, k, std::move(reading.experiment), std::move(reading.refusal)});
+    out.items.push_back({scene, method, k, std::move(reading)});
   }
 }
 
@@ -70,7 +70,7 @@ LoadedChart load_chart(const Experiment& e, const PluginLookup& lookup, Diagnost
   LoadedChart out;
   for (std::size_t scene = 0; scene < chart.scenes.size(); ++scene) {
     out.scenes.push_back(load_scene(e, scene, lookup, diagnostics));
-    for (std::size_t m = 0; m < chart.methods.size() && out.scenes.back(); ++m) {
+    for (std::size_t m = 0; m < chart.methods.size() && out.scenes.back().experiment; ++m) {
       const std::vector<std::size_t>& solved = chart.methods[m].scenes;
       if (std::find(solved.begin(), solved.end(), scene) != solved.end())
         load_settings(e, scene, m, lookup, diagnostics, out);

@@ -6,13 +6,12 @@ namespace hauberk {
 /// A scene of a chart by one method in one setting.
 struct ChartItem {
   std::size_t scene = 0, method = 0, setting = 0;
-  std::optional<Experiment> experiment;  ///< null: refused
-  std::string refusal;
+  VariantReading reading;
 };
 
 struct LoadedChart {
-  std::vector<std::optional<Experiment>> scenes;  ///< with the settings of their references; none is null
-  std::vector<ChartItem> items;                   ///< by scene, method, setting
+  std::vector<VariantReading> scenes;  ///< with the settings of their references; none is refused
+  std::vector<ChartItem> items;        ///< by scene, method, setting
 };
 
 /// The scenes of the chart of `e`, and each by every method that solves it in every setting. What is wrong

@@ -3,8 +3,7 @@
 #include "run/limit_tasks.hpp"
 #include "run/memory.hpp"
 #include "run/variant_run.hpp"
-
-#include <hauberk/error.hpp>
+#include "tasks/variants/grid.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +26,7 @@ PrecisionRun no_run(RowStatus status, const std::string& message)
 /// after.
 PrecisionRun timed_run(const Experiment& experiment, unsigned threads, const std::function<void()>& before,
                        const std::function<void()>& after)
-try {
+{
   const PreparedVariant prepared = prepare_variant(experiment);
   if (before) before();
   const Clock::time_point begin = Clock::now();
@@ -35,49 +34,52 @@ try {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (after) after();
   return precision_run(solved.limits, solved.unreported, seconds);
-} catch (const InputError& error) {
-  return no_run(RowStatus::refused, error.what());
-} catch (const std::exception& error) {
-  return no_run(RowStatus::failed, error.what());
 }
 
-void run_references(const LoadedChart& loaded, unsigned threads, Progress& progress, PrecisionChart& chart,
-                    const ChartObserver& observer)
-{
-  std::vector<std::size_t> left;
-  for (std::size_t k = 0; k < chart.scenes.size(); ++k) {
-    if (chart.scenes[k].has_reference && !chart.scenes[k].reference) left.push_back(k);
+/// Scenes that are compared with a solve of higher accuracy, one by one.
+class References final : public GridRows {
+ public:
+  References(const LoadedChart& loaded, unsigned threads, PrecisionChart& chart)
+      : loaded_(loaded), threads_(threads), chart_(chart)
+  {
   }
-  if (left.empty()) return;
-  progress.limits("reference", 0, left.size());
-  for (std::size_t k = 0; k < left.size() && !interrupted(); ++k) {
-    PrecisionRun run = timed_run(*loaded.scenes[left[k]], threads, {}, {});
-    if (run.status == RowStatus::interrupted) return;
-    enter_reference(chart, left[k], std::move(run));
-    progress.limits("reference", k + 1, left.size());
-    if (observer.on_run) observer.on_run(chart);
-  }
-}
 
-/// One more run of a point.
-void run_point(const ChartItem& item, PrecisionChart& chart, std::size_t k, const ChartObserver& observer)
-{
-  if (!item.experiment) return enter_run(chart, k, no_run(RowStatus::refused, item.refusal));
-  const auto threads = static_cast<unsigned>(chart.points[k].threads);
-  if (!chart.points[k].seconds.empty())
-    return enter_run(chart, k, timed_run(*item.experiment, threads, {}, {}));
-  std::optional<MemoryMeter> meter;
-  std::optional<std::int64_t> peak;
-  PrecisionRun run = timed_run(
-      *item.experiment, threads,
-      [&] {
-        if (observer.before_memory) observer.before_memory();
-        meter.emplace();
-      },
-      [&] { peak = meter->peak(); });
-  if (run.status != RowStatus::interrupted) chart.points[k].peak_memory_bytes = peak;
-  enter_run(chart, k, std::move(run));
-}
+  /// Scenes whose reference is not known.
+  std::vector<std::size_t> left() const
+  {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < chart_.scenes.size(); ++k) {
+      if (chart_.scenes[k].has_reference && !chart_.scenes[k].reference) out.push_back(k);
+    }
+    return out;
+  }
+
+  const VariantReading& variant(std::size_t scene) const override { return loaded_.scenes[scene]; }
+
+  EnterRow solve(std::size_t scene, const Experiment& e) override
+  {
+    return entry(scene, timed_run(e, threads_, {}, {}));
+  }
+
+  EnterRow refuse(std::size_t scene, RowStatus status, const std::string& message) override
+  {
+    return entry(scene, no_run(status, message));
+  }
+
+ private:
+  EnterRow entry(std::size_t scene, PrecisionRun run)
+  {
+    if (run.status == RowStatus::interrupted) return {};
+    return [this, scene, run = std::move(run)]() -> std::size_t {
+      enter_reference(chart_, scene, run);
+      return 1;
+    };
+  }
+
+  const LoadedChart& loaded_;
+  unsigned threads_;
+  PrecisionChart& chart_;
+};
 
 /// Runs that are left to do.
 std::size_t runs_left(const PrecisionChart& chart)
@@ -90,6 +92,68 @@ std::size_t runs_left(const PrecisionChart& chart)
   return left;
 }
 
+/// One more run of every point, one point at a time with the point's own number of threads.
+class PointRuns final : public GridRows {
+ public:
+  PointRuns(const LoadedChart& loaded, const std::function<void()>& note_peak_memory, PrecisionChart& chart)
+      : loaded_(loaded), note_peak_memory_(note_peak_memory), chart_(chart)
+  {
+  }
+
+  /// Points that have at most `repeat` runs and are not done.
+  std::vector<std::size_t> left(std::size_t repeat) const
+  {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < chart_.points.size(); ++k) {
+      const PrecisionPoint& point = chart_.points[k];
+      if (point.status == RowStatus::interrupted && point.seconds.size() <= repeat) out.push_back(k);
+    }
+    return out;
+  }
+
+  const VariantReading& variant(std::size_t point) const override
+  {
+    return loaded_.items[point / chart_.threads.size()].reading;
+  }
+
+  EnterRow solve(std::size_t point, const Experiment& e) override
+  {
+    const auto threads = static_cast<unsigned>(chart_.points[point].threads);
+    if (!chart_.points[point].seconds.empty()) return entry(point, timed_run(e, threads, {}, {}), {});
+    std::optional<MemoryMeter> meter;
+    std::optional<std::int64_t> peak;
+    PrecisionRun run = timed_run(
+        e, threads,
+        [&] {
+          if (note_peak_memory_) note_peak_memory_();
+          meter.emplace();
+        },
+        [&] { peak = meter->peak(); });
+    return entry(point, std::move(run), peak);
+  }
+
+  EnterRow refuse(std::size_t point, RowStatus status, const std::string& message) override
+  {
+    return entry(point, no_run(status, message), {});
+  }
+
+ private:
+  EnterRow entry(std::size_t point, PrecisionRun run, std::optional<std::int64_t> peak)
+  {
+    if (run.status == RowStatus::interrupted) return {};
+    return [this, point, run = std::move(run), peak] {
+      const std::size_t before = runs_left(chart_);
+      if (peak) chart_.points[point].peak_memory_bytes = peak;
+      enter_run(chart_, point, run);
+      return before - runs_left(chart_);
+    };
+  }
+
+  const LoadedChart& loaded_;
+  const std::function<void()>& note_peak_memory_;
+  PrecisionChart& chart_;
+};
+
 }  // namespace
 
 PrecisionChart empty_chart(const ExperimentChart& from, const LoadedChart& loaded)
@@ -99,7 +163,7 @@ PrecisionChart empty_chart(const ExperimentChart& from, const LoadedChart& loade
   chart.threads = from.threads;
   for (std::size_t k = 0; k < from.scenes.size(); ++k) {
     const ChartScene& scene = from.scenes[k];
-    const Experiment& e = loaded.scenes[k].value();
+    const Experiment& e = loaded.scenes[k].experiment.value();
     PrecisionScene& entry = chart.scenes.emplace_back();
     entry.name = scene.name;
     entry.exact = scene.exact;
@@ -120,23 +184,16 @@ PrecisionChart empty_chart(const ExperimentChart& from, const LoadedChart& loade
   return chart;
 }
 
-void run_chart(const LoadedChart& loaded, unsigned threads, Progress& progress, PrecisionChart& chart,
-               const ChartObserver& observer)
+void run_chart(const LoadedChart& loaded, RunContext& context, PrecisionChart& chart)
 {
-  run_references(loaded, threads, progress, chart, observer);
-  const std::size_t total = runs_left(chart);
-  progress.limits("chart", 0, total);
-  for (std::size_t repeat = 0; repeat < static_cast<std::size_t>(chart.repeats); ++repeat) {
-    for (std::size_t k = 0; k < chart.points.size(); ++k) {
-      if (interrupted()) return;
-      const PrecisionPoint& point = chart.points[k];
-      if (point.status != RowStatus::interrupted || point.seconds.size() > repeat) continue;
-      run_point(loaded.items[k / chart.threads.size()], chart, k, observer);
-      if (interrupted()) return;
-      progress.limits("chart", total - runs_left(chart), total);
-      if (observer.on_run) observer.on_run(chart);
-    }
-  }
+  References references(loaded, context.threads, chart);
+  if (const std::vector<std::size_t> left = references.left(); !left.empty())
+    Grid(context, "reference", left.size()).run(references, left, 1);
+  if (interrupted()) return;
+  PointRuns runs(loaded, context.note_peak_memory, chart);
+  Grid grid(context, "chart", runs_left(chart));
+  for (std::size_t repeat = 0; repeat < static_cast<std::size_t>(chart.repeats); ++repeat)
+    grid.run(runs, runs.left(repeat), 1);
 }
 
 bool any_failed(const PrecisionChart& chart)

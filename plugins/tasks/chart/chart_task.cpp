@@ -56,12 +56,7 @@ class ChartTask final : public TaskRun {
 
   std::string resume_note() const override { return "resuming: finished runs are kept"; }
 
-  void run(RunContext& context) override
-  {
-    const ChartObserver observer{[&context](const PrecisionChart&) { context.save_sometimes(); },
-                                 context.note_peak_memory};
-    run_chart(loaded_, context.threads, context.progress, chart_, observer);
-  }
+  void run(RunContext& context) override { run_chart(loaded_, context, chart_); }
 
   void enter(json::object& results) const override { results["chart"] = chart_json(chart_); }
 

@@ -42,12 +42,11 @@ std::vector<StabilityItem> load_stability(const ExperimentStability& stability, 
     const StabilityFamily& family = stability.families[f];
     for (std::size_t k = 0; k < family.members.size(); ++k) {
       for (std::size_t m = 0; m < stability.methods.size(); ++m) {
-        VariantReading reading = read_stability_member(stability, f, k, m, lookup, diagnostics);
-        StabilityItem item{f, k, m, std::move(reading.experiment), std::move(reading.refusal), 0};
-        const std::string scene =
-            item.experiment ? scene_text(*item.experiment) : fmt::format("refused {} {} {}", f, k, m);
+        StabilityItem item{f, k, m, read_stability_member(stability, f, k, m, lookup, diagnostics), 0};
+        const std::optional<Experiment>& e = item.reading.experiment;
+        const std::string scene = e ? scene_text(*e) : fmt::format("refused {} {} {}", f, k, m);
         item.scene = scenes.emplace(scene, scenes.size()).first->second;
-        if (item.experiment && m == 0) check_exact(family, k, *item.experiment, diagnostics);
+        if (e && m == 0) check_exact(family, k, *e, diagnostics);
         items.push_back(std::move(item));
       }
     }

@@ -7,8 +7,7 @@ namespace hauberk {
 /// One member of a family by one method.
 struct StabilityItem {
   std::size_t family = 0, member = 0, method = 0;
-  std::optional<Experiment> experiment;  ///< null: refused
-  std::string refusal;
+  VariantReading reading;
   std::size_t scene = 0;  ///< equal numbers: the same scene and load, whatever the solver's settings
 };
 

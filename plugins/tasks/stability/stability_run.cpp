@@ -1,59 +1,88 @@
 #include "tasks/stability/stability_run.hpp"
-#include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/variant_run.hpp"
 
-#include <hauberk/error.hpp>
-#include <hauberk/parallel.hpp>
 #include "document/json_writer.hpp"
 #include "tasks/stability/classify.hpp"
 #include "tasks/stability/independent_check.hpp"
+#include "tasks/variants/grid.hpp"
 
 #include <algorithm>
-#include <mutex>
+#include <utility>
 
 namespace hauberk {
 namespace {
 
-/// Where the cases of an item stand in the map.
-struct Range {
-  std::size_t begin = 0, count = 0;
+/// The items of a map, each a row of one case or several that follow each other in it.
+class StabilityRows final : public GridRows {
+ public:
+  StabilityRows(const std::vector<StabilityItem>& items, StabilityMap& map) : items_(items), map_(map)
+  {
+    begin_.push_back(0);
+    for (const StabilityItem& item : items) {
+      const auto& e = item.reading.experiment;
+      begin_.push_back(begin_.back() + (e ? profile_tasks(*e).size() : 1));
+    }
+    for (std::size_t k = 0; k < items.size(); ++k) asked_.push_back(cases_of(k));
+  }
+
+  /// Items with cases that are not done.
+  std::vector<std::size_t> left() const
+  {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < items_.size(); ++k) {
+      if (std::any_of(asked_[k].begin(), asked_[k].end(),
+                      [](const StabilityCase& c) { return c.outcome == Outcome::interrupted; }))
+        out.push_back(k);
+    }
+    return out;
+  }
+
+  const VariantReading& variant(std::size_t row) const override { return items_[row].reading; }
+
+  EnterRow solve(std::size_t row, const Experiment& e) override
+  {
+    const RunResult run = run_variant(e);
+    const std::vector<VerifyLine> lines =
+        independent_check(run, write_json(e.resolved), macro_names(*e.load_case));
+    return entry(row, [&](StabilityCase& c, std::size_t k) { enter_claim(c, run.limits[k], lines[k]); });
+  }
+
+  EnterRow refuse(std::size_t row, RowStatus status, const std::string& message) override
+  {
+    return entry(row, [&](StabilityCase& c, std::size_t /*k*/) {
+      c.status = to_string(status);
+      c.message = message;
+    });
+  }
+
+ private:
+  std::vector<StabilityCase> cases_of(std::size_t row) const
+  {
+    const auto at = [&](std::size_t k) {
+      return map_.cases.begin() + static_cast<std::ptrdiff_t>(begin_[k]);
+    };
+    return {at(row), at(row + 1)};
+  }
+
+  /// An item's cases as `fill` completes them. What a case was asked for never changes.
+  template <class Fill>
+  EnterRow entry(std::size_t row, const Fill& fill)
+  {
+    std::vector<StabilityCase> cases = asked_[row];
+    for (std::size_t k = 0; k < cases.size(); ++k) fill(cases[k], k);
+    return [this, row, cases = std::move(cases)]() -> std::size_t {
+      std::copy(cases.begin(), cases.end(), map_.cases.begin() + static_cast<std::ptrdiff_t>(begin_[row]));
+      classify(map_);
+      return 1;
+    };
+  }
+
+  const std::vector<StabilityItem>& items_;
+  StabilityMap& map_;
+  std::vector<std::size_t> begin_;                 ///< of each item's cases, and one past the end
+  std::vector<std::vector<StabilityCase>> asked_;  ///< by item, as they were at first
 };
-
-std::vector<Range> ranges(const std::vector<StabilityItem>& items)
-{
-  std::vector<Range> out;
-  std::size_t begin = 0;
-  for (const StabilityItem& item : items) {
-    const std::size_t count = item.experiment ? profile_tasks(*item.experiment).size() : 1;
-    out.push_back({begin, count});
-    begin += count;
-  }
-  return out;
-}
-
-void refuse(std::vector<StabilityCase>& cases, const char* status, const std::string& message)
-{
-  for (StabilityCase& c : cases) {
-    c.status = status;
-    c.message = message;
-  }
-}
-
-void solve(const StabilityItem& item, std::vector<StabilityCase>& cases)
-{
-  if (!item.experiment) return refuse(cases, "refused", item.refusal);
-  const Experiment& e = *item.experiment;
-  RunResult run;
-  try {
-    run = run_variant(e);
-  } catch (const InputError& error) {
-    return refuse(cases, "refused", error.what());
-  }
-  const std::vector<VerifyLine> lines =
-      independent_check(run, write_json(e.resolved), macro_names(*e.load_case));
-  for (std::size_t k = 0; k < cases.size(); ++k) enter_claim(cases[k], run.limits[k], lines[k]);
-}
 
 }  // namespace
 
@@ -72,55 +101,25 @@ StabilityMap empty_map(const ExperimentStability& from, const std::vector<Stabil
     c.scene = item.scene;
     c.solvable = from.families[item.family].solvable;
     c.exact = from.families[item.family].exact[item.member];
-    if (!item.experiment) {
+    if (!item.reading.experiment) {
       map.cases.push_back(c);
       continue;
     }
-    for (const LimitTask& task : profile_tasks(*item.experiment)) {
+    for (const LimitTask& task : profile_tasks(*item.reading.experiment)) {
       c.direction = task.direction;
       c.upward = task.sense == Sense::positive;
-      c.sense = item.experiment->load_case->sense_name(task.direction, task.sense);
+      c.sense = item.reading.experiment->load_case->sense_name(task.direction, task.sense);
       map.cases.push_back(c);
     }
   }
   return map;
 }
 
-void run_stability(const std::vector<StabilityItem>& items, unsigned threads, Progress& progress,
-                   StabilityMap& map, const MapObserver& observer)
+void run_stability(const std::vector<StabilityItem>& items, RunContext& context, StabilityMap& map)
 {
-  const std::vector<Range> places = ranges(items);
-  const auto at = [&](std::size_t item) {
-    return map.cases.begin() + static_cast<std::ptrdiff_t>(places[item].begin);
-  };
-  std::vector<std::size_t> left;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const bool done = std::none_of(at(k), at(k) + static_cast<std::ptrdiff_t>(places[k].count),
-                                   [](const StabilityCase& c) { return c.outcome == Outcome::interrupted; });
-    if (!done) left.push_back(k);
-  }
-  std::mutex mutex;  // guards map, progress and observer
-  std::size_t done = 0;
-  progress.limits("stability", 0, left.size());
-  parallel_for(left.size(), threads, [&](std::size_t i) {
-    if (interrupted()) return;
-    const std::size_t k = left[i];
-    std::vector<StabilityCase> cases;
-    {
-      const std::lock_guard lock(mutex);
-      cases.assign(at(k), at(k) + static_cast<std::ptrdiff_t>(places[k].count));
-    }
-    try {
-      solve(items[k], cases);
-    } catch (const std::exception& error) {
-      refuse(cases, "failed", error.what());
-    }
-    const std::lock_guard lock(mutex);
-    std::copy(cases.begin(), cases.end(), at(k));
-    classify(map);
-    progress.limits("stability", ++done, left.size());
-    observer(map);
-  });
+  StabilityRows rows(items, map);
+  const std::vector<std::size_t> left = rows.left();
+  Grid(context, "stability", left.size()).run(rows, left, context.threads);
   classify(map);
 }
 

@@ -4,8 +4,8 @@
 #include "tasks/stability/stability_run.hpp"
 #include "tasks/stability/stability_section.hpp"
 #include "tasks/stability/stability_summary.hpp"
+#include "tasks/variants/grid.hpp"
 
-#include <hauberk/error.hpp>
 #include "document/json_values.hpp"
 #include "results/direction_json.hpp"
 
@@ -65,26 +65,20 @@ class StabilityTask final : public TaskRun {
   /// The experiment is the same, so its cases are the same and in the same order.
   bool resume(const json::value& results) override
   {
-    const json::array& entries = results.at("stability").at("cases").as_array();
-    if (entries.size() != map_.cases.size()) throw InputError("its cases are not complete");
-    bool complete = true;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      StabilityCase& c = map_.cases[k];
-      const json::object& entry = entries[k].as_object();
-      if (!same_case(entry, map_, c)) throw InputError("its cases are in another order");
-      take_case(entry, c);
-      complete = complete && c.outcome != Outcome::interrupted;
-    }
-    return complete;
+    take_rows(results.at("stability").at("cases").as_array(), map_.cases, "cases",
+              [this](const json::value& value, StabilityCase& c) {
+                const json::object& entry = value.as_object();
+                if (!same_case(entry, map_, c)) return false;
+                take_case(entry, c);
+                return true;
+              });
+    return std::none_of(map_.cases.begin(), map_.cases.end(),
+                        [](const StabilityCase& c) { return c.outcome == Outcome::interrupted; });
   }
 
   std::string resume_note() const override { return "resuming: finished cases are kept"; }
 
-  void run(RunContext& context) override
-  {
-    run_stability(items_, context.threads, context.progress, map_,
-                  [&context](const StabilityMap&) { context.save_sometimes(); });
-  }
+  void run(RunContext& context) override { run_stability(items_, context, map_); }
 
   void enter(json::object& results) const override { results["stability"] = stability_json(map_); }
 

@@ -3,9 +3,8 @@
 #include "run/text_table.hpp"
 #include "run/variant_run.hpp"
 #include "tasks/sweep/row_lessons.hpp"
+#include "tasks/variants/grid.hpp"
 
-#include <hauberk/error.hpp>
-#include <hauberk/parallel.hpp>
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
 
@@ -13,30 +12,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <mutex>
+#include <numeric>
+#include <utility>
 
 namespace hauberk {
 namespace {
-
-void refuse(SweepRow& row, RowStatus status, const std::string& message)
-{
-  row.status = status;
-  row.message = message;
-}
-
-/// A row's scene; where there is none, the row says why.
-RowScene scene_of(const VariantReading& reading, SweepRow& row)
-{
-  try {
-    if (reading.experiment) return prepare_variant(*reading.experiment);
-    refuse(row, RowStatus::refused, reading.refusal);
-  } catch (const InputError& error) {
-    refuse(row, RowStatus::refused, error.what());
-  } catch (const std::exception& error) {
-    refuse(row, RowStatus::failed, error.what());
-  }
-  return std::nullopt;
-}
 
 /// Rows that are to be computed: those that are left, and all whose states they begin from.
 std::vector<bool> needed_rows(const std::vector<bool>& left,
@@ -52,6 +32,97 @@ std::vector<bool> needed_rows(const std::vector<bool>& left,
   }
   return needed;
 }
+
+std::vector<std::size_t> all_rows(std::size_t count)
+{
+  std::vector<std::size_t> out(count);
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+/// The scenes of all rows. Those that are none are done with that.
+class SweepScenes : public GridRows {
+ public:
+  SweepScenes(const std::vector<VariantReading>& readings, std::vector<bool> left, SweepTable& table)
+      : scenes(readings.size()), readings_(readings), left_(std::move(left)), table_(table)
+  {
+  }
+
+  const VariantReading& variant(std::size_t row) const override { return readings_[row]; }
+
+  EnterRow solve(std::size_t row, const Experiment& e) override
+  {
+    scenes[row] = prepare_variant(e);
+    return {};
+  }
+
+  EnterRow refuse(std::size_t row, RowStatus status, const std::string& message) override
+  {
+    SweepRow out = table_.rows[row];
+    out.status = status;
+    out.message = message;
+    return enter(row, std::move(out));
+  }
+
+  /// Rows that others begin from are solved again and entered once.
+  EnterRow enter(std::size_t row, SweepRow result)
+  {
+    if (!left_[row]) return {};
+    return [this, row, result = std::move(result)]() -> std::size_t {
+      table_.rows[row] = result;
+      return 1;
+    };
+  }
+
+  const SweepTable& table() const { return table_; }
+
+  std::vector<RowScene> scenes;
+
+ private:
+  const std::vector<VariantReading>& readings_;
+  std::vector<bool> left_;
+  SweepTable& table_;
+};
+
+/// The limits of rows that have scenes, each from its own start and from the states of its donors.
+class SweepLimits final : public GridRows {
+ public:
+  SweepLimits(SweepScenes& rows, const std::vector<std::vector<std::size_t>>& donors,
+              std::vector<std::string> macro_names)
+      : rows_(rows), donors_(donors), macro_names_(std::move(macro_names)), states_(rows.scenes.size())
+  {
+  }
+
+  const VariantReading& variant(std::size_t row) const override { return rows_.variant(row); }
+
+  EnterRow solve(std::size_t row, const Experiment& e) override
+  {
+    PreparedVariant variant = *rows_.scenes[row];
+    for (const std::size_t donor : donors_[row]) {
+      std::vector<GivenState> given =
+          given_by(*rows_.scenes[donor], states_[donor], *rows_.scenes[row], donor);
+      std::move(given.begin(), given.end(), std::back_inserter(variant.settings.given));
+    }
+    VariantLimits solved = solve_variant(variant, 1);
+    states_[row] = solved.states;
+    RunResult run = variant_result(e, std::move(variant), std::move(solved));
+    for (LimitResult& limit : run.limits) limit.load_case = e.load_case_plugin;
+    SweepRow out = rows_.table().rows[row];
+    enter_result(rows_.table(), out, run, write_json(e.resolved), macro_names_);
+    return rows_.enter(row, std::move(out));
+  }
+
+  EnterRow refuse(std::size_t row, RowStatus status, const std::string& message) override
+  {
+    return rows_.refuse(row, status, message);
+  }
+
+ private:
+  SweepScenes& rows_;
+  const std::vector<std::vector<std::size_t>>& donors_;
+  std::vector<std::string> macro_names_;
+  std::vector<std::vector<std::optional<State>>> states_;  ///< furthest locked, by row and task
+};
 
 std::string cell(const boost::json::value& value)
 {
@@ -90,63 +161,28 @@ SweepTable empty_table(const ExperimentSweep& from)
   return table;
 }
 
-void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& readings, unsigned threads,
-               Progress& progress, SweepTable& table, const TableObserver& observer)
+void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& readings, RunContext& context,
+               SweepTable& table)
 {
   const std::size_t n = table.rows.size();
   std::vector<bool> left(n);
   for (std::size_t k = 0; k < n; ++k) left[k] = table.rows[k].status == RowStatus::interrupted;
-  const auto rows_left = static_cast<std::size_t>(std::count(left.begin(), left.end(), true));
-  progress.limits("sweep", 0, rows_left);
-  if (rows_left == 0) return;
+  Grid grid(context, "sweep", static_cast<std::size_t>(std::count(left.begin(), left.end(), true)));
+  if (std::none_of(left.begin(), left.end(), [](bool is_left) { return is_left; })) return;
 
   // Scenes first: they say which row learns from which. A row that is done already and teaches is solved
   // again.
-  std::vector<SweepRow> rows = table.rows;
-  std::vector<RowScene> scenes(n);
-  parallel_for(n, threads, [&](std::size_t k) {
-    if (!interrupted()) scenes[k] = scene_of(readings[k], rows[k]);
-  });
+  SweepScenes scenes(readings, left, table);
+  grid.run(scenes, all_rows(n), context.threads);
   if (interrupted()) return;
-  const std::vector<std::vector<std::size_t>> donors = row_donors(scenes), rounds = row_rounds(donors);
+  const std::vector<std::vector<std::size_t>> donors = row_donors(scenes.scenes), rounds = row_rounds(donors);
   const std::vector<bool> needed = needed_rows(left, donors, rounds);
-
-  const std::vector<std::string> names = macro_names(load_case);
-  std::vector<std::vector<std::optional<State>>> states(n);
-  std::mutex mutex;  // guards the rows of table, progress and observer
-  std::size_t done = 0;
-  const auto finish = [&](std::size_t k, SweepRow row) {
-    if (!left[k]) return;
-    const std::lock_guard lock(mutex);
-    table.rows[k] = std::move(row);
-    progress.limits("sweep", ++done, rows_left);
-    observer(table);
-  };
+  SweepLimits limits(scenes, donors, macro_names(load_case));
   for (const std::vector<std::size_t>& round : rounds) {
-    parallel_for(round.size(), threads, [&](std::size_t i) {
-      const std::size_t k = round[i];
-      if (interrupted() || !needed[k]) return;
-      SweepRow row = std::move(rows[k]);
-      if (!scenes[k]) return finish(k, std::move(row));
-      const Experiment& e = *readings[k].experiment;
-      try {
-        PreparedVariant variant = *scenes[k];
-        for (const std::size_t donor : donors[k]) {
-          std::vector<GivenState> given = given_by(*scenes[donor], states[donor], *scenes[k], donor);
-          std::move(given.begin(), given.end(), std::back_inserter(variant.settings.given));
-        }
-        VariantLimits solved = solve_variant(variant, 1);
-        states[k] = solved.states;
-        RunResult run = variant_result(e, std::move(variant), std::move(solved));
-        for (LimitResult& limit : run.limits) limit.load_case = e.load_case_plugin;
-        enter_result(table, row, run, write_json(e.resolved), names);
-      } catch (const InputError& error) {
-        refuse(row, RowStatus::refused, error.what());
-      } catch (const std::exception& error) {
-        refuse(row, RowStatus::failed, error.what());
-      }
-      finish(k, std::move(row));
-    });
+    std::vector<std::size_t> order;
+    std::copy_if(round.begin(), round.end(), std::back_inserter(order),
+                 [&](std::size_t k) { return needed[k] && scenes.scenes[k]; });
+    grid.run(limits, order, context.threads);
   }
 }
 

@@ -3,8 +3,7 @@
 #include "run/limit_tasks.hpp"
 #include "tasks/sweep/sweep_run.hpp"
 #include "tasks/sweep/sweep_section.hpp"
-
-#include <hauberk/error.hpp>
+#include "tasks/variants/grid.hpp"
 
 #include <fmt/format.h>
 
@@ -36,11 +35,9 @@ class SweepTask final : public TaskRun {
   /// Rows of the same experiment are the same and in the same order.
   bool resume(const boost::json::value& results) override
   {
-    const boost::json::array& entries = results.at("sweep").at("rows").as_array();
-    if (entries.size() != table_.rows.size()) throw InputError("its rows are not complete");
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      if (!take_row(entries[k], table_, table_.rows[k])) throw InputError("its rows are in another order");
-    }
+    take_rows(
+        results.at("sweep").at("rows").as_array(), table_.rows, "rows",
+        [this](const boost::json::value& entry, SweepRow& row) { return take_row(entry, table_, row); });
     return std::none_of(table_.rows.begin(), table_.rows.end(),
                         [](const SweepRow& row) { return row.status == RowStatus::interrupted; });
   }
@@ -49,8 +46,7 @@ class SweepTask final : public TaskRun {
 
   void run(RunContext& context) override
   {
-    run_sweep(*prepared_.experiment.load_case, readings_, context.threads, context.progress, table_,
-              [&context](const SweepTable&) { context.save_sometimes(); });
+    run_sweep(*prepared_.experiment.load_case, readings_, context, table_);
   }
 
   void enter(boost::json::object& results) const override { results["sweep"] = sweep_json(table_); }

@@ -41,7 +41,7 @@ class InPlanePeriodic final : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override;
-  bool do_periodic() const override { return true; }
+  int do_lattice_vectors() const override { return 2; }
   void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override;
   bool do_admissible(std::span<const double> macro) const override;

@@ -38,7 +38,7 @@ class ParaboloidBending final : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override { return hold_.places ? 0 : 2; }
-  bool do_periodic() const override { return false; }
+  int do_lattice_vectors() const override { return 0; }
   void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override;
   double do_acceleration_bound(std::span<const double> macro, std::span<const double> dmacro,

@@ -16,7 +16,6 @@ class VolumetricPeriodic final : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override { return 3; }
-  bool do_periodic() const override { return true; }
   int do_lattice_vectors() const override { return 3; }
   void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override;

@@ -3,9 +3,10 @@
 
 #include "minimizer.hpp"
 
-#include <common/run_optimizer.hpp>
 #include <hauberk/optimizer.hpp>
 #include <hauberk/settings.hpp>
+
+#include <common/run_optimizer.hpp>
 
 #include <memory>
 #include <vector>

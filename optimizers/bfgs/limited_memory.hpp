@@ -1,9 +1,10 @@
 #pragma once
 /// BFGS that forgets.
 
-#include <quadratic/damped_bfgs.hpp>
+#include "numerics/damped_bfgs.hpp"
 
 #include <Eigen/Core>
+
 #include <deque>
 
 namespace hauberk {

@@ -3,11 +3,12 @@
 
 #include "limited_memory.hpp"
 
+#include <hauberk/optimizer.hpp>
+
 #include <common/best_point.hpp>
 #include <common/criticality.hpp>
 #include <common/scaled_problem.hpp>
 #include <common/search_settings.hpp>
-#include <hauberk/optimizer.hpp>
 
 #include <span>
 #include <string>

@@ -4,6 +4,7 @@
 #include <hauberk/optimizer.hpp>
 
 #include <Eigen/Core>
+
 #include <string>
 
 namespace hauberk {

@@ -2,6 +2,7 @@
 /// What an optimizer knows about a point.
 
 #include <Eigen/Core>
+
 #include <string>
 
 namespace hauberk {

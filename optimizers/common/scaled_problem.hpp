@@ -6,6 +6,7 @@
 #include <hauberk/optimizer.hpp>
 
 #include <Eigen/Core>
+
 #include <span>
 
 namespace hauberk {

@@ -1,4 +1,5 @@
 #include "search_settings.hpp"
+
 #include "fields.hpp"
 
 #include <utility>

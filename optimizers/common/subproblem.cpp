@@ -1,6 +1,6 @@
 #include "subproblem.hpp"
 
-#include <quadratic/quadratic_program.hpp>
+#include "numerics/quadratic_program.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -4,10 +4,11 @@
 
 #include "nlopt_optimizer.hpp"
 
+#include <hauberk/optimizer.hpp>
+
 #include <common/best_point.hpp>
 #include <common/criticality.hpp>
 #include <common/scaled_problem.hpp>
-#include <hauberk/optimizer.hpp>
 
 #include <exception>
 #include <span>

@@ -5,7 +5,6 @@
 #include <hauberk/error.hpp>
 
 #include <nlopt.h>
-
 #include <string>
 
 namespace hauberk {

@@ -1,9 +1,9 @@
 #pragma once
 /// Model of half a sum of squares whose residuals have kinks.
 
+#include <Eigen/Core>
 #include <common/subproblem.hpp>
 
-#include <Eigen/Core>
 #include <vector>
 
 namespace hauberk {

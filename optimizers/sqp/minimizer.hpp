@@ -2,13 +2,14 @@
 /// One run of sequential quadratic programming.
 
 #include "bundle.hpp"
+#include "numerics/damped_bfgs.hpp"
+
+#include <hauberk/optimizer.hpp>
 
 #include <common/best_point.hpp>
 #include <common/criticality.hpp>
 #include <common/scaled_problem.hpp>
 #include <common/search_settings.hpp>
-#include <hauberk/optimizer.hpp>
-#include <quadratic/damped_bfgs.hpp>
 
 #include <span>
 #include <string>

@@ -1,8 +1,10 @@
 #include "document/check.hpp"
-#include <hauberk/error.hpp>
-#include <hauberk/suggestion.hpp>
+
 #include "document/jsonc.hpp"
 #include "document/merge_fields.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "document/diagnostics.hpp"
+
 #include "document/jsonc.hpp"
 
 #include <algorithm>

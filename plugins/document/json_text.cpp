@@ -1,4 +1,5 @@
 #include "document/json_text.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <boost/json/basic_parser_impl.hpp>

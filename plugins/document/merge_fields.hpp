@@ -1,6 +1,7 @@
 #pragma once
-#include <hauberk/settings.hpp>
 #include "document/merge_fields.hpp"
+
+#include <hauberk/settings.hpp>
 
 #include <vector>
 

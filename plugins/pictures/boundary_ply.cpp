@@ -1,6 +1,5 @@
 #include "document/json_text.hpp"
 #include "pictures/boundary.hpp"
-
 #include "pictures/boundary_points.hpp"
 
 #include <fmt/format.h>

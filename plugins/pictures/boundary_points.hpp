@@ -1,7 +1,7 @@
 #pragma once
 /// What the surface and its picture are made of.
 
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 
 #include <vector>
 

@@ -1,5 +1,4 @@
 #include "pictures/boundary.hpp"
-
 #include "pictures/surface_panel.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// The polar plot of a deformation-limit profile.
 
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 
 #include <string>
 

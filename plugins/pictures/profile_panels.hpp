@@ -1,9 +1,8 @@
 #pragma once
 /// The polar diagrams that show a run's limits against direction.
 
-#include "pictures/polar_svg.hpp"
-
 #include "pictures/polar_panel.hpp"
+#include "pictures/polar_svg.hpp"
 
 #include <string>
 #include <utility>

@@ -1,5 +1,4 @@
 #include "report/report.hpp"
-
 #include "report/report_figures.hpp"
 #include "results/csv_cells.hpp"
 

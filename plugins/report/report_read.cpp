@@ -1,11 +1,10 @@
+#include "document/json_place.hpp"
 #include "report/report.hpp"
 #include "results/document.hpp"
 
-#include "document/json_place.hpp"
-
-#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
-#include "report/report.hpp"
-
 #include "pictures/profile_panels.hpp"
+#include "report/report.hpp"
 #include "report/report_figures.hpp"
 
 #include <fmt/format.h>

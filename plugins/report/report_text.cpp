@@ -1,6 +1,5 @@
-#include "report/report.hpp"
-
 #include "report/markdown.hpp"
+#include "report/report.hpp"
 #include "report/report_figures.hpp"
 
 #include <fmt/format.h>

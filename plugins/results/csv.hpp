@@ -1,7 +1,7 @@
 #pragma once
 /// Limits as a table, for spreadsheets and plotting programs.
 
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 
 #include <span>
 #include <string>

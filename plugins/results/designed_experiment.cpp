@@ -1,16 +1,15 @@
 #include "results/designed_experiment.hpp"
-#include <hauberk/error.hpp>
-#include "document/json_text.hpp"
 
+#include "document/json_text.hpp"
 #include "results/json_parts.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <Eigen/Geometry>
 
-#include <set>
-
 #include <algorithm>
-
 #include <array>
+#include <set>
 
 namespace hauberk {
 namespace {

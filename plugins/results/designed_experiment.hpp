@@ -1,7 +1,7 @@
 #pragma once
 /// The designed scene as an experiment that runs by itself.
 
-#include <hauberk/scene.hpp>
+#include "model/scene.hpp"
 
 #include <boost/json/object.hpp>
 

@@ -1,6 +1,6 @@
 #include "results/document.hpp"
-#include "document/json_text.hpp"
 
+#include "document/json_text.hpp"
 #include "results/json_parts.hpp"
 
 namespace hauberk {

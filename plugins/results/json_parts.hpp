@@ -1,7 +1,7 @@
 #pragma once
 /// Pieces of the results document; lengths and units as in hauberk/results.hpp.
 
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>

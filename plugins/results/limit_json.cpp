@@ -1,7 +1,6 @@
-#include "results/json_parts.hpp"
-
-#include <hauberk/mechanics/model.hpp>
+#include "model/model.hpp"
 #include "results/direction_json.hpp"
+#include "results/json_parts.hpp"
 
 #include <boost/json/value_from.hpp>
 

@@ -1,6 +1,6 @@
 #include "results/json_parts.hpp"
 
-#include <hauberk/geometry/triangle_surface.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,9 @@
 #pragma once
 /// What pictures of an experiment's limits say in words.
 
-#include <hauberk/experiment/experiment.hpp>
 #include "pictures/polar_svg.hpp"
+
+#include <hauberk/experiment/experiment.hpp>
 
 namespace hauberk {
 

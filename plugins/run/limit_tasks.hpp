@@ -1,9 +1,10 @@
 #pragma once
 /// The limits that a load case names.
 
+#include "limits/limits.hpp"
+#include "limits/plan.hpp"
+
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/limits/limits.hpp>
-#include <hauberk/plan/plan.hpp>
 
 #include <string>
 #include <vector>

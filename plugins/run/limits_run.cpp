@@ -1,7 +1,7 @@
 #include "run/limits_run.hpp"
-#include "run/interrupt.hpp"
 
-#include <hauberk/limits/boundary.hpp>
+#include "limits/boundary.hpp"
+#include "run/interrupt.hpp"
 
 #include <cmath>
 

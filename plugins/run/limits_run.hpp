@@ -1,10 +1,10 @@
 #pragma once
 /// Limits of one scene, delivered as they are finished.
 
+#include "limits/limits.hpp"
 #include "run/progress.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/limits/limits.hpp>
 
 #include <functional>
 #include <optional>

@@ -1,10 +1,11 @@
 #include "run/plan_text.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "results/direction_json.hpp"
+
 #include <boost/json/array.hpp>
 #include <boost/json/value_from.hpp>
-#include "results/direction_json.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 

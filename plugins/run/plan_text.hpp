@@ -1,9 +1,8 @@
 #pragma once
 /// The plan for people and for programs.
 
+#include "limits/plan.hpp"
 #include "run/prepared.hpp"
-
-#include <hauberk/plan/plan.hpp>
 
 #include <boost/json/object.hpp>
 

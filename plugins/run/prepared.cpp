@@ -1,4 +1,5 @@
 #include "run/prepared.hpp"
+
 #include "run/nearest_node.hpp"
 #include "run/presets.hpp"
 

@@ -2,13 +2,13 @@
 /// From a file to a scene that can be solved: what every task begins from.
 
 #include "document/diagnostics.hpp"
+#include "limits/limits.hpp"
+#include "results/document.hpp"
 #include "run/scene_at_rest.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/registry.hpp>
-#include <hauberk/limits/limits.hpp>
-#include "results/document.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,8 +1,9 @@
 #pragma once
 /// What the names of presets mean, in one place.
 
+#include "limits/limits.hpp"
+
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/limits/limits.hpp>
 
 #include <string>
 #include <vector>

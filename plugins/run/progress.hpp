@@ -2,7 +2,7 @@
 /// What a running computation shows: a block that is redrawn on a terminal, plain lines elsewhere, or
 /// nothing.
 
-#include <hauberk/design/design.hpp>
+#include "design/design.hpp"
 
 #include <chrono>
 #include <cstddef>

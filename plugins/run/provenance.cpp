@@ -1,18 +1,19 @@
 #include "run/provenance.hpp"
+
+#include "document/json_text.hpp"
+#include "document/json_values.hpp"
+#include "document/json_writer.hpp"
 #include "run/machine.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/version.hpp>
-#include "document/json_text.hpp"
-#include "document/json_values.hpp"
-#include "document/json_writer.hpp"
 
-#include <cholmod.h>
-#include <fmt/format.h>
 #include <boost/json/serialize.hpp>
 #include <boost/version.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cholmod.h>
 
 namespace hauberk {
 namespace {

@@ -1,9 +1,8 @@
 #pragma once
 /// The output folder of a run: partial results while it lasts, final ones at its end.
 
-#include "run/progress.hpp"
-
 #include "document/atomic_file.hpp"
+#include "run/progress.hpp"
 
 #include <chrono>
 #include <filesystem>

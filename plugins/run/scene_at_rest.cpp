@@ -1,7 +1,7 @@
 #include "run/scene_at_rest.hpp"
-#include "run/presets.hpp"
 
-#include <hauberk/plan/plan.hpp>
+#include "equilibrium/rest.hpp"
+#include "run/presets.hpp"
 
 namespace hauberk {
 

@@ -1,8 +1,9 @@
 #pragma once
 /// The scene of an experiment at the rest state that limits begin from.
 
+#include "limits/limits.hpp"
+
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/limits/limits.hpp>
 
 #include <string>
 #include <vector>

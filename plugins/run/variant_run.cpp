@@ -1,4 +1,5 @@
 #include "run/variant_run.hpp"
+
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/limits_run.hpp"

@@ -2,11 +2,11 @@
 /// One variant of a file (a member of a stability family, a row of a sweep, a point of a chart) from its
 /// experiment to its results.
 
+#include "limits/limits.hpp"
+#include "limits/results.hpp"
 #include "run/scene_at_rest.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/limits/limits.hpp>
-#include <hauberk/results.hpp>
 
 namespace hauberk {
 

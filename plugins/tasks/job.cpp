@@ -1,10 +1,11 @@
 #include "tasks/job.hpp"
+
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 #include "run/plan_text.hpp"
 #include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
-#include "document/json_text.hpp"
-#include "document/json_writer.hpp"
 
 namespace hauberk {
 

@@ -1,9 +1,8 @@
 #pragma once
 /// An experiment with its task and its plan: what check, plan and run begin from.
 
-#include "tasks/task.hpp"
-
 #include "document/atomic_file.hpp"
+#include "tasks/task.hpp"
 
 #include <vector>
 

@@ -1,4 +1,6 @@
 #include "tasks/table.hpp"
+
+#include "results/document.hpp"
 #include "tasks/chart/chart_section.hpp"
 #include "tasks/chart/chart_task.hpp"
 #include "tasks/design/design_section.hpp"
@@ -11,8 +13,6 @@
 #include "tasks/sweep/sweep_task.hpp"
 #include "tasks/transition/transition_section.hpp"
 #include "tasks/transition/transition_task.hpp"
-
-#include "results/document.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,10 @@
 /// What a task is to the rest of the program: one of a table, prepared from an experiment, run, and entered
 /// into its results.
 
+#include "limits/plan.hpp"
 #include "run/context.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/prepared.hpp"
-
-#include <hauberk/plan/plan.hpp>
 
 #include <boost/json/object.hpp>
 

@@ -3,9 +3,9 @@
 
 #include "mesh_file.hpp"
 
-#include <hauberk/geometry/triangle_surface.hpp>
 #include <hauberk/settings.hpp>
 #include <hauberk/shape.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <memory>
 #include <span>

@@ -1,7 +1,7 @@
 #include "mesh_file.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/geometry/triangle_surface.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <fmt/format.h>
 

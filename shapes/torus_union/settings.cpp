@@ -3,6 +3,7 @@
 #include <hauberk/suggestion.hpp>
 
 #include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

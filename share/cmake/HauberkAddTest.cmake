@@ -1,14 +1,14 @@
 # hauberk_add_test(<name> SOURCES <file>... [LIBRARIES <target>...] [DEFINITIONS <definition>...])
 #
 # A GoogleTest program <build>/bin/tests/<name>; each of its tests is one for ctest, named <name>.<suite>.<test>.
-# The kernel is linked; the macro HAUBERK_BINARY_DIR is the build folder, HAUBERK_SOURCE_DIR the checkout.
+# The kernel is linked, with all that is inside; the macro HAUBERK_BINARY_DIR is the build folder, HAUBERK_SOURCE_DIR the checkout.
 function(hauberk_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;DEFINITIONS")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
     message(FATAL_ERROR "hauberk_add_test(${name}): SOURCES missing, or unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} hauberk::kernel hauberk_warnings GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} hauberk::mechanics hauberk_warnings GTest::gtest_main)
   # A third less to compile; what takes time in tests is in the kernel and in libraries.
   target_compile_options(${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
   target_compile_definitions(

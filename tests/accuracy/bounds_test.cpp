@@ -3,9 +3,8 @@
 
 #include "counts.hpp"
 #include "drawn_pairs.hpp"
+#include "geometry/separation.hpp"
 #include "statistics.hpp"
-
-#include <hauberk/geometry/separation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 #pragma once
 /// Short hands for limits of test scenes.
 
-#include <hauberk/limits/limits.hpp>
-
+#include "limits/limits.hpp"
 #include <scenes.hpp>
 
 namespace hauberk::brute {

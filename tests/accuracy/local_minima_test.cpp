@@ -1,14 +1,13 @@
 // The kernel's list of local minima against brute force, and against the roots of a polynomial for circles.
 
 #include "circle_roots.hpp"
+#include "contact/formulation.hpp"
+#include "contact/published.hpp"
 #include "counts.hpp"
 #include "drawn_pairs.hpp"
 #include "pair_field.hpp"
 #include "random_pairs.hpp"
 #include "statistics.hpp"
-
-#include <hauberk/contact/formulation.hpp>
-#include <hauberk/contact/published.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,12 @@
 // Certified steps of motions and of parameter changes against small steps with brute-force distances.
 
+#include "contact/published.hpp"
 #include "counts.hpp"
+#include "design/design_point.hpp"
+#include "motion/advancement.hpp"
 #include "moving_scene.hpp"
-#include "statistics.hpp"
-
-#include <hauberk/contact/published.hpp>
-#include <hauberk/design/design_point.hpp>
-#include <hauberk/motion/advancement.hpp>
-
 #include <scenes.hpp>
+#include "statistics.hpp"
 
 #include <gtest/gtest.h>
 

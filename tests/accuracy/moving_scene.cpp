@@ -2,7 +2,6 @@
 
 #include "nearest_pair.hpp"
 #include "random_pairs.hpp"
-
 #include <scenes.hpp>
 
 #include <algorithm>

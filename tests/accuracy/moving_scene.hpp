@@ -3,8 +3,7 @@
 /// small steps. Kinematics (where a state puts an element) come from the model; distances do not.
 
 #include "minima.hpp"
-
-#include <hauberk/mechanics/model.hpp>
+#include "model/model.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,15 +1,15 @@
 // Bounds over single panels, which no search has tightened: against samples, and against derivatives to fifty
 // digits.
 
+#include "geometry/panel_bound.hpp"
+
 #include "drawn_pairs.hpp"
 #include "pair_field.hpp"
 #include "random_pairs.hpp"
 #include "statistics.hpp"
 
-#include <hauberk/geometry/panel_bound.hpp>
-
-#include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <gtest/gtest.h>
 
 namespace hauberk::brute {
 namespace {

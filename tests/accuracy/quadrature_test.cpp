@@ -1,11 +1,10 @@
 // Contact integrals of `arc`: the trapezoidal rule over another distance, and panels that are much smaller.
 
+#include "contact/barrier.hpp"
+#include "contact/body_pair.hpp"
 #include "drawn_pairs.hpp"
 #include "pair_field.hpp"
 #include "statistics.hpp"
-
-#include <hauberk/contact/barrier.hpp>
-#include <hauberk/contact/body_pair.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,12 @@
 // The published searches by samples, which guarantee nothing: how often they miss, and that what they find is
 // real.
 
+#include "contact/formulation.hpp"
+#include "contact/published.hpp"
 #include "counts.hpp"
+#include "motion/advancement.hpp"
 #include "moving_scene.hpp"
 #include "random_pairs.hpp"
-
-#include <hauberk/contact/formulation.hpp>
-#include <hauberk/contact/published.hpp>
-#include <hauberk/motion/advancement.hpp>
-
 #include <scenes.hpp>
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // Certified separation against brute force.
 
+#include "geometry/separation.hpp"
+
 #include "counts.hpp"
 #include "random_pairs.hpp"
 #include "statistics.hpp"
-
-#include <hauberk/geometry/separation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 #pragma once
 /// Quantiles of measured numbers, for the tables that the programs print.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace hauberk::brute {
 

@@ -2,13 +2,11 @@
 // saddle.
 
 #include "limit_cases.hpp"
-
-#include <hauberk/motion/advancement.hpp>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include "motion/advancement.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 namespace hauberk::brute {
 namespace {

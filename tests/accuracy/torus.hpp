@@ -1,7 +1,7 @@
 #pragma once
 /// Tori and distances to them, written for the tests alone: nothing here calls the kernel's distances.
 
-#include <hauberk/geometry/body.hpp>
+#include "geometry/body.hpp"
 
 namespace hauberk::brute {
 

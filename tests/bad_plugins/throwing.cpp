@@ -4,6 +4,7 @@
 #include <hauberk/plugin.hpp>
 
 #include <cfenv>
+
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif

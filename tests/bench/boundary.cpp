@@ -6,13 +6,11 @@
 
 #include "../../loadcases/in_plane_periodic/in_plane_periodic.hpp"
 #include "../../shapes/torus_union/torus_union.hpp"
-
-#include <hauberk/limits/limits.hpp>
-
-#include <fmt/format.h>
-
+#include "limits/limits.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/prepared.hpp"
+
+#include <fmt/format.h>
 
 #include <string_view>
 

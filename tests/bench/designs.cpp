@@ -1,9 +1,8 @@
 #include "benchmarks.hpp"
+#include "design/design_problem.hpp"
 #include "measure.hpp"
-
 #include "tasks/design/design_spec.hpp"
 
-#include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
 
 namespace hauberk::bench {

@@ -1,8 +1,8 @@
 #include "benchmarks.hpp"
+#include "equilibrium/newton.hpp"
 #include "measure.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/mechanics/equilibrium.hpp>
 
 #include <fmt/format.h>
 

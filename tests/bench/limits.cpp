@@ -1,8 +1,9 @@
+#include "limits/limits.hpp"
+
 #include "benchmarks.hpp"
 #include "measure.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/limits/limits.hpp>
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "benchmarks.hpp"
+#include "contact/body_pair.hpp"
+#include "geometry/separation.hpp"
 #include "measure.hpp"
+#include "motion/advancement.hpp"
 
-#include <hauberk/contact/body_pair.hpp>
 #include <hauberk/error.hpp>
-#include <hauberk/geometry/separation.hpp>
-#include <hauberk/motion/advancement.hpp>
 
 #include <fmt/format.h>
 

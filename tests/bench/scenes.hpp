@@ -1,8 +1,7 @@
 #pragma once
 /// Scenes of benchmarks: experiment files, read as the program reads them.
 
-#include <hauberk/mechanics/model.hpp>
-
+#include "model/model.hpp"
 #include "tasks/job.hpp"
 
 #include <array>

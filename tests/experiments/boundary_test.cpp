@@ -1,13 +1,11 @@
 /// Limits along components, through the whole program.
 
-#include "program.hpp"
-
 #include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
+#include "program.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <functional>
 

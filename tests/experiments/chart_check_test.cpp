@@ -1,7 +1,6 @@
 /// Charts checked: their results from the file alone, and their mistakes before anything is run.
 
 #include "chart_fixture.hpp"
-
 #include "document/json_text.hpp"
 
 #include <boost/json/object.hpp>

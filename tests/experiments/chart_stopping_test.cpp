@@ -1,7 +1,6 @@
 /// Charts again: the same values, and going on where a run was stopped.
 
 #include "chart_fixture.hpp"
-
 #include "document/json_text.hpp"
 
 #include <boost/json/object.hpp>

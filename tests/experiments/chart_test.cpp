@@ -1,7 +1,6 @@
 /// `hauberk run` of charts, from the file to points and pictures.
 
 #include "chart_fixture.hpp"
-
 #include "document/json_text.hpp"
 
 #include <boost/json/array.hpp>

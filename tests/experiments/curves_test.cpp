@@ -1,15 +1,12 @@
 /// Tubes around curves in experiments: sensitivities and designs against exact ones, the independent check,
 /// symmetry of a fabric of knots, and what does not know them.
 
+#include "document/json_text.hpp"
 #include "program.hpp"
 
-#include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
-
 #include <boost/json/object.hpp>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

@@ -1,20 +1,18 @@
 /// Disks that are full and folders that cannot be written: nothing is half-written, former results stay, and
 /// what was computed is on the disk or can be computed again.
 
+#include "document/json_text.hpp"
 #include "result_files.hpp"
 
-#include "document/json_text.hpp"
-
 #include <gtest/gtest.h>
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 
 namespace hauberk::test {
 namespace {

@@ -1,12 +1,10 @@
 /// Kills at any moment: nothing is half-written, former results stay, and a run goes on where it was.
 
+#include "document/json_text.hpp"
 #include "result_files.hpp"
 
-#include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
-
 #include <boost/json/value.hpp>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>

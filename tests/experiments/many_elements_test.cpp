@@ -2,9 +2,8 @@
 
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/json/value.hpp>
+#include <gtest/gtest.h>
 
 namespace hauberk::test {
 namespace {

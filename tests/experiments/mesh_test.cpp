@@ -1,13 +1,11 @@
 /// Contact of meshes as users run it: exact limits of meshes, the independent check, refusals.
 
-#include "program.hpp"
-
 #include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
+#include "program.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>

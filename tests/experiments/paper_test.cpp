@@ -1,13 +1,11 @@
 /// Preset `paper`: the published method from the experiment file to the results.
 
+#include "document/json_text.hpp"
 #include "program.hpp"
 
-#include "document/json_text.hpp"
-
+#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <boost/json/object.hpp>
 
 namespace hauberk::test {
 namespace {

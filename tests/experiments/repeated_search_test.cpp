@@ -1,13 +1,11 @@
 /// A design that was interrupted ends as if it had not been, whatever the optimizer.
 
-#include "program.hpp"
-
 #include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
+#include "program.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <chrono>
 #include <filesystem>

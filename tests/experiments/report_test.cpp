@@ -1,14 +1,12 @@
 /// `hauberk report` of results that the program computed.
 
+#include "document/json_text.hpp"
 #include "program.hpp"
 #include "result_files.hpp"
 
-#include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
-
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>

@@ -2,9 +2,8 @@
 
 #include "document/json_text.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>

@@ -1,22 +1,20 @@
 /// Interrupting a run, and going on with it.
 
-#include "program.hpp"
-
 #include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "program.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <fstream>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 
 namespace hauberk::test {
 namespace {

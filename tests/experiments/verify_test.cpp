@@ -1,13 +1,11 @@
 /// `hauberk verify` on what `hauberk run` wrote, as it is and tampered with.
 
-#include "program.hpp"
-
 #include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
+#include "program.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <functional>
 

@@ -1,15 +1,13 @@
 /// The library of weaves: linked as each says, with room from the ratio that it gives on, and no thicker wire
 /// than theory allows.
 
+#include "document/json_text.hpp"
 #include "program.hpp"
 
-#include "document/json_text.hpp"
-
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>

@@ -2,16 +2,15 @@
 /// with nothing, in bounded work. What is compared with is sampled by code of the tests' own
 /// (accuracy/torus.hpp).
 
+#include "contact/formulation.hpp"
+#include "contact/published.hpp"
+#include "geometry/separation.hpp"
 #include "harness.hpp"
+#include "motion/advancement.hpp"
 #include "pair_input.hpp"
-
-#include <hauberk/contact/formulation.hpp>
-#include <hauberk/contact/published.hpp>
-#include <hauberk/error.hpp>
-#include <hauberk/geometry/separation.hpp>
-#include <hauberk/motion/advancement.hpp>
-
 #include <scenes.hpp>
+
+#include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 

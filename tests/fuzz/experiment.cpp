@@ -1,15 +1,14 @@
 /// Experiment files: any bytes are either an experiment or refused with the project's own errors, in words.
 
+#include "document/json_writer.hpp"
 #include "harness.hpp"
 #include "tasks/chart/chart_section.hpp"
+#include "tasks/job.hpp"
 #include "tasks/stability/stability_section.hpp"
 #include "tasks/sweep/sweep_section.hpp"
+#include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
-#include "document/json_writer.hpp"
-
-#include "tasks/job.hpp"
-#include "tasks/table.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,8 +1,7 @@
 #include "pair_input.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

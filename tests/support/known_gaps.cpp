@@ -1,6 +1,6 @@
 #include "known_gaps.hpp"
 
-#include <hauberk/geometry/panel_field.hpp>
+#include "geometry/panel_field.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Whether what collision checks leave behind is true.
 
-#include <hauberk/motion/gap_bounds.hpp>
+#include "motion/gap_bounds.hpp"
 
 #include <random>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 /// Small scenes for tests, built without any plugin or file.
 
-#include <hauberk/mechanics/model.hpp>
+#include "model/model.hpp"
 
 #include <memory>
 #include <random>
@@ -36,7 +36,7 @@ class Sheet : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override;
   int do_coordinate_count() const override { return coordinates_; }
-  bool do_periodic() const override { return true; }
+  int do_lattice_vectors() const override { return 2; }
   void do_position(std::span<const double> macro, std::span<const double> e, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override;
   bool do_admissible(std::span<const double> macro) const override;

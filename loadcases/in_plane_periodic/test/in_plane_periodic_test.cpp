@@ -1,9 +1,10 @@
 #include "../in_plane_periodic.hpp"
 
-#include <gtest/gtest.h>
 #include <hauberk/error.hpp>
 
 #include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace hauberk {

@@ -2,8 +2,9 @@
 
 #include "../bfgs.hpp"
 
-#include <gtest/gtest.h>
 #include <hauberk/conformance/known_problems.hpp>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

@@ -1,14 +1,14 @@
 /// Every optimizer conforms in each of its configurations, solves the known problems closely, and says in the
 /// same words what stopped it. HAUBERK_TABLE=FILE appends what each needed to a table.
 
+#include "document/check.hpp"
+#include "document/jsonc.hpp"
+
 #include <hauberk/conformance/gtest.hpp>
 #include <hauberk/conformance/known_problems.hpp>
-
 #include <hauberk/error.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/host/registry.hpp>
-#include "document/check.hpp"
-#include "document/jsonc.hpp"
 
 #include <gtest/gtest.h>
 

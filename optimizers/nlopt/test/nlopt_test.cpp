@@ -2,8 +2,9 @@
 
 #include "../adapter.hpp"
 
-#include <gtest/gtest.h>
 #include <hauberk/conformance/known_problems.hpp>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
 /// The parts of the method on their own: Hessian update, step with relaxation, settings.
 
 #include "../sqp.hpp"
-
-#include <gtest/gtest.h>
-#include <common/subproblem.hpp>
-#include <quadratic/damped_bfgs.hpp>
+#include "numerics/damped_bfgs.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <common/subproblem.hpp>
+#include <gtest/gtest.h>
+
 #include <random>
 
 namespace hauberk {

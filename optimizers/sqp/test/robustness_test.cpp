@@ -2,9 +2,10 @@
 
 #include "../sqp.hpp"
 
-#include <gtest/gtest.h>
 #include <hauberk/conformance/known_problems.hpp>
 #include <hauberk/error.hpp>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

@@ -1,11 +1,10 @@
 #include "dispatch.hpp"
+#include "document/json_text.hpp"
 #include "experiment_options.hpp"
 
-#include "document/json_text.hpp"
-
-#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <fmt/format.h>
 
 namespace hauberk::command {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <hauberk/conformance/isolated.hpp>
 
-#include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 

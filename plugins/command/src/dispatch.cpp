@@ -1,4 +1,5 @@
 #include "dispatch.hpp"
+
 #include "options.hpp"
 #include "run/prepared.hpp"
 

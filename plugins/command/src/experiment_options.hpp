@@ -2,7 +2,6 @@
 /// From the options of a command to an experiment's job.
 
 #include "options.hpp"
-
 #include "tasks/job.hpp"
 
 namespace hauberk::command {

@@ -1,15 +1,15 @@
 #include "new_command.hpp"
 
 #include "dispatch.hpp"
+#include "document/atomic_file.hpp"
 #include "experiment_options.hpp"
 #include "options.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/search_path.hpp>
-#include "document/atomic_file.hpp"
 
-#include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,6 @@
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/positional_options.hpp>
 #include <boost/program_options/value_semantic.hpp>
-
 #include <fmt/format.h>
 
 #include <sstream>

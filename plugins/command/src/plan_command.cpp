@@ -1,9 +1,7 @@
 #include "dispatch.hpp"
-#include "experiment_options.hpp"
-
-#include "run/plan_text.hpp"
-
 #include "document/json_text.hpp"
+#include "experiment_options.hpp"
+#include "run/plan_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,17 +1,17 @@
 #include "dispatch.hpp"
+#include "document/check.hpp"
+#include "document/json_text.hpp"
 #include "experiment_options.hpp"
 #include "new_command.hpp"
 
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/suggestion.hpp>
-#include "document/check.hpp"
-#include "document/json_text.hpp"
 
-#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 #include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 

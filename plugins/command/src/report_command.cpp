@@ -1,13 +1,12 @@
 #include "dispatch.hpp"
-#include "options.hpp"
-
 #include "document/json_text.hpp"
+#include "options.hpp"
 #include "report/report.hpp"
 #include "results/designed_experiment.hpp"
 #include "results/document.hpp"
 
-#include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <system_error>

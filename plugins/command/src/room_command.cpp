@@ -1,17 +1,17 @@
 #include "dispatch.hpp"
-#include "experiment_options.hpp"
-#include "run/interrupt.hpp"
-
-#include <hauberk/error.hpp>
-#include <hauberk/limits/room.hpp>
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
+#include "experiment_options.hpp"
+#include "limits/room.hpp"
+#include "run/interrupt.hpp"
 
-#include <fmt/format.h>
+#include <hauberk/error.hpp>
+
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 #include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

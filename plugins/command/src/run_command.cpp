@@ -1,6 +1,6 @@
 #include "dispatch.hpp"
+#include "document/json_text.hpp"
 #include "experiment_options.hpp"
-
 #include "run/interrupt.hpp"
 #include "run/memory.hpp"
 #include "run/provenance.hpp"
@@ -9,10 +9,9 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/expect.hpp>
-#include "document/json_text.hpp"
 
-#include <fmt/format.h>
 #include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>

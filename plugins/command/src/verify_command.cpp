@@ -1,13 +1,13 @@
 #include "dispatch.hpp"
-#include "options.hpp"
-
-#include <hauberk/verify/verify.hpp>
 #include "document/json_text.hpp"
+#include "options.hpp"
 #include "results/document.hpp"
 
-#include <fmt/format.h>
+#include <hauberk/verify/verify.hpp>
+
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <filesystem>

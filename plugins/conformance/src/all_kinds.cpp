@@ -1,12 +1,12 @@
 /// Checks of plugins of every kind.
 
 #include "checks.hpp"
+#include "document/check.hpp"
 #include "trace.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/host/floating_point.hpp>
-#include "document/check.hpp"
 
 #include <algorithm>
 #include <array>

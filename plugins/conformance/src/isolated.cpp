@@ -1,10 +1,10 @@
 #include <hauberk/conformance/isolated.hpp>
-
-#include <fmt/format.h>
 #include <hauberk/error.hpp>
 #include <hauberk/host/child.hpp>
 #include <hauberk/host/plugin_library.hpp>
 #include <hauberk/host/registry.hpp>
+
+#include <fmt/format.h>
 
 #include <chrono>
 #include <utility>

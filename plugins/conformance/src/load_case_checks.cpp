@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

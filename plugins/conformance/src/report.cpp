@@ -1,8 +1,9 @@
+#include "document/json_writer.hpp"
+
 #include <hauberk/conformance/report.hpp>
+#include <hauberk/version.hpp>
 
 #include <fmt/format.h>
-#include <hauberk/version.hpp>
-#include "document/json_writer.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 #include "sections.hpp"
 
-#include "verdict.hpp"
-
-#include <hauberk/host/factories.hpp>
 #include "document/check.hpp"
 #include "document/json_writer.hpp"
 #include "document/jsonc.hpp"
+#include "verdict.hpp"
+
+#include <hauberk/host/factories.hpp>
 
 #include <algorithm>
 #include <cmath>

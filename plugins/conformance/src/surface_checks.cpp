@@ -3,14 +3,15 @@
 /// that does not fit, shows here.
 
 #include "checks.hpp"
+#include "contact/mesh.hpp"
+#include "geometry/body.hpp"
+#include "geometry/facets.hpp"
+#include "geometry/separation.hpp"
 
-#include <hauberk/contact/mesh.hpp>
-#include <hauberk/geometry/body.hpp>
-#include <hauberk/geometry/facets.hpp>
-#include <hauberk/geometry/separation.hpp>
-#include <hauberk/geometry/triangle_surface.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

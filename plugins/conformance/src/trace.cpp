@@ -1,8 +1,8 @@
 #include "trace.hpp"
 
 #include <hauberk/conformance/known_problems.hpp>
-#include <hauberk/geometry/triangle_surface.hpp>
 #include <hauberk/host/floating_point.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <cstring>
 

@@ -1,8 +1,8 @@
 #include "document/node_access.hpp"
+#include "limits/boundary.hpp"
 #include "sections.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/limits/boundary.hpp>
 
 #include <fmt/format.h>
 

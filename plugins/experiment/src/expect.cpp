@@ -1,5 +1,6 @@
-#include <hauberk/experiment/expect.hpp>
 #include "document/json_writer.hpp"
+
+#include <hauberk/experiment/expect.hpp>
 
 #include <boost/json/serialize.hpp>
 

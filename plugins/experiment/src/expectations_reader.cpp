@@ -1,7 +1,6 @@
+#include "document/json_writer.hpp"
 #include "document/node_access.hpp"
 #include "sections.hpp"
-
-#include "document/json_writer.hpp"
 
 namespace hauberk {
 

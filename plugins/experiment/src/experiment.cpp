@@ -1,15 +1,14 @@
-#include <hauberk/experiment/experiment.hpp>
-
+#include "document/check.hpp"
+#include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 #include "scene_reader.hpp"
 #include "sections.hpp"
 #include "weave.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/experiment/experiment.hpp>
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/overrides.hpp>
-#include "document/check.hpp"
-#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,8 +1,8 @@
-#include <hauberk/experiment/fields.hpp>
-#include <hauberk/experiment/task_format.hpp>
-
 #include "document/field_helpers.hpp"
 #include "weave.hpp"
+
+#include <hauberk/experiment/fields.hpp>
+#include <hauberk/experiment/task_format.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
+#include "document/json_writer.hpp"
 #include "document/node_access.hpp"
 #include "sections.hpp"
 
 #include <hauberk/suggestion.hpp>
-#include "document/json_writer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
-#include <hauberk/experiment/overrides.hpp>
 #include "document/diagnostics.hpp"
 #include "document/jsonc.hpp"
+
+#include <hauberk/experiment/overrides.hpp>
 
 #include <charconv>
 

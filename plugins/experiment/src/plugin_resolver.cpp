@@ -1,7 +1,6 @@
-#include <hauberk/experiment/plugin_resolver.hpp>
-
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/fields.hpp>
+#include <hauberk/experiment/plugin_resolver.hpp>
 #include <hauberk/host/factories.hpp>
 
 #include <filesystem>

@@ -1,7 +1,8 @@
+#include "document/check.hpp"
+
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
-#include "document/check.hpp"
 
 namespace hauberk {
 

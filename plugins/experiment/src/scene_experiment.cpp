@@ -1,7 +1,7 @@
+#include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
-#include "document/jsonc.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,12 +1,12 @@
 #include "scene_reader.hpp"
 
+#include "document/json_writer.hpp"
+#include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 #include "rotation.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/suggestion.hpp>
-#include "document/json_writer.hpp"
-#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <cmath>

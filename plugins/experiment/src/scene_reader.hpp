@@ -1,7 +1,7 @@
 #pragma once
-#include <hauberk/experiment/plugin_resolver.hpp>
+#include "model/scene.hpp"
 
-#include <hauberk/scene.hpp>
+#include <hauberk/experiment/plugin_resolver.hpp>
 
 namespace hauberk {
 

@@ -1,10 +1,10 @@
+#include "document/check.hpp"
+#include "document/merge_fields.hpp"
 #include "document/node_access.hpp"
 
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
-#include "document/check.hpp"
-#include "document/merge_fields.hpp"
 
 #include <cmath>
 

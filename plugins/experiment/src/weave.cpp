@@ -1,12 +1,12 @@
 #include "weave.hpp"
 
+#include "document/check.hpp"
 #include "document/field_helpers.hpp"
+#include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/suggestion.hpp>
-#include "document/check.hpp"
-#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <cmath>

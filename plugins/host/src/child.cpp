@@ -1,13 +1,7 @@
+#include <hauberk/error.hpp>
 #include <hauberk/host/child.hpp>
 
 #include <fmt/format.h>
-#include <hauberk/error.hpp>
-
-#include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,8 +9,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <poll.h>
 #include <string_view>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace hauberk {

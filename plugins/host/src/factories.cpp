@@ -1,10 +1,10 @@
-#include <hauberk/host/factories.hpp>
-
 #include "guarded.hpp"
 
-#include <fmt/format.h>
 #include <hauberk/error.hpp>
+#include <hauberk/host/factories.hpp>
 #include <hauberk/host/guard.hpp>
+
+#include <fmt/format.h>
 
 namespace hauberk {
 namespace {

@@ -1,9 +1,9 @@
+#include <hauberk/error.hpp>
 #include <hauberk/host/guard.hpp>
 
-#include <cxxabi.h>
 #include <fmt/format.h>
-#include <hauberk/error.hpp>
 
+#include <cxxabi.h>
 #include <exception>
 
 namespace hauberk {

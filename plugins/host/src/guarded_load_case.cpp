@@ -12,7 +12,6 @@ class GuardedLoadCase final : public LoadCase {
         guard_(guard),
         macros_(guard_("macros", [&] { return inner_->macros(); })),
         coordinate_count_(guard_("coordinate_count", [&] { return inner_->coordinate_count(); })),
-        periodic_(guard_("periodic", [&] { return inner_->periodic(); })),
         lattice_vectors_(guard_("lattice_vectors", [&] { return inner_->lattice_vectors(); }))
   {
   }
@@ -22,7 +21,6 @@ class GuardedLoadCase final : public LoadCase {
 
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override { return coordinate_count_; }
-  bool do_periodic() const override { return periodic_; }
   int do_lattice_vectors() const override { return lattice_vectors_; }
   void do_position(Values macro, Values e, const Vec3& X, const Vec3& T, PositionMap& out) const override
   {
@@ -122,7 +120,6 @@ class GuardedLoadCase final : public LoadCase {
   Guard guard_;
   std::vector<MacroInfo> macros_;
   int coordinate_count_;
-  bool periodic_;
   int lattice_vectors_;
 };
 

@@ -1,8 +1,8 @@
+#include <hauberk/error.hpp>
 #include <hauberk/host/handshake.hpp>
+#include <hauberk/host/registry.hpp>
 
 #include <fmt/format.h>
-#include <hauberk/error.hpp>
-#include <hauberk/host/registry.hpp>
 
 #include <cstring>
 #include <string>

@@ -1,22 +1,21 @@
-#include <hauberk/host/plugin_library.hpp>
-
 #include "elf.hpp"
 
-#include <dlfcn.h>
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <hauberk/error.hpp>
 #include <hauberk/host/child.hpp>
 #include <hauberk/host/floating_point.hpp>
 #include <hauberk/host/handshake.hpp>
+#include <hauberk/host/plugin_library.hpp>
 
-#include <unistd.h>
+#include <boost/dll/shared_library.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/dll/shared_library.hpp>
 #include <cerrno>
+#include <dlfcn.h>
+#include <fcntl.h>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 
 namespace hauberk {
 namespace {

@@ -1,10 +1,10 @@
+#include <hauberk/error.hpp>
 #include <hauberk/host/search_path.hpp>
 
+#include <boost/dll/runtime_symbol_info.hpp>
 #include <fmt/format.h>
-#include <hauberk/error.hpp>
 
 #include <algorithm>
-#include <boost/dll/runtime_symbol_info.hpp>
 #include <cstdlib>
 #include <string_view>
 

@@ -1,6 +1,5 @@
-#include "tasks/chart/chart_section.hpp"
-
 #include "document/field_helpers.hpp"
+#include "tasks/chart/chart_section.hpp"
 #include "tasks/variants/variant_fields.hpp"
 
 namespace hauberk {

@@ -1,9 +1,8 @@
-#include "results/direction_json.hpp"
-#include "tasks/chart/chart_results.hpp"
-
 #include "document/json_values.hpp"
 #include "results/csv_cells.hpp"
+#include "results/direction_json.hpp"
 #include "results/json_parts.hpp"
+#include "tasks/chart/chart_results.hpp"
 
 #include <boost/json/array.hpp>
 

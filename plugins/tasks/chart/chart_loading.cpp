@@ -1,4 +1,5 @@
 #include "tasks/chart/chart_loading.hpp"
+
 #include "run/limit_tasks.hpp"
 #include "run/nearest_node.hpp"
 #include "tasks/chart/chart_section.hpp"

@@ -1,9 +1,9 @@
+#include "document/json_writer.hpp"
 #include "document/node_access.hpp"
 #include "tasks/chart/chart_section.hpp"
 #include "tasks/variants/variants.hpp"
 
 #include <hauberk/suggestion.hpp>
-#include "document/json_writer.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,9 @@
 #pragma once
 /// Error against time: scenes with known limits times methods times settings (a work-precision diagram).
 
-#include <hauberk/direction.hpp>
 #include "tasks/variants/row_status.hpp"
+
+#include <hauberk/direction.hpp>
 
 #include <boost/json/object.hpp>
 #include <boost/json/value.hpp>

@@ -1,4 +1,5 @@
 #include "tasks/chart/chart_run.hpp"
+
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/memory.hpp"

@@ -3,9 +3,8 @@
 
 #include "run/context.hpp"
 #include "tasks/chart/chart_loading.hpp"
-#include "tasks/chart/chart_section.hpp"
-
 #include "tasks/chart/chart_results.hpp"
+#include "tasks/chart/chart_section.hpp"
 
 namespace hauberk {
 

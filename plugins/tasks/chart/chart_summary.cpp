@@ -1,4 +1,5 @@
 #include "tasks/chart/chart_summary.hpp"
+
 #include "run/text_table.hpp"
 
 #include <fmt/format.h>

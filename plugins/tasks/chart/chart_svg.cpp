@@ -1,7 +1,6 @@
-#include "tasks/chart/chart_results.hpp"
-
 #include "pictures/decade_panel.hpp"
 #include "pictures/strokes.hpp"
+#include "tasks/chart/chart_results.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
 #include "tasks/chart/chart_task.hpp"
+
 #include "document/json_values.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/machine.hpp"

@@ -1,6 +1,5 @@
-#include "tasks/design/design_section.hpp"
-
 #include "document/field_helpers.hpp"
+#include "tasks/design/design_section.hpp"
 
 namespace hauberk {
 

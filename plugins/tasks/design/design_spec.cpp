@@ -1,4 +1,5 @@
 #include "tasks/design/design_spec.hpp"
+
 #include "run/presets.hpp"
 #include "tasks/design/design_section.hpp"
 

@@ -1,7 +1,8 @@
 #pragma once
 /// From the section design to what the kernel takes.
 
-#include <hauberk/design/design.hpp>
+#include "design/design.hpp"
+
 #include <hauberk/experiment/experiment.hpp>
 
 #include <vector>

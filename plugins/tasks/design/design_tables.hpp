@@ -1,7 +1,7 @@
 #pragma once
 /// A design on the terminal.
 
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 
 #include <string>
 

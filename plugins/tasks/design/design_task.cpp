@@ -1,4 +1,9 @@
 #include "tasks/design/design_task.hpp"
+
+#include "design/design_problem.hpp"
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
+#include "results/designed_experiment.hpp"
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/limits_run.hpp"
@@ -14,11 +19,7 @@
 #include "tasks/limits/limit_files.hpp"
 #include "tasks/limits/limit_tables.hpp"
 
-#include <hauberk/design/design_problem.hpp>
 #include <hauberk/error.hpp>
-#include "document/json_text.hpp"
-#include "document/json_writer.hpp"
-#include "results/designed_experiment.hpp"
 
 #include <fmt/format.h>
 

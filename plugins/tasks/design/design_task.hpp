@@ -1,9 +1,8 @@
 #pragma once
 /// Task design: initial limits, the search, and the limits of what it found.
 
-#include "tasks/task.hpp"
-
 #include "results/designed_experiment.hpp"
+#include "tasks/task.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Evaluations of a design, kept in a file beside its partial results.
 
-#include <hauberk/design/evaluation_memory.hpp>
+#include "design/evaluation_memory.hpp"
 
 #include <filesystem>
 #include <fstream>

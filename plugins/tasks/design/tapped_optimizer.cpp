@@ -1,4 +1,5 @@
 #include "tasks/design/tapped_optimizer.hpp"
+
 #include "run/interrupt.hpp"
 
 namespace hauberk {

@@ -1,7 +1,7 @@
 #pragma once
 /// An optimizer whose iterates can be seen with their variables and scene.
 
-#include <hauberk/design/design_problem.hpp>
+#include "design/design_problem.hpp"
 
 #include <functional>
 #include <optional>

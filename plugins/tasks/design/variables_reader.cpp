@@ -1,8 +1,8 @@
+#include "document/json_writer.hpp"
 #include "document/node_access.hpp"
 #include "tasks/design/design_section.hpp"
 
 #include <hauberk/suggestion.hpp>
-#include "document/json_writer.hpp"
 
 #include <algorithm>
 #include <cmath>

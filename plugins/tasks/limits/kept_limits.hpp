@@ -1,8 +1,9 @@
 #pragma once
 /// Limits of an interrupted run, to go on from.
 
+#include "limits/limits.hpp"
+
 #include <hauberk/experiment/experiment.hpp>
-#include <hauberk/limits/limits.hpp>
 
 #include <boost/json/value.hpp>
 

@@ -1,9 +1,9 @@
 #include "tasks/limits/limit_files.hpp"
-#include "run/labels.hpp"
 
 #include "pictures/boundary.hpp"
 #include "pictures/polar_svg.hpp"
 #include "results/csv.hpp"
+#include "run/labels.hpp"
 
 namespace hauberk {
 

@@ -1,9 +1,8 @@
 #pragma once
 /// Files of limits beside results.json.
 
+#include "limits/results.hpp"
 #include "tasks/task.hpp"
-
-#include <hauberk/results.hpp>
 
 #include <array>
 

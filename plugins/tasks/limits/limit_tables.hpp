@@ -1,9 +1,8 @@
 #pragma once
 /// Limits on the terminal.
 
+#include "limits/results.hpp"
 #include "run/prepared.hpp"
-
-#include <hauberk/results.hpp>
 
 #include <string>
 #include <vector>

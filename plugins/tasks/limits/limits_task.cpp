@@ -1,4 +1,5 @@
 #include "tasks/limits/limits_task.hpp"
+
 #include "run/limit_tasks.hpp"
 #include "run/limits_run.hpp"
 #include "tasks/limits/kept_limits.hpp"

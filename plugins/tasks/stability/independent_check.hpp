@@ -1,9 +1,10 @@
 #pragma once
 /// What the independent check says about the limits of one experiment.
 
-#include <hauberk/results.hpp>
-#include <hauberk/verify/verify.hpp>
+#include "limits/results.hpp"
 #include "tasks/stability/stability_results.hpp"
+
+#include <hauberk/verify/verify.hpp>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
-#include "tasks/stability/stability_section.hpp"
-
 #include "document/field_helpers.hpp"
+#include "tasks/stability/stability_section.hpp"
 #include "tasks/variants/variant_fields.hpp"
 
 namespace hauberk {

@@ -1,7 +1,7 @@
 #include "tasks/stability/stability_loading.hpp"
-#include "run/limit_tasks.hpp"
 
 #include "document/json_writer.hpp"
+#include "run/limit_tasks.hpp"
 
 #include <fmt/format.h>
 

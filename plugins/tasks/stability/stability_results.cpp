@@ -1,7 +1,7 @@
 #include "tasks/stability/stability_results.hpp"
-#include "results/direction_json.hpp"
 
 #include "results/csv_cells.hpp"
+#include "results/direction_json.hpp"
 #include "results/json_parts.hpp"
 
 #include <algorithm>

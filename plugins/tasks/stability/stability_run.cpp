@@ -1,8 +1,8 @@
 #include "tasks/stability/stability_run.hpp"
-#include "run/limit_tasks.hpp"
-#include "run/variant_run.hpp"
 
 #include "document/json_writer.hpp"
+#include "run/limit_tasks.hpp"
+#include "run/variant_run.hpp"
 #include "tasks/stability/classify.hpp"
 #include "tasks/stability/independent_check.hpp"
 #include "tasks/variants/grid.hpp"

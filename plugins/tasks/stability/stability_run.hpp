@@ -3,7 +3,6 @@
 
 #include "run/context.hpp"
 #include "tasks/stability/stability_loading.hpp"
-
 #include "tasks/stability/stability_results.hpp"
 
 #include <vector>

@@ -1,6 +1,5 @@
-#include "tasks/stability/stability_results.hpp"
-
 #include "pictures/svg.hpp"
+#include "tasks/stability/stability_results.hpp"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 #include "tasks/stability/stability_task.hpp"
+
+#include "document/json_values.hpp"
+#include "results/direction_json.hpp"
 #include "run/limit_tasks.hpp"
 #include "tasks/stability/stability_loading.hpp"
 #include "tasks/stability/stability_run.hpp"
 #include "tasks/stability/stability_section.hpp"
 #include "tasks/stability/stability_summary.hpp"
 #include "tasks/variants/grid.hpp"
-
-#include "document/json_values.hpp"
-#include "results/direction_json.hpp"
 
 #include <fmt/format.h>
 

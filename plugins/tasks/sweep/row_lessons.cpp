@@ -1,6 +1,6 @@
 #include "tasks/sweep/row_lessons.hpp"
 
-#include <hauberk/limits/relatives.hpp>
+#include "limits/relatives.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-#include "tasks/sweep/sweep_section.hpp"
-
 #include "document/field_helpers.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 
 namespace hauberk {
 

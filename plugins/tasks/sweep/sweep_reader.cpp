@@ -1,11 +1,11 @@
+#include "document/check.hpp"
+#include "document/json_writer.hpp"
+#include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 #include "tasks/sweep/sweep_section.hpp"
 #include "tasks/variants/variants.hpp"
 
 #include <hauberk/load_case.hpp>
-#include "document/check.hpp"
-#include "document/json_writer.hpp"
-#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "tasks/sweep/sweep_results.hpp"
-#include "document/json_text.hpp"
 
+#include "document/json_text.hpp"
 #include "results/csv_cells.hpp"
 #include "results/json_parts.hpp"
 

@@ -1,12 +1,12 @@
 #include "tasks/sweep/sweep_run.hpp"
+
+#include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 #include "run/interrupt.hpp"
 #include "run/text_table.hpp"
 #include "run/variant_run.hpp"
 #include "tasks/sweep/row_lessons.hpp"
 #include "tasks/variants/grid.hpp"
-
-#include "document/json_text.hpp"
-#include "document/json_writer.hpp"
 
 #include <fmt/format.h>
 

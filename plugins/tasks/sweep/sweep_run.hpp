@@ -3,9 +3,8 @@
 
 #include "run/context.hpp"
 #include "run/prepared.hpp"
-#include "tasks/sweep/sweep_section.hpp"
-
 #include "tasks/sweep/sweep_results.hpp"
+#include "tasks/sweep/sweep_section.hpp"
 
 #include <string>
 #include <vector>

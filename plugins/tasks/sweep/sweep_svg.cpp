@@ -1,8 +1,7 @@
 #include "document/json_text.hpp"
-#include "tasks/sweep/sweep_results.hpp"
-
 #include "pictures/line_panel.hpp"
 #include "pictures/strokes.hpp"
+#include "tasks/sweep/sweep_results.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
 #include "tasks/sweep/sweep_task.hpp"
+
 #include "run/labels.hpp"
 #include "run/limit_tasks.hpp"
 #include "tasks/sweep/sweep_run.hpp"

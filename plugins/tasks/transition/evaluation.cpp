@@ -1,8 +1,9 @@
 #include "tasks/transition/evaluation.hpp"
 
-#include <hauberk/contact/body_pair.hpp>
+#include "contact/body_pair.hpp"
+#include "geometry/separation.hpp"
+
 #include <hauberk/error.hpp>
-#include <hauberk/geometry/separation.hpp>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Contact of a fixed and a moving element at one place of a path.
 
-#include <hauberk/contact/formulation.hpp>
-#include <hauberk/mechanics/model.hpp>
+#include "contact/formulation.hpp"
+#include "model/model.hpp"
 #include "tasks/transition/motion.hpp"
 #include "tasks/transition/transition_results.hpp"
 

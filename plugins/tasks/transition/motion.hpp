@@ -1,8 +1,8 @@
 #pragma once
 /// A rigid motion along which contact is watched.
 
-#include <hauberk/contact/side_terms.hpp>
-#include <hauberk/scene.hpp>
+#include "contact/side_terms.hpp"
+#include "model/scene.hpp"
 
 namespace hauberk {
 

@@ -1,6 +1,5 @@
-#include "tasks/transition/transition_section.hpp"
-
 #include "document/field_helpers.hpp"
+#include "tasks/transition/transition_section.hpp"
 
 namespace hauberk {
 

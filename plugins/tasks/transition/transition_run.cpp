@@ -1,10 +1,11 @@
 #include "tasks/transition/transition_run.hpp"
 
-#include <hauberk/contact/published.hpp>
-#include <hauberk/error.hpp>
-#include <hauberk/parallel.hpp>
+#include "contact/published.hpp"
+#include "numerics/parallel.hpp"
 #include "tasks/transition/jumps.hpp"
 #include "tasks/transition/tracks.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A transition experiment, computed.
 
-#include <hauberk/mechanics/locking.hpp>
+#include "equilibrium/locking.hpp"
 #include "tasks/transition/motion.hpp"
 #include "tasks/transition/transition_results.hpp"
 

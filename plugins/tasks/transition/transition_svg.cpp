@@ -1,6 +1,5 @@
-#include "tasks/transition/transition_results.hpp"
-
 #include "pictures/line_panel.hpp"
+#include "tasks/transition/transition_results.hpp"
 
 #include <fmt/format.h>
 

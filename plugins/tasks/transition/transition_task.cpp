@@ -1,12 +1,13 @@
 #include "tasks/transition/transition_task.hpp"
+
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/nearest_node.hpp"
+#include "tasks/transition/transition_results.hpp"
+#include "tasks/transition/transition_run.hpp"
 #include "tasks/transition/transition_section.hpp"
 
 #include <hauberk/error.hpp>
-#include "tasks/transition/transition_results.hpp"
-#include "tasks/transition/transition_run.hpp"
 
 #include <fmt/format.h>
 

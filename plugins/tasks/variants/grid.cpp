@@ -1,7 +1,7 @@
 #include "tasks/variants/grid.hpp"
-#include "run/interrupt.hpp"
 
-#include <hauberk/parallel.hpp>
+#include "numerics/parallel.hpp"
+#include "run/interrupt.hpp"
 
 #include <exception>
 #include <mutex>

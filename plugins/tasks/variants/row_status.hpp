@@ -1,7 +1,7 @@
 #pragma once
 /// How the computation of one variant of a file ended: a row of a sweep, a point of a chart.
 
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 
 #include <array>
 #include <optional>

@@ -1,9 +1,10 @@
 #include "tasks/variants/variants.hpp"
+
+#include "document/json_writer.hpp"
+#include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 
 #include <hauberk/experiment/task_format.hpp>
-#include "document/json_writer.hpp"
-#include "document/jsonc.hpp"
 
 #include <algorithm>
 #include <array>

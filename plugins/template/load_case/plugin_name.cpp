@@ -15,7 +15,7 @@ class PluginName final : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override { return 2; }
-  bool do_periodic() const override { return true; }
+  int do_lattice_vectors() const override { return 2; }
 
   void do_position(std::span<const double> macro, std::span<const double> u, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override
@@ -28,19 +28,11 @@ class PluginName final : public LoadCase {
     // Affine in (e, u): not curved, and acceleration_bound stays 0.
   }
 
-  bool do_admissible(std::span<const double> macro) const override { return 1.0 + macro[0] > 0.0; }
-  std::pair<double, double> do_stretch_range(std::span<const double> macro) const override
-  {
-    return {1.0 + macro[0], 1.0 + macro[0]};
-  }
-
-  // The angle does not matter: the value is e, and the load its derivative.
+  // The angle does not matter: the value is e, and the load its derivative. What else a load case may say
+  // (measure, metric, what is admissible) follows from these; see hauberk/load_case.hpp.
   void do_load(double /*theta*/, std::span<double> t) const override { t[0] = 1.0; }
-  double do_value(double /*theta*/, std::span<const double> macro) const override { return macro[0]; }
   std::string do_measure() const override { return "isotropic"; }
-  int do_value_length_power() const override { return 0; }
   std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
-  void do_metric(std::span<double> m) const override { m[0] = 2.0; }  // |e I|^2 = 2 e^2
 
   /// A chain of links along any lattice vector ends the stretch; packing always ends the compression.
   Boundedness do_boundedness(std::span<const double> load, std::span<const Vec3> cycles) const override

@@ -1,4 +1,5 @@
 #include "chart_points.hpp"
+
 #include "read.hpp"
 
 #include <boost/json/array.hpp>

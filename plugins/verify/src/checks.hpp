@@ -2,10 +2,10 @@
 /// The single checks. Each appends to `problems` one sentence for everything that is wrong: what, and by how
 /// much.
 
-#include <hauberk/verify/verify.hpp>
-
 #include "model.hpp"
 #include "record.hpp"
+
+#include <hauberk/verify/verify.hpp>
 
 #include <boost/json/value.hpp>
 

@@ -3,8 +3,8 @@
 #include "separation.hpp"
 #include "surface.hpp"
 
-#include <fmt/format.h>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include <hauberk/verify/verify.hpp>
-
 #include "checks.hpp"
 #include "read.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <hauberk/verify/verify.hpp>
+
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <exception>
 

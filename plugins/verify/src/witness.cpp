@@ -6,8 +6,8 @@
 #include "separation.hpp"
 #include "surface.hpp"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 #include "../torus_union.hpp"
 
-#include <gtest/gtest.h>
 #include <hauberk/error.hpp>
 
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace hauberk {

@@ -1,8 +1,8 @@
 #pragma once
 /// Tubes around curves for tests.
 
-#include <hauberk/geometry/closed_curve.hpp>
-#include <hauberk/geometry/pair_frame.hpp>
+#include "geometry/closed_curve.hpp"
+#include "geometry/pair_frame.hpp"
 
 #include <random>
 

@@ -1,10 +1,8 @@
 /// Distances, nearest points and links of tubes around curves, against circles and against brute force.
 
+#include "contact/formulation.hpp"
 #include "curve_pairs.hpp"
-
-#include <hauberk/contact/formulation.hpp>
-#include <hauberk/geometry/separation.hpp>
-
+#include "geometry/separation.hpp"
 #include <scenes.hpp>
 
 #include <gtest/gtest.h>

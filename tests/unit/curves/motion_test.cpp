@@ -1,11 +1,9 @@
 /// Steps of tubes around curves that are called free of collisions, against many small ones.
 
 #include "curve_pairs.hpp"
-
-#include <hauberk/geometry/separation.hpp>
-#include <hauberk/motion/advancement.hpp>
-
+#include "geometry/separation.hpp"
 #include <known_gaps.hpp>
+#include "motion/advancement.hpp"
 #include <scenes.hpp>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 /// States of a design that are followed to another: locked ones, and the one at rest.
 
+#include "model/held_model.hpp"
 #include "uneven_chainmail.hpp"
-
-#include <hauberk/mechanics/held_model.hpp>
 
 #include <Eigen/QR>
 

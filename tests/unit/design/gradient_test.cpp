@@ -1,20 +1,19 @@
 /// The design's gradient against re-solved differences at fixed stiffness, and its constraints against
 /// differences of relaxed rest states.
 
-#include <hauberk/design/design_problem.hpp>
-#include <hauberk/error.hpp>
-
+#include "design/design_problem.hpp"
 #include "tasks/design/evaluation_log.hpp"
 #include "uneven_chainmail.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <unistd.h>
 
 namespace hauberk::test {
 namespace {
@@ -30,7 +29,7 @@ TEST_P(DesignGradient, ResolvedDifferencesConvergeToIt)
   DesignSpec design = spec();
   design.value = GetParam();
   LimitSettings limits;
-  DesignProblem problem(scene, load, 0.0, limits, design, 1, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, limits, design, 1, [] { return true; }});
   const std::vector<double> x = problem.scene_variables();
   const auto at = problem.evaluate(x, true);
   ASSERT_TRUE(at.ok) << at.why;
@@ -70,7 +69,7 @@ TEST(DesignResiduals, GiveTheObjectiveAndItsGradient)
   const Sheet load(2);
   const DesignSpec design = spec();
   LimitSettings limits;
-  DesignProblem problem(scene, load, 0.0, limits, design, 2, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, limits, design, 2, [] { return true; }});
   const std::vector<double> x = problem.scene_variables();
   ASSERT_EQ(problem.residual_count(), 2);
   std::vector<double> r(2), J(8);
@@ -88,7 +87,7 @@ TEST(DesignConstraints, HolesAreThePublishedOnes)
   const Sheet load(2);
   const DesignSpec design = spec();
   LimitSettings limits;
-  DesignProblem problem(scene, load, 0.0, limits, design, 1, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, limits, design, 1, [] { return true; }});
   const std::vector<double> x = problem.scene_variables();
   std::vector<double> c(static_cast<std::size_t>(problem.constraint_count())), J(c.size() * x.size());
   problem.constraints(x, c, J);
@@ -108,7 +107,7 @@ TEST(DesignConstraints, HolesThatNoDesignHasAreNamed)
   for (const double clearance : {4.8 - 1e-9, 4.8 + 1e-6}) {
     DesignSpec design = spec();
     design.hole_clearance = clearance;
-    DesignProblem problem(scene, load, 0.0, {}, design, 1, [] { return true; });
+    DesignProblem problem({scene, load, 0.0, {}, design, 1, [] { return true; }});
     const std::string impossible = problem.impossible_hole();
     if (clearance < 4.8)
       EXPECT_EQ(impossible, "");
@@ -125,7 +124,7 @@ TEST(DesignConstraints, RestGapsFollowTheirLinearisation)
   const Sheet load(2);
   DesignSpec design = spec();
   design.rest_clearance = 0.02;
-  DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; }});
   const std::vector<double> x = problem.scene_variables();
   ASSERT_TRUE(problem.evaluate(x, true).ok);
   problem.accept(x);
@@ -154,7 +153,7 @@ TEST(DesignProblem, GoesBackToAnyIterateWithoutSolvingAgain)
 {
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);
-  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; }});
   const std::vector<double> first = problem.scene_variables();
   const double value = problem.evaluate(first, true).value;
   problem.accept(first);
@@ -193,7 +192,7 @@ TEST(DesignProblem, ADesignThatCannotBeComputedIsAnEvaluationThatFailed)
 {
   const SceneSpec scene = uneven_chainmail();
   Fragile load;
-  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 2, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, LimitSettings{}, spec(), 2, [] { return true; }});
   std::vector<double> x = problem.scene_variables();
   ASSERT_TRUE(problem.evaluate(x, true).ok);
   problem.accept(x);
@@ -215,7 +214,7 @@ TEST(DesignProblem, AdjointsAreCounted)
   for (const DesignValue value : {DesignValue::less_contact, DesignValue::plain}) {
     DesignSpec design = spec();
     design.value = value;
-    DesignProblem problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; });
+    DesignProblem problem({scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; }});
     ASSERT_TRUE(problem.evaluate(problem.scene_variables(), true).ok);
     evaluations[value == DesignValue::plain ? 1 : 0] = problem.evaluations();
   }
@@ -229,7 +228,7 @@ std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);
   EvaluationLog memory(log, "identity", go_on, [](const std::string& w) { ADD_FAILURE() << w; });
-  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; }});
   problem.set_memory(&memory);
   std::vector<double> numbers;
   std::vector<double> first = problem.scene_variables();
@@ -289,7 +288,7 @@ TEST(DesignProblem, OnlyWhatWasTriedFromTheIterateIsAccepted)
 {
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);
-  DesignProblem problem(scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; });
+  DesignProblem problem({scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; }});
   const std::vector<double> first = problem.scene_variables();
   std::vector<double> second = first;
   second[0] += 0.02;

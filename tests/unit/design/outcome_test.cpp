@@ -1,6 +1,6 @@
 /// What a design reports once its limits are recomputed.
 
-#include <hauberk/design/design.hpp>
+#include "design/design.hpp"
 
 #include <gtest/gtest.h>
 

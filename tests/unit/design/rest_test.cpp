@@ -1,10 +1,10 @@
 /// The rest state: what is wrong with it, and relaxation that makes room.
 
-#include <hauberk/error.hpp>
-#include <hauberk/mechanics/gaps.hpp>
-#include <hauberk/plan/plan.hpp>
-
+#include "equilibrium/gaps.hpp"
+#include "equilibrium/rest.hpp"
 #include "scenes.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <gtest/gtest.h>
 

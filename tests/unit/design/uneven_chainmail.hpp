@@ -1,8 +1,7 @@
 #pragma once
 /// A design that takes milliseconds.
 
-#include <hauberk/design/design_problem.hpp>
-
+#include "design/design_problem.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +44,7 @@ struct AtStart {
 
   explicit AtStart(DesignSpec d = spec())
       : design(std::move(d)),
-        problem(scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; }),
+        problem({scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; }}),
         x(problem.scene_variables())
   {
     EXPECT_TRUE(problem.evaluate(x, true).ok);

@@ -1,11 +1,11 @@
 /// From a correct file to plain types and kernel structs, and back to a file.
 
+#include "document/json_writer.hpp"
 #include "fake_plugins.hpp"
 #include "tasks/design/design_section.hpp"
 #include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
-#include "document/json_writer.hpp"
 
 #include <gtest/gtest.h>
 

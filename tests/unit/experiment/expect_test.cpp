@@ -2,9 +2,8 @@
 
 #include <hauberk/experiment/expect.hpp>
 
-#include <gtest/gtest.h>
-
 #include <boost/json/parse.hpp>
+#include <gtest/gtest.h>
 
 namespace hauberk {
 namespace {

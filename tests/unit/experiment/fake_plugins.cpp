@@ -1,4 +1,5 @@
 #include "fake_plugins.hpp"
+
 #include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
@@ -90,7 +91,7 @@ class Plane : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override { return 2; }
-  bool do_periodic() const override { return !bends_; }
+  int do_lattice_vectors() const override { return bends_ ? 0 : 2; }
   void do_position(std::span<const double>, std::span<const double>, const Vec3& X, const Vec3& T,
                    PositionMap& out) const override
   {

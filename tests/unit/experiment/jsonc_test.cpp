@@ -1,4 +1,5 @@
 #include "document/jsonc.hpp"
+
 #include "document/diagnostics.hpp"
 #include "document/json_writer.hpp"
 

@@ -1,8 +1,7 @@
 /// --set on the command line.
 
-#include "fake_plugins.hpp"
-
 #include "document/jsonc.hpp"
+#include "fake_plugins.hpp"
 
 #include <gtest/gtest.h>
 

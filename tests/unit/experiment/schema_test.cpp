@@ -1,13 +1,14 @@
 /// The checked-in schema and reference are what the table of fields gives, with the plugins of this tree.
 /// Run with HAUBERK_UPDATE=1 in the environment to write both files anew.
 
+#include "document/json_writer.hpp"
+#include "tasks/table.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/registry.hpp>
-#include "document/json_writer.hpp"
-#include "tasks/table.hpp"
 
 #include <gtest/gtest.h>
 

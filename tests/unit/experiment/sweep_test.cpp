@@ -1,10 +1,9 @@
 /// The section sweep: rows, values, names, and what is wrong with it; and cell.weave.
 
+#include "document/json_writer.hpp"
 #include "fake_plugins.hpp"
 #include "tasks/sweep/sweep_section.hpp"
 #include "tasks/table.hpp"
-
-#include "document/json_writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <hauberk/geometry/pair_frame.hpp>
+#include "geometry/pair_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Bounds of the distance field: never violated, and of the order that makes them worth their cost.
 
-#include <hauberk/geometry/panel_bound.hpp>
+#include "geometry/panel_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Distances from an ellipse one by one and four at a time, and panels that carry their angles along.
 
-#include <hauberk/geometry/panel_field.hpp>
+#include "geometry/panel_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Special arrangements in which the certified distance once failed; random ones are in tests/accuracy.
 
-#include <hauberk/geometry/separation.hpp>
+#include "geometry/separation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,12 @@
 /// Spines: where primitives of an element overlap, the loops that they form, and what those are linked with.
 
-#include <hauberk/geometry/closed_curve.hpp>
-#include <hauberk/geometry/separation.hpp>
-#include <hauberk/geometry/spine.hpp>
+#include "geometry/spine.hpp"
 
-#include <gtest/gtest.h>
+#include "geometry/closed_curve.hpp"
+#include "geometry/separation.hpp"
+
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

@@ -20,7 +20,7 @@ class Odd final : public LoadCase {
 
   const std::vector<MacroInfo>& do_macros() const override { return macros_; }
   int do_coordinate_count() const override { return 2; }
-  bool do_periodic() const override { return true; }
+  int do_lattice_vectors() const override { return 2; }
   void do_position(Values macro, Values e, const Vec3& X, const Vec3& T, PositionMap& out) const override
   {
     maybe_fail();

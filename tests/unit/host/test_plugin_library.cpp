@@ -5,11 +5,10 @@
 #include <hauberk/host/handshake.hpp>
 #include <hauberk/host/plugin_library.hpp>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <cstring>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace hauberk::test {
 namespace {

@@ -1,10 +1,11 @@
 /// The checking calls in front of plugins: what they let through, and what they say about the rest.
 
-#include <gtest/gtest.h>
 #include <hauberk/error.hpp>
 #include <hauberk/load_case.hpp>
 #include <hauberk/optimizer.hpp>
 #include <hauberk/shape.hpp>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
@@ -107,7 +108,7 @@ class AnyLoadCase final : public LoadCase {
  protected:
   const std::vector<MacroInfo>& do_macros() const override { return infos; }
   int do_coordinate_count() const override { return coordinates; }
-  bool do_periodic() const override { return true; }
+  int do_lattice_vectors() const override { return 2; }
   void do_position(std::span<const double>, std::span<const double>, const Vec3&, const Vec3&,
                    PositionMap& out) const override
   {

@@ -1,7 +1,8 @@
-#include <gtest/gtest.h>
 #include <hauberk/linalg.hpp>
 
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
 

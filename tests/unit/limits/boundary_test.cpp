@@ -1,10 +1,11 @@
 /// Limits along components: the sphere of directions, equality with angles, symmetry, the support property.
 
+#include "limits/boundary.hpp"
+
+#include "limits/limits.hpp"
 #include "scenes.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/limits/boundary.hpp>
-#include <hauberk/limits/limits.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 /// Limits that hold conditions on the macroscopic strain: the axial limit and what it is measured against.
 
+#include "limits/limits.hpp"
 #include "scenes.hpp"
-
-#include <hauberk/limits/limits.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,14 @@
 /// Scenes that contain each other: which do, what a state of the one is in the other, and what limits learn
 /// from it.
 
-#include "symmetric_scenes.hpp"
+#include "limits/relatives.hpp"
 
+#include "equilibrium/gaps.hpp"
+#include "limits/limits.hpp"
 #include "loadcases/in_plane_periodic/in_plane_periodic.hpp"
 #include "loadcases/paraboloid_bending/paraboloid_bending.hpp"
-
-#include <hauberk/limits/limits.hpp>
-#include <hauberk/limits/relatives.hpp>
-#include <hauberk/mechanics/gaps.hpp>
-#include <hauberk/mechanics/held_model.hpp>
+#include "model/held_model.hpp"
+#include "symmetric_scenes.hpp"
 
 #include <gtest/gtest.h>
 

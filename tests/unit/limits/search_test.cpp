@@ -1,9 +1,8 @@
 /// What is done to find the furthest locked state: learning from other limits, neighbours, tilts.
 
+#include "equilibrium/gaps.hpp"
+#include "limits/limits.hpp"
 #include "scenes.hpp"
-
-#include <hauberk/limits/limits.hpp>
-#include <hauberk/mechanics/gaps.hpp>
 
 #include <gtest/gtest.h>
 

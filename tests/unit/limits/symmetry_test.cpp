@@ -1,13 +1,12 @@
 /// Symmetries of scenes: groups against those derived by hand, and what must be equal at images of states.
 
-#include "symmetric_scenes.hpp"
+#include "limits/symmetry.hpp"
 
+#include "equilibrium/gaps.hpp"
 #include "loadcases/in_plane_periodic/in_plane_periodic.hpp"
 #include "loadcases/paraboloid_bending/paraboloid_bending.hpp"
 #include "loadcases/volumetric_periodic/volumetric_periodic.hpp"
-
-#include <hauberk/limits/symmetry.hpp>
-#include <hauberk/mechanics/gaps.hpp>
+#include "symmetric_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// Adjoint gradients against re-solved differences at fixed stiffness, and against explicit ones.
 
-#include <hauberk/limits/limits.hpp>
-#include <hauberk/mechanics/adjoint.hpp>
-#include <hauberk/mechanics/gaps.hpp>
-#include <hauberk/mechanics/locking.hpp>
+#include "equilibrium/adjoint.hpp"
 
+#include "equilibrium/gaps.hpp"
+#include "equilibrium/locking.hpp"
+#include "limits/limits.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,11 @@
 /// What `arc` lists as contacts: resultants of zones, which must be on both surfaces and must stand for the
 /// gradient of the energy, also where a zone of contact bends around a tube.
 
-#include <hauberk/mechanics/contact_energy.hpp>
-
+#include "equilibrium/contact_energy.hpp"
 #include "scenes.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 namespace hauberk::test {
 namespace {

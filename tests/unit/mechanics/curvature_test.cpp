@@ -1,6 +1,6 @@
 /// Sparse Hessians: the derivative of the gradient, and systems with them, against dense algebra.
 
-#include <mechanics/curvature.hpp>
+#include "equilibrium/curvature.hpp"
 
 #include "scenes.hpp"
 

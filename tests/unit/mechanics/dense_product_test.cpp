@@ -1,10 +1,9 @@
 /// Products of dense blocks: bit for bit what plain loops give, on any processor.
 
-#include <mechanics/dense_product.hpp>
-
-#include <gtest/gtest.h>
+#include "numerics/dense_product.hpp"
 
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
 #include <random>
 

@@ -1,9 +1,8 @@
 /// Derivatives of the contact energy in all unknowns and parameters, for every formulation and all pairs of
 /// primitive kinds: central differences at several step sizes must converge with second order.
 
-#include <hauberk/contact/body_pair.hpp>
-#include <hauberk/mechanics/equilibrium.hpp>
-
+#include "contact/body_pair.hpp"
+#include "equilibrium/newton.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

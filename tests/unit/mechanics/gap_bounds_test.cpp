@@ -1,16 +1,16 @@
 /// Bounds of gaps that are kept from step to step: never above the gaps, and no energy depends on them.
 
-#include <hauberk/geometry/panel_field.hpp>
-#include <hauberk/mechanics/equilibrium.hpp>
-#include <hauberk/mechanics/gaps.hpp>
-#include <hauberk/mechanics/locking.hpp>
-#include <hauberk/motion/gap_bounds.hpp>
+#include "motion/gap_bounds.hpp"
 
+#include "equilibrium/gaps.hpp"
+#include "equilibrium/locking.hpp"
+#include "equilibrium/newton.hpp"
+#include "geometry/panel_field.hpp"
 #include "known_gaps.hpp"
 #include "scenes.hpp"
 
-#include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

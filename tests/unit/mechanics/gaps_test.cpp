@@ -1,6 +1,6 @@
 /// The smallest gap, against all of them.
 
-#include <hauberk/mechanics/gaps.hpp>
+#include "equilibrium/gaps.hpp"
 
 #include "scenes.hpp"
 

@@ -1,7 +1,6 @@
 /// Pairs of elements that are near, against a look at every element and image.
 
-#include <hauberk/mechanics/model.hpp>
-
+#include "model/model.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

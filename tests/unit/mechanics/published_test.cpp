@@ -1,8 +1,9 @@
 /// The published contact on one pair: closed-form energy, derivatives in all relative pose unknowns and all
 /// sizes, with active fade, at a double eigenvalue and on the way to a merge of minima.
 
-#include <hauberk/contact/formulation.hpp>
-#include <hauberk/contact/published.hpp>
+#include "contact/published.hpp"
+
+#include "contact/formulation.hpp"
 
 #include <gtest/gtest.h>
 

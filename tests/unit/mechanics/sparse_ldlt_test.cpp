@@ -1,10 +1,9 @@
 /// Sparse L D L^T: solutions and inertia against dense algebra.
 
-#include <mechanics/sparse_ldlt.hpp>
-
-#include <gtest/gtest.h>
+#include "numerics/sparse_ldlt.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
 
 #include <array>
 #include <random>

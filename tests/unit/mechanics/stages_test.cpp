@@ -1,8 +1,7 @@
 /// The ladder of activation distances.
 
+#include "equilibrium/locking.hpp"
 #include "scenes.hpp"
-
-#include <hauberk/mechanics/locking.hpp>
 
 #include <gtest/gtest.h>
 

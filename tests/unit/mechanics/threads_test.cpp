@@ -1,8 +1,7 @@
 /// Threads share the pairs of a large scene; what they find is the same to the last bit.
 
-#include <hauberk/mechanics/equilibrium.hpp>
-#include <hauberk/mechanics/gaps.hpp>
-
+#include "equilibrium/gaps.hpp"
+#include "equilibrium/newton.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 /// Steps of meshes that are called free of collisions, against many small ones.
 
-#include <hauberk/contact/mesh.hpp>
-#include <hauberk/geometry/facets.hpp>
-#include <hauberk/motion/advancement.hpp>
+#include "motion/advancement.hpp"
 
+#include "contact/mesh.hpp"
+#include "geometry/facets.hpp"
 #include <scenes.hpp>
 
 #include <gtest/gtest.h>

@@ -1,14 +1,12 @@
 /// Contact energy of meshes: derivatives by differences, also of nearly parallel edges, and invariances.
 
-#include <hauberk/contact/body_pair.hpp>
-#include <hauberk/contact/mesh.hpp>
-#include <hauberk/geometry/facets.hpp>
-
+#include "contact/body_pair.hpp"
+#include "contact/mesh.hpp"
+#include "geometry/facets.hpp"
 #include <scenes.hpp>
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 

@@ -1,8 +1,9 @@
 /// Meshes of tori and of tubes around curves: closed, every feature owned once, as accurate as they should
 /// be, facets where they should be.
 
-#include <hauberk/geometry/closed_curve.hpp>
-#include <hauberk/geometry/facets.hpp>
+#include "geometry/facets.hpp"
+
+#include "geometry/closed_curve.hpp"
 
 #include <gtest/gtest.h>
 

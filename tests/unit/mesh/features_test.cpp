@@ -1,13 +1,11 @@
 /// Nearest points of features against the distance of convex hulls, and the search for near ones against all
 /// of them.
 
-#include <hauberk/geometry/facets.hpp>
-
+#include "geometry/facets.hpp"
 #include <scenes.hpp>
 
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 
 #include <set>
 

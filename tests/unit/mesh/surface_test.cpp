@@ -5,9 +5,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

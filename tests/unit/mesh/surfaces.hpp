@@ -1,8 +1,8 @@
 #pragma once
 /// Surfaces of triangles for tests, and a shape of one.
 
-#include <hauberk/geometry/triangle_surface.hpp>
 #include <hauberk/shape.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <cmath>
 #include <functional>

@@ -1,22 +1,20 @@
 /// Triangle meshes as elements: tori given as surfaces must be what contact mesh makes of tori, links, and
 /// exact limits with their derivatives.
 
+#include "contact/body_pair.hpp"
+#include "equilibrium/gaps.hpp"
+#include "geometry/facets.hpp"
+#include "geometry/separation.hpp"
+#include "limits/limits.hpp"
+#include "equilibrium/rest.hpp"
+#include <scenes.hpp>
 #include "surfaces.hpp"
 
-#include <hauberk/contact/body_pair.hpp>
 #include <hauberk/error.hpp>
-#include <hauberk/geometry/facets.hpp>
-#include <hauberk/geometry/separation.hpp>
-#include <hauberk/limits/limits.hpp>
-#include <hauberk/mechanics/gaps.hpp>
-#include <hauberk/plan/plan.hpp>
-
-#include <scenes.hpp>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>

@@ -1,9 +1,10 @@
 /// Linear programs against an enumeration of all vertices.
 
-#include <gtest/gtest.h>
-#include <quadratic/linear_program.hpp>
+#include "numerics/linear_program.hpp"
 
 #include <Eigen/LU>
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <optional>
 #include <random>

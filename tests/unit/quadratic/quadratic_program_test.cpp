@@ -1,7 +1,8 @@
-#include <gtest/gtest.h>
-#include <quadratic/quadratic_program.hpp>
+#include "numerics/quadratic_program.hpp"
 
 #include <Eigen/LU>
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <optional>
 #include <random>

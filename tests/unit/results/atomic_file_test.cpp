@@ -1,13 +1,14 @@
 #include "document/atomic_file.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <array>
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <sys/resource.h>
 
 namespace hauberk {
 namespace {

@@ -1,16 +1,16 @@
 /// The boundary on the disk: PLY, read back; picture; table; JSON.
 
 #include "pictures/boundary.hpp"
+
 #include "document/json_text.hpp"
 #include "results/csv.hpp"
 #include "results/direction_json.hpp"
 #include "results/document.hpp"
+#include "sample_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
-
-#include "sample_run.hpp"
 
 namespace hauberk {
 namespace {

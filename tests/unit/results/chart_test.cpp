@@ -3,9 +3,8 @@
 #include "document/json_text.hpp"
 #include "tasks/chart/chart_results.hpp"
 
-#include <gtest/gtest.h>
-
 #include <boost/json/array.hpp>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>

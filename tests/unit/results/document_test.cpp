@@ -1,16 +1,17 @@
 #include "results/document.hpp"
-#include <hauberk/error.hpp>
+
 #include "document/json_text.hpp"
 #include "results/csv.hpp"
 #include "results/designed_experiment.hpp"
+#include "sample_run.hpp"
 
-#include <gtest/gtest.h>
+#include <hauberk/error.hpp>
+
 #include <boost/json/value.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "sample_run.hpp"
 
 namespace hauberk {
 namespace {

@@ -1,9 +1,10 @@
 #include "document/json_text.hpp"
+
 #include <hauberk/error.hpp>
 
-#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>

@@ -1,13 +1,12 @@
 #include "document/json_text.hpp"
 #include "pictures/polar_svg.hpp"
+#include "sample_run.hpp"
 #include "tasks/sweep/sweep_results.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
-
-#include "sample_run.hpp"
 
 namespace hauberk {
 namespace {

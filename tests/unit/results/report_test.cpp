@@ -1,14 +1,15 @@
 /// Reports of designs that are made up, so that every figure is known.
 
 #include "report/report.hpp"
-#include <hauberk/error.hpp>
+
 #include "document/json_text.hpp"
 #include "results/document.hpp"
 
-#include <gtest/gtest.h>
+#include <hauberk/error.hpp>
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

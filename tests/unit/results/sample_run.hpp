@@ -1,5 +1,5 @@
 #pragma once
-#include <hauberk/results.hpp>
+#include "limits/results.hpp"
 #include "results/document.hpp"
 
 #include <string>

@@ -1,6 +1,7 @@
 /// Outcomes of claims that are right, short, honest and wrong.
 
 #include "tasks/stability/classify.hpp"
+
 #include "tasks/stability/independent_check.hpp"
 
 #include <gtest/gtest.h>

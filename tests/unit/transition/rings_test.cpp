@@ -2,7 +2,6 @@
 /// energies, jumps of every formulation, and complete tables.
 
 #include "scenes.hpp"
-
 #include "tasks/transition/evaluation.hpp"
 #include "tasks/transition/transition_run.hpp"
 

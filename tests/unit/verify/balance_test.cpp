@@ -1,9 +1,9 @@
+#include "chain_document.hpp"
+
 #include <hauberk/verify/verify.hpp>
 
-#include <gtest/gtest.h>
 #include <boost/json/object.hpp>
-
-#include "chain_document.hpp"
+#include <gtest/gtest.h>
 
 namespace hauberk {
 namespace {

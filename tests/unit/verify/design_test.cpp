@@ -1,10 +1,10 @@
+#include "chain_document.hpp"
+
 #include <hauberk/verify/verify.hpp>
 
-#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-
-#include "chain_document.hpp"
+#include <gtest/gtest.h>
 
 namespace hauberk {
 namespace {

@@ -1,15 +1,15 @@
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "facets.hpp"
 #include "links.hpp"
 #include "neighbours.hpp"
 #include "separation.hpp"
 #include "surface.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
 
 namespace hauberk::verification {
 namespace {

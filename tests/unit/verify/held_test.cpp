@@ -1,16 +1,16 @@
 /// Limits that hold components of the macroscopic unknowns, or the places of elements.
 
+#include "chain_document.hpp"
+
 #include <hauberk/verify/verify.hpp>
 
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "chain_document.hpp"
 
 namespace hauberk {
 namespace {

@@ -1,16 +1,16 @@
 /// The rules by which fields are checked, and what is said of fields that no rule knows.
 
+#include "chain_document.hpp"
+
 #include <hauberk/verify/verify.hpp>
 
-#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 #include <sstream>
-
-#include "chain_document.hpp"
 
 namespace hauberk {
 namespace {

@@ -1,19 +1,19 @@
 /// The second-order check: stationary states that are no maxima are found out, those that are pass.
 
-#include <hauberk/verify/verify.hpp>
-
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-#include <boost/json/array.hpp>
-#include <boost/json/object.hpp>
-
-#include <cmath>
-#include <numbers>
-
 #include "chain_document.hpp"
 #include "column_document.hpp"
 #include "surface.hpp"
 #include "touching.hpp"
+
+#include <hauberk/verify/verify.hpp>
+
+#include <Eigen/Geometry>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace hauberk {
 namespace {

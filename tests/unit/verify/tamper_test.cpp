@@ -1,12 +1,12 @@
+#include "chain_document.hpp"
+
 #include <hauberk/verify/verify.hpp>
 
-#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "chain_document.hpp"
 
 namespace hauberk {
 namespace {

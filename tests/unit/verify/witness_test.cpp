@@ -1,21 +1,21 @@
 /// Witnesses of limits that nothing sets, and the loops that several primitives form together.
 
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
+#include "witness.hpp"
 
+#include "chain_document.hpp"
+#include "links.hpp"
+#include "together.hpp"
+
+#include <Eigen/Geometry>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
-
-#include "chain_document.hpp"
-#include "links.hpp"
-#include "together.hpp"
-#include "witness.hpp"
 
 namespace hauberk::test {
 namespace {

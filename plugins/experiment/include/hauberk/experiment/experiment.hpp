@@ -1,11 +1,12 @@
 #pragma once
 /// An experiment, read, checked and expanded: everything resolved into plain types and kernel structs.
 
+#include "document/diagnostics.hpp"
+#include "limits/results.hpp"
+#include "model/scene.hpp"
+
 #include <hauberk/experiment/expect.hpp>
 #include <hauberk/plugin.hpp>
-#include <hauberk/results.hpp>
-#include <hauberk/scene.hpp>
-#include "document/diagnostics.hpp"
 
 #include <cstdint>
 #include <functional>

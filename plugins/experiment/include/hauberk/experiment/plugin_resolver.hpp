@@ -1,6 +1,7 @@
 #pragma once
-#include <hauberk/experiment/experiment.hpp>
 #include "document/check.hpp"
+
+#include <hauberk/experiment/experiment.hpp>
 
 #include <map>
 #include <string>

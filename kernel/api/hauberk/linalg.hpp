@@ -1,0 +1,42 @@
+#pragma once
+/// The few linear-algebra names that may cross a plugin boundary.
+///
+/// Only types whose size and alignment do not depend on vector flags are used there: 3-vectors and
+/// 3x3 matrices of double (24 and 72 bytes, never over-aligned) and spans of double.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <numbers>
+#include <span>
+
+namespace hauberk {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+/// Radians per degree.
+inline constexpr double degree = std::numbers::pi / 180.0;
+
+/// Cross-product matrix: skew(a) b = a x b.
+inline Mat3 skew(const Vec3& a)
+{
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Rotation matrix exp(skew(w)) (Rodrigues), accurate for small |w|. Thread safe.
+Mat3 rotation_exp(const Vec3& w);
+
+/// Shortest rotation that takes e_z to the unit vector `axis`; for axis = -e_z, half a turn about e_x.
+Mat3 rotation_from_z(const Vec3& axis);
+
+/// Whether the orthogonal matrix O maps the plane z = 0 to itself, up to rounding: then O_zz = +1 or -1.
+inline bool keeps_plane(const Mat3& O)
+{
+  constexpr double rounding = 1e-9;
+  return O.topRightCorner<2, 1>().norm() <= rounding && O.bottomLeftCorner<1, 2>().norm() <= rounding;
+}
+
+}  // namespace hauberk

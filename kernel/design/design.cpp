@@ -1,0 +1,331 @@
+#include "design/design.hpp"
+
+#include "design/design_problem.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+namespace hauberk {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point t0)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+}
+
+/// Records every iterate and passes it on.
+class Recorder final : public OptimizerObserver {
+ public:
+  Recorder(DesignProblem& problem, const DesignSpec& design, int start, const DesignObserver& observer)
+      : problem_(problem),
+        design_(design),
+        tasks_(target_tasks(design)),
+        start_(start),
+        observer_(observer),
+        t0_(std::chrono::steady_clock::now())
+  {
+  }
+
+  bool on_iterate(const OptimizerIterate& it) override
+  {
+    const DesignPoint& p = problem_.current();
+    DesignIterate d;
+    d.iteration = it.iteration;
+    d.objective = it.value;
+    d.step = it.step;
+    d.optimality = it.optimality;
+    d.constraint_violation = it.constraint_violation * p.model.length;
+    d.min_gap = problem_.rest_distance();
+    d.links_kept = links_kept(p.model, p.rest);
+    d.seconds = seconds_since(t0_);
+    d.values = p.values;
+    const auto senses = p.model.load->sense_names();
+    for (const int k : p.changed) {
+      const LimitTask& task = tasks_[static_cast<std::size_t>(k)];
+      d.changed.push_back(fmt::format("{}, {}", task.direction.text(),
+                                      task.sense == Sense::positive ? senses.first : senses.second));
+    }
+    history.push_back(d);
+    if (!observer_({start_, design_.starts, &history.back()})) interrupted = true;
+    targets_met = it.constraint_violation <= negligible_violation && meets_targets(design_, p.values);
+    return !interrupted && !targets_met;
+  }
+
+  std::vector<DesignIterate> history;
+  bool interrupted = false, targets_met = false;
+
+ private:
+  DesignProblem& problem_;
+  const DesignSpec& design_;
+  std::vector<LimitTask> tasks_;
+  int start_;
+  const DesignObserver& observer_;
+  std::chrono::steady_clock::time_point t0_;
+};
+
+/// Starting design of a run: the scene's parameters moved at random, relative to the width of the bounds.
+std::vector<double> random_move(const DesignSpec& design, int start)
+{
+  std::mt19937_64 rng(design.seed * 1000003U + static_cast<std::uint64_t>(start));
+  std::vector<double> d;
+  for (const DesignVariable& v : design.variables) {
+    // Sum of uniforms: the same on every standard library.
+    double sum = -6.0;
+    for (int k = 0; k < 12; ++k) sum += static_cast<double>(rng() >> 11U) * 0x1.0p-53;
+    d.push_back(design.perturbation * (v.upper - v.lower) * sum);
+  }
+  return d;
+}
+
+/// Relaxed rest of a design as a scene.
+SceneSpec scene_of(const DesignPoint& p)
+{
+  SceneSpec s = p.spec;
+  const std::vector<Pose> rest = poses(p.model, p.rest);
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    s.elements[k].rest = {rest[k].position * p.model.length, rest[k].rotation};
+  }
+  return s;
+}
+
+}  // namespace
+
+std::vector<int> DesignVariable::elements() const
+{
+  std::vector<int> out;
+  for (const auto& [element, parameter] : entries) out.push_back(element);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::vector<LimitTask> target_tasks(const DesignSpec& design)
+{
+  std::vector<LimitTask> tasks;
+  for (const DesignTarget& t : design.targets) {
+    if (design.quantity != DesignQuantity::negative)
+      tasks.push_back({Direction::at_degrees(t.direction_deg), Sense::positive});
+    if (design.quantity != DesignQuantity::positive)
+      tasks.push_back({Direction::at_degrees(t.direction_deg), Sense::negative});
+  }
+  return tasks;
+}
+
+bool meets_targets(const DesignSpec& design, const std::vector<double>& values)
+{
+  if (!design.tolerance || values.size() != design.targets.size()) return false;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double target = design.targets[k].value;
+    if (!(std::abs(values[k] - target) <= *design.tolerance * std::abs(target))) return false;
+  }
+  return true;
+}
+
+std::vector<std::optional<double>> target_values(const DesignSpec& design,
+                                                 const std::vector<LimitResult>& limits)
+{
+  std::vector<std::optional<double>> out;
+  std::size_t k = 0;
+  const auto locked = [&limits](std::size_t i) -> std::optional<double> {
+    return limits[i].status == LimitStatus::locked ? limits[i].value : std::nullopt;
+  };
+  for (std::size_t i = 0; i < design.targets.size(); ++i) {
+    if (design.quantity == DesignQuantity::eta) {
+      const auto s = locked(k), c = locked(k + 1);
+      k += 2;
+      out.push_back(s && c && 1.0 + *c > 0.0 ? std::optional((*s - *c) / (1.0 + *c)) : std::nullopt);
+    } else {
+      out.push_back(locked(k++));
+    }
+  }
+  return out;
+}
+
+namespace {
+
+/// One search and what came of it.
+struct Search {
+  OptimizerResult found;
+  std::vector<DesignIterate> history;
+  bool interrupted = false;
+};
+
+Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
+              std::span<const double> x0, int start, const DesignObserver& observer)
+{
+  Recorder recorder(problem, design, start, observer);
+  Search s;
+  s.found = optimizer.minimize(problem, x0, recorder);
+  s.history = std::move(recorder.history);
+  s.interrupted = recorder.interrupted;
+  // The best point may not be the last accepted one.
+  if (!s.history.empty() && problem.evaluate(s.found.x, false).ok) problem.accept(s.found.x);
+  if (s.interrupted || s.history.empty()) return s;
+  if (recorder.targets_met && meets_targets(design, problem.current().values)) {
+    s.found.status = "targets_met";
+    s.found.message = "every target is met to within design.tolerance, limits not yet recomputed";
+  } else if (problem.settle()) {
+    s.found.message +=
+        "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
+  }
+  s.found.x = problem.current().x;
+  s.found.value = problem.current().objective;
+  return s;
+}
+
+void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, const Search& s)
+{
+  const DesignPoint& p = problem.current();
+  out.status = s.interrupted ? "interrupted" : s.found.status;
+  out.message = s.found.message;
+  std::vector<double> room(static_cast<std::size_t>(problem.constraint_count()));
+  problem.constraints(s.found.x, room, {});
+  const double missing = room.empty() ? 0.0 : -*std::min_element(room.begin(), room.end()) * p.model.length;
+  if (out.status == "infeasible")
+    out.message += fmt::format("; the design misses a clearance by {:.3g} {}", missing, p.spec.length_unit);
+  out.objective = s.found.value;
+  const std::vector<double> initial = problem.scene_variables();
+  for (std::size_t v = 0; v < design.variables.size(); ++v) {
+    const DesignVariable& d = design.variables[v];
+    out.variables.push_back({d.name, initial[v], s.found.x[v], d.lower, d.upper, d.elements()});
+  }
+  for (std::size_t i = 0; i < design.targets.size(); ++i) {
+    DesignTargetResult t;
+    t.direction_deg = design.targets[i].direction_deg;
+    t.target = design.targets[i].value;
+    t.weight = design.targets[i].weight;
+    if (i < p.values.size()) t.provisional = p.values[i];
+    out.targets.push_back(t);
+  }
+}
+
+}  // namespace
+
+Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
+                    const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
+                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory)
+{
+  const auto t0 = std::chrono::steady_clock::now();
+  SceneSpec frozen = scene;
+  frozen.length = characteristic_length(scene);
+  const KeepGoing always = [] { return true; };  // searches are interrupted between iterates
+  Schedule coarse = design.schedule;
+  coarse.last = std::max(coarse.last, design.coarse_last);
+
+  Designed out;
+  std::unique_ptr<DesignProblem> best_problem;
+  Search best;
+  std::string failure;
+  bool interrupted = false;
+  for (int start = 0; start < design.starts && !interrupted; ++start) {
+    auto problem = std::make_unique<DesignProblem>(
+        DesignScene{frozen, load, clearance, limits, design, threads, always});
+    if (start == 0) out.result.initial_scene = scene_of(problem->current());
+    problem->set_memory(memory);
+    problem->set_schedule(coarse);
+    const std::vector<double> x0 = problem->feasible_towards(random_move(design, start));
+    Search s = search(*problem, design, optimizer, x0, start, observer);
+    out.result.evaluations += problem->evaluations();
+    interrupted = s.interrupted;
+    if (s.history.empty()) {
+      failure = s.found.message;
+      continue;
+    }
+    out.result.starts.emplace_back(start, s.found.value);
+    if (best_problem && !(s.found.value < best.found.value)) continue;
+    best = std::move(s);
+    best_problem = std::move(problem);
+    out.result.start = start;
+  }
+  if (!best_problem) throw ComputationError("no design could be evaluated: " + failure);
+  out.result.history = best.history;
+  out.result.iterations = best.found.iterations;
+  if (!interrupted) {
+    const long before = best_problem->evaluations();
+    best_problem->set_schedule(design.schedule);
+    const Search fine = search(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
+    out.result.evaluations += best_problem->evaluations() - before;
+    if (!fine.history.empty()) {
+      out.result.iterations += fine.found.iterations;
+      for (DesignIterate it : fine.history) {
+        it.iteration += best.found.iterations + 1;
+        it.seconds += best.history.back().seconds;
+        out.result.history.push_back(it);
+      }
+      best = fine;
+    } else {
+      best.found.status = "failed";
+      best.found.message = "the search with the final stages could not start: " + fine.found.message;
+    }
+  }
+  enter(out.result, *best_problem, design, best);
+  out.scene = scene_of(best_problem->current());
+  out.result.quantity = design.quantity_name;
+  out.result.seconds = seconds_since(t0);
+  return out;
+}
+
+namespace {
+
+/// What recomputing says of targets that a search met to within `tolerance`.
+std::string recomputed_message(const std::vector<DesignTargetResult>& targets, double tolerance)
+{
+  double worst = 0.0;
+  std::size_t off = 0;
+  for (const DesignTargetResult& t : targets) {
+    const double miss = t.recomputed ? std::abs(*t.recomputed - t.target) / std::abs(t.target)
+                                     : std::numeric_limits<double>::infinity();
+    worst = std::max(worst, miss);
+    off += miss > tolerance ? 1 : 0;
+  }
+  if (off == 0) return "every target is met to within design.tolerance";
+  return fmt::format(
+      "the search met every target to within design.tolerance; recomputed, {} of {} {} off by more, up to {}",
+      off, targets.size(), off == 1 ? "is" : "are",
+      std::isfinite(worst) ? fmt::format("{:.1f} %", 100.0 * worst) : "no limit at all");
+}
+
+}  // namespace
+
+void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,
+                   const std::vector<LimitResult>& final)
+{
+  constexpr double met_within = 0.05;
+  const auto before = target_values(design, initial), after = target_values(design, final);
+  const std::size_t per = design.quantity == DesignQuantity::eta ? 2 : 1;
+  const auto objective = [&](const std::vector<std::optional<double>>& v) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (!v[i]) return std::numeric_limits<double>::quiet_NaN();
+      const double r = *v[i] - design.targets[i].value;
+      sum += 0.5 * design.targets[i].weight * r * r;
+    }
+    return sum;
+  };
+  for (std::size_t i = 0; i < result.targets.size(); ++i) {
+    DesignTargetResult& t = result.targets[i];
+    t.initial = before[i];
+    t.recomputed = after[i];
+    for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
+    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target);
+  }
+  if (result.status == "targets_met") result.message = recomputed_message(result.targets, *design.tolerance);
+  result.objective_initial = objective(before);
+  result.objective = objective(after);
+  if (result.objective > result.objective_initial) {
+    result.message +=
+        "; the initial design is closer to the targets: it violates a clearance, or the search needs more "
+        "iterations or starts";
+  }
+  result.initial_limits = initial;
+}
+
+}  // namespace hauberk

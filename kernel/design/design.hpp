@@ -1,0 +1,92 @@
+#pragma once
+/// Inverse design: element parameters whose limits come closest to targets (paper eqs. (13), (16)).
+
+#include "limits/limits.hpp"
+
+#include <hauberk/optimizer.hpp>
+
+namespace hauberk {
+
+/// One design variable: the same value for all its (element, parameter) entries.
+struct DesignVariable {
+  std::string name;
+  std::vector<std::pair<int, int>> entries;
+  double lower = 0.0, upper = 0.0;  ///< file units
+  /// Elements of the entries, ascending.
+  std::vector<int> elements() const;
+};
+
+enum class DesignQuantity { eta, positive, negative };  ///< eta, stretch (up), compress (down)
+
+/// What stands for a limit in the objective, at the last stage of the search. Both tend to the limit as
+/// stages go down; the choice of one is the choice of its gradient.
+enum class DesignValue {
+  less_contact,  ///< value minus contact energy: its gradient is explicit (envelope theorem), and costs
+                 ///< nothing
+  plain          ///< the value itself: its gradient is an adjoint one
+};
+
+struct DesignTarget {
+  double direction_deg = 0.0;
+  double value = 0.0;  ///< file units
+  double weight = 1.0;
+};
+
+/// What is designed, and under which constraints (lengths in file units).
+struct DesignSpec {
+  DesignQuantity quantity = DesignQuantity::eta;
+  std::string quantity_name = "eta";
+  std::vector<DesignVariable> variables;
+  std::vector<DesignTarget> targets;
+  DesignValue value = DesignValue::less_contact;
+  double hole_clearance = 0.0;  ///< paper's C_ij > eps_c for every linked pair
+  double rest_clearance = 0.0;  ///< surface distance of every pair at rest
+  int starts = 1;
+  double perturbation = 0.02;  ///< standard deviation of the starting designs, relative to upper - lower
+  std::uint64_t seed = 1;
+  Schedule schedule;  ///< stages of the final search (few: their bias is reported by recomputing)
+  /// Activation distance that ends the stages of the first search, from every start. Limits at a coarse
+  /// stage are smooth functions of the parameters, on the scale of its gaps, where exact ones have kinks.
+  double coarse_last = 3e-3;
+  /// Each search ends once every value is within this fraction of its target.
+  std::optional<double> tolerance;
+};
+
+/// What the observer is told. Called from one thread.
+struct DesignProgress {
+  int start = 0, starts = 1;
+  const DesignIterate* iterate = nullptr;
+};
+using DesignObserver = std::function<bool(const DesignProgress&)>;
+
+/// Outcome of the optimisation; limits are recomputed from rest by the caller (`finish_design`).
+struct Designed {
+  DesignResult result;  ///< all but recomputed values
+  SceneSpec scene;      ///< best design with its relaxed rest state
+};
+
+class EvaluationMemory;
+
+/// Runs all starts of the design with coarse stages, then continues the best of them with the final ones.
+/// Evaluations that `memory` knows are not made again (evaluation_memory.hpp); null: none are known, nor
+/// recorded. Throws InputError when the initial design is infeasible at rest, ComputationError when no
+/// evaluation succeeds.
+Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
+                    const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
+                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory = nullptr);
+
+/// The limits that the targets need (both senses for eta), in the order of the targets.
+std::vector<LimitTask> target_tasks(const DesignSpec& design);
+
+/// Whether every value is within `tolerance` of its target, which ends a search; false without a tolerance.
+bool meets_targets(const DesignSpec& design, const std::vector<double>& values);
+
+/// Values of the designed quantity from limits in the order of `target_tasks`; null where not locked.
+std::vector<std::optional<double>> target_values(const DesignSpec& design,
+                                                 const std::vector<LimitResult>& limits);
+
+/// Enters recomputed limits (before and after) into the result: targets, objectives, met or not.
+void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,
+                   const std::vector<LimitResult>& final);
+
+}  // namespace hauberk

@@ -1,0 +1,215 @@
+#include "design/design_problem.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hauberk {
+namespace {
+
+constexpr double smallest_share = 1e-3;
+/// Starting designs: moves towards the random goal, each on newly linearised constraints.
+constexpr int most_start_moves = 8;
+constexpr int most_halvings = 6;
+constexpr double start_violation = 1e-4;  ///< L; the optimizer mends it
+/// Accepted designs in a row with states that were only continued: then they are looked for from rest.
+constexpr int most_unchecked = 4;
+
+std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()}; }
+
+}  // namespace
+
+DesignProblem::DesignProblem(DesignScene scene)
+    : scene_(std::move(scene)), journal_(scene_), rest_path_(scene_), current_(start_point()), last_(current_)
+{
+  for (const DesignVariable& v : scene_.design.variables) {
+    lower_.push_back(v.lower);
+    upper_.push_back(v.upper);
+  }
+  constraints_ = std::make_unique<const DesignConstraints>(scene_, *current_);
+}
+
+std::shared_ptr<DesignPoint> DesignProblem::start_point() const
+{
+  auto p = std::make_shared<DesignPoint>();
+  p->x = scene_variables();
+  p->spec = scene_.scene;
+  p->model = make_model(scene_.scene, scene_.load, scene_.clearance);
+  const double target = scene_.rest_target(p->model);
+  const Relaxed r = relax(p->model, rest_state(p->model), target);
+  if (!r.problem.empty())
+    throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem +
+                     tightest_pair(scene_.scene, p->model, r.state));
+  p->rest = r.state;
+  p->rest_gaps = find_gaps(p->model, p->rest, target + response_range, true);
+  p->warm.resize(journal_.task_count());
+  return p;
+}
+
+std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x)
+{
+  const auto is_at = [x](const auto& p) { return std::equal(x.begin(), x.end(), p->x.begin(), p->x.end()); };
+  if (is_at(current_)) return current_;
+  if (is_at(last_)) return last_;
+  for (const auto* points : {&tried_, &accepted_}) {
+    const auto known = std::find_if(points->begin(), points->end(), is_at);
+    if (known != points->end()) return *known;
+  }
+  auto p = std::make_shared<DesignPoint>();
+  p->x = copy(x);
+  p->spec = with_variables(scene_.scene, scene_.design.variables, x);
+  last_ = p;
+  try {
+    p->model = make_model(p->spec, scene_.load, scene_.clearance);
+  } catch (const InputError& e) {
+    p->why = e.what();
+    return p;
+  }
+  p->model.links = current_->model.links;  // found at the rest state, not at the reference positions
+  const RestPath::End& way = rest_path_.follow(current_, *p);
+  if (way.share < 1.0) {
+    p->why = "elements collide at rest on the way";
+    return p;
+  }
+  p->rest = way.rest;
+  p->rest_gaps = find_gaps(p->model, p->rest, scene_.rest_target(p->model) + response_range, true);
+  return p;
+}
+
+OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> x, bool want_gradient)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  if (p->why.empty() && !p->evaluated) {
+    tried_.push_back(p);
+    journal_.evaluate(*p, *current_);
+  }
+  Evaluation e;
+  e.ok = p->evaluated && std::isfinite(p->objective);
+  e.why = p->why;
+  if (!e.ok) return e;
+  e.value = p->objective;
+  if (want_gradient) e.gradient.assign(p->gradient.data(), p->gradient.data() + p->gradient.size());
+  return e;
+}
+
+bool DesignProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  if (!p->evaluated) return false;
+  std::size_t entry = 0;
+  for (std::size_t i = 0; i < scene_.design.targets.size(); ++i) {
+    const DesignTarget& t = scene_.design.targets[i];
+    const double w = std::sqrt(t.weight);
+    r[i] = w * (p->values[i] - t.value);
+    for (std::size_t v = 0; v < x.size(); ++v)
+      jacobian[entry++] = w * p->value_gradients(static_cast<int>(i), static_cast<int>(v));
+  }
+  return true;
+}
+
+void DesignProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
+{
+  constraints_->evaluate(*make_point(x), current_->model, c, jacobian);
+}
+
+double DesignProblem::largest_safe_step(std::span<const double> x, std::span<const double> d)
+{
+  if (!std::equal(x.begin(), x.end(), current_->x.begin(), current_->x.end())) return 0.0;
+  DesignPoint end;
+  // Parameters must stay admissible for the shape; halve until they are.
+  double share = 1.0;
+  while (share > smallest_share) {
+    end.x = copy(x);
+    for (std::size_t k = 0; k < d.size(); ++k) end.x[k] += share * d[k];
+    end.spec = with_variables(scene_.scene, scene_.design.variables, end.x);
+    try {
+      end.model = make_model(end.spec, scene_.load, scene_.clearance);
+      return share * rest_path_.follow(current_, end).share;
+    } catch (const InputError&) {
+      share *= 0.5;
+    }
+  }
+  return 0.0;
+}
+
+void DesignProblem::set_schedule(const Schedule& schedule)
+{
+  journal_.set_schedule(schedule);
+  current_ = last_ = std::make_shared<DesignPoint>(*current_);
+  current_->evaluated = false;
+  current_->why.clear();
+  current_->states_missing = current_->states_kept = false;
+  tried_.clear();  // their values are of the other stages
+  accepted_.clear();
+  confirmed_.reset();
+}
+
+std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
+{
+  std::vector<double> goal(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i)
+    goal[i] = std::clamp(current_->x[i] + d[i], lower_[i], upper_[i]);
+  std::vector<double> c(static_cast<std::size_t>(constraint_count()));
+  std::vector<double> jacobian(c.size() * d.size());
+  for (int move = 0; move < most_start_moves; ++move) {
+    constraints(current_->x, c, jacobian);
+    const std::vector<double> x0 = current_->x;
+    const std::vector<double> x = project(c, jacobian, x0, goal, scene_.design.variables);
+    bool moved = false;
+    double share = 1.0;
+    for (int k = 0; k < most_halvings && !moved; ++k, share *= 0.5) {
+      std::vector<double> y(x.size());
+      for (std::size_t i = 0; i < x.size(); ++i) y[i] = x0[i] + share * (x[i] - x0[i]);
+      const auto p = make_point(y);
+      if (!p->why.empty()) continue;
+      constraints(y, c, {});
+      if (*std::min_element(c.begin(), c.end()) < -start_violation) continue;
+      current_ = p;
+      moved = true;
+    }
+    if (!moved || share > 0.6) break;  // blocked, or all the way
+  }
+  return current_->x;
+}
+
+void DesignProblem::accept(std::span<const double> x)
+{
+  const std::shared_ptr<DesignPoint> p = make_point(x);
+  if (!p->evaluated)
+    throw PluginError("the optimizer accepted a design that it " + (p->why.empty()
+                                                                        ? "did not evaluate from its iterate"
+                                                                        : "could not evaluate: " + p->why));
+  // What ends a search has to be what its limits are recomputed as.
+  const bool at_the_goal = meets_targets(scene_.design, p->values);
+  p->thorough = at_the_goal;
+  take(p, p->unchecked >= most_unchecked || at_the_goal);
+}
+
+void DesignProblem::take(const std::shared_ptr<DesignPoint>& p, bool look_from_rest)
+{
+  if (look_from_rest) journal_.check(*p, *current_);
+  journal_.keep_states(*p, *current_);
+  tried_.clear();  // from the former iterate; from this one they may come out otherwise
+  current_ = last_ = p;
+  accepted_.push_back(p);
+  if (p->unchecked > 0 || (confirmed_ && confirmed_->objective <= p->objective)) return;
+  if (constraints_->satisfied(*p, p->model)) confirmed_ = p;
+}
+
+bool DesignProblem::settle()
+{
+  if (current_->unchecked > 0) take(current_, true);
+  if (!confirmed_ || confirmed_->objective >= current_->objective) return false;
+  take(confirmed_, false);
+  return true;
+}
+
+double DesignProblem::rest_distance() const
+{
+  const Model& m = current_->model;
+  return (smallest_gap(m, current_->rest, constrained_range) + m.clearance) * m.length;
+}
+
+}  // namespace hauberk

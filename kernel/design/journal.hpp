@@ -1,0 +1,40 @@
+#pragma once
+/// Evaluations of designs, recalled from a former run as far as it made them, else solved; and recorded.
+
+#include "design/evaluation_memory.hpp"
+#include "design/target_search.hpp"
+
+namespace hauberk {
+
+/// Not thread safe.
+class DesignJournal {
+ public:
+  explicit DesignJournal(const DesignScene& scene) : search_(scene) {}
+
+  /// Evaluations are recalled from `memory` as far as it knows them, and recorded there; null: neither. It
+  /// must outlive this.
+  void set_memory(EvaluationMemory* memory) { memory_ = memory; }
+  void set_schedule(const Schedule& schedule) { search_.set_schedule(schedule); }
+  std::size_t task_count() const { return search_.task_count(); }
+  /// Closest points that were evaluated, in the former run too.
+  long evaluations() const { return evaluations_; }
+
+  /// Evaluates p from the states of the iterate.
+  void evaluate(DesignPoint& p, DesignPoint& iterate);
+  /// Replaces states of p that were followed by those that rest leads to, and their values.
+  void check(DesignPoint& p, const DesignPoint& iterate);
+  /// Sees to it that p, which becomes the iterate, has its states, and that they are remembered.
+  void keep_states(DesignPoint& p, const DesignPoint& iterate);
+
+ private:
+  /// Warm starts of a design that was evaluated from the iterate in a run that ended before it kept them:
+  /// they are found again as they were found first, at no cost that was not counted then.
+  void find_states(DesignPoint& p, const DesignPoint& iterate);
+  long search_again(DesignPoint& p) const;
+
+  TargetSearch search_;
+  EvaluationMemory* memory_ = nullptr;
+  long evaluations_ = 0;
+};
+
+}  // namespace hauberk

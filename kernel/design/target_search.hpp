@@ -1,0 +1,76 @@
+#pragma once
+/// The limits that a design's targets ask for, with their gradients.
+
+#include "design/design_point.hpp"
+#include "design/design_scene.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk {
+
+/// Solves the targets of designs, directions in parallel. Results do not depend on the number of threads. Not
+/// thread safe itself.
+class TargetSearch {
+ public:
+  explicit TargetSearch(const DesignScene& scene)
+      : scene_(scene), schedule_(scene.design.schedule), tasks_(target_tasks(scene.design))
+  {
+  }
+
+  void set_schedule(const Schedule& schedule) { schedule_ = schedule; }
+  std::size_t task_count() const { return tasks_.size(); }
+
+  /// Solves for p from the states of `from`, which may be p itself: then states are looked for from rest.
+  /// Returns how many closest points were evaluated. What cannot be computed is told in `p.why`.
+  long solve(DesignPoint& p, const DesignPoint& from) const;
+
+ private:
+  /// What one target asks for, locked.
+  struct LockedTarget {
+    Locked locked;
+    std::vector<WarmStart> trail;  ///< its stages
+    long evaluations = 0;
+    bool followed = false;  ///< there was a state to follow
+    bool changed = false;   ///< and this is not its continuation
+    std::string problem;    ///< why it, or its gradient, could not be computed
+  };
+  /// The estimate of a limit, file units, with its gradient in the variables.
+  struct Estimate {
+    double value = 0.0;
+    Vector gradient;
+  };
+
+  /// Locked state of one task: the continuation of the one that is known of `from`; if that is p itself, the
+  /// furthest that rest leads to, or that `known` does.
+  LockedTarget lock_target(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
+                           const std::vector<WarmStart>& warm, const std::optional<State>& known) const;
+  Locked search(const DesignPoint& p, const State& start, const MacroLoad& load, const Schedule& schedule,
+                LockedTarget& counted) const;
+  Locked search_from_rest(const DesignPoint& p, const MacroLoad& load, int attempt,
+                          LockedTarget& counted) const;
+  /// The furthest state that rest, or `known`, leads to; false where searches from rest stalled and there are
+  /// states to follow.
+  bool lock_from_rest(const DesignPoint& p, const MacroLoad& load, const std::vector<WarmStart>& warm,
+                      const std::optional<State>& known, LockedTarget& out) const;
+  /// The continuation of a state of another design from its tightest stage that can be followed.
+  bool lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
+                         const std::vector<WarmStart>& warm, LockedTarget& out) const;
+  /// The furthest states of a design that limits come to when they are computed by themselves, per task.
+  std::vector<std::optional<State>> thorough_states(const DesignPoint& p, long& evaluations) const;
+  /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
+  /// another that is further along its direction and keeps what it holds, until there is none.
+  void learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
+             std::vector<LockedTarget>& targets) const;
+  Estimate estimate(const DesignPoint& p, std::size_t task, const MacroLoad& load,
+                    LockedTarget& target) const;
+  /// Values of the targets, objective and gradient from the estimates of the tasks.
+  void enter_objective(DesignPoint& p, const std::vector<Estimate>& estimates) const;
+
+  const DesignScene& scene_;
+  Schedule schedule_;
+  std::vector<LimitTask> tasks_;
+};
+
+}  // namespace hauberk

@@ -1,0 +1,19 @@
+#pragma once
+/// The stages of a barrier on the way to a locked state, with nothing held but what the model holds.
+
+#include "equilibrium/locking.hpp"
+
+namespace hauberk {
+
+/// Norm of a load in the dual of the step norm.
+double load_size(const Model& model, const Vector& load);
+
+/// The stage of a schedule at an activation distance, for a load of this size.
+Stage barrier_stage(const Model& model, double load_size, ContactChoice choice, const Schedule& schedule,
+                    double g_hat, bool last, Formulation formulation);
+
+/// `lock` by barriers, with nothing held.
+Locked barrier_lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+                    const Schedule& schedule, const KeepGoing& keep_going);
+
+}  // namespace hauberk

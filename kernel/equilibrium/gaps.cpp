@@ -1,0 +1,294 @@
+#include "equilibrium/gaps.hpp"
+
+#include "contact/mesh.hpp"
+#include "geometry/facets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Weight of staying where the rest state was, against violated gaps; the violation left behind is about
+/// this fraction of the motion.
+constexpr double anchor_weight = 1e-6;
+constexpr double room = 1e-3;  ///< relative to the target: aim a little beyond it
+
+/// A side of a pair of bodies as the unknowns see it: P probes F.
+struct Side {
+  const Model& m;
+  const ElementPair& pair;
+  int p, f;
+  bool swapped;
+  const Pose &pp, &pf;
+  const PositionMap &mi, &mj;
+  long& evaluations;
+};
+
+Gap gap_between(const Side& side, double gap)
+{
+  Gap g;
+  g.a = side.swapped ? side.f : side.p;
+  g.b = side.swapped ? side.p : side.f;
+  g.image = side.pair.image;
+  g.gap = gap;
+  return g;
+}
+
+/// The derivative in a body's position, from F's frame to that of the body's element.
+Vec3 in_element(const PairFrame& frame, const Pose& pose, const std::array<double, primitive_dofs>& d)
+{
+  return pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
+}
+
+/// Derivatives of a gap out of those of its side (terms of weight 1).
+void set_derivatives(const Side& side, const PairFrame& frame, const SideTerms& t, Gap& g)
+{
+  const Model& m = side.m;
+  const PairTerms w = to_world(t, frame.M, side.pp.position - side.pf.position, 1);
+  const int nm = m.macro_count, nc = m.coordinate_count;
+  const Vec3 eta = side.swapped ? Vec3(-w.gradient.head<3>()) : Vec3(w.gradient.head<3>());
+  const Vec3 wi = side.swapped ? w.gradient.segment<3>(6) : w.gradient.segment<3>(3);
+  const Vec3 wj = side.swapped ? w.gradient.segment<3>(3) : w.gradient.segment<3>(6);
+  g.dy = Vector::Zero(m.dofs());
+  g.dy.head(nm) = (side.mi.J.leftCols(nm) - side.mj.J.leftCols(nm)).transpose() * eta;
+  g.dy.segment(m.offset(side.pair.i), nc) += side.mi.J.middleCols(nm, nc).transpose() * eta;
+  g.dy.segment(m.offset(side.pair.j), nc) -= side.mj.J.middleCols(nm, nc).transpose() * eta;
+  g.dy.segment<3>(m.offset(side.pair.i) + nc) += wi;
+  g.dy.segment<3>(m.offset(side.pair.j) + nc) += wj;
+  const Vector dp = parameter_gradient(m, side.p, t.geometry_of_P(in_element(frame, side.pp, t.dP)));
+  const Vector df = parameter_gradient(m, side.f, t.geometry_of_F(in_element(frame, side.pf, t.dF)));
+  g.da = side.swapped ? df : dp;
+  g.db = side.swapped ? dp : df;
+}
+
+template <int dim>
+void gaps_of(const Side& side, const PairFrame& frame, double range, bool derivatives, std::vector<Gap>& out)
+{
+  const Model& m = side.m;
+  const Probe<dim> probe(frame);
+  int evaluations = 0;
+  for (const Minimum& mm : local_minima<dim>(frame, range + m.clearance, evaluations)) {
+    Gap g = gap_between(side, mm.distance - m.clearance);
+    if (derivatives) {
+      const ProbePoint q = probe.at(mm.u, mm.v);
+      const FieldValue v = field_at(*frame.F, q.p);
+      SideTerms t;
+      t.add(v, q.on_p - frame.o, 1.0, 0.0, 1);
+      t.template add_parameters<dim>(frame, v, q, 1.0);
+      set_derivatives(side, frame, t, g);
+    }
+    out.push_back(std::move(g));
+  }
+  side.evaluations += evaluations;
+}
+
+/// Of meshes: the smallest gap, or with derivatives those of all features within range.
+void mesh_gaps(const Side& side, const PairFrame& frame, double range, bool derivatives,
+               std::vector<Gap>& out)
+{
+  const Model& m = side.m;
+  if (derivatives) {
+    for (const FeatureGap& feature : feature_gaps(frame, range, m.clearance)) {
+      Gap g = gap_between(side, feature.gap);
+      set_derivatives(side, frame, feature.terms, g);
+      out.push_back(std::move(g));
+    }
+    return;
+  }
+  const double gap = smallest_feature_distance(frame, range + m.clearance) - m.clearance;
+  if (gap < range) out.push_back(gap_between(side, gap));
+}
+
+/// All gaps of a pair of bodies a, b.
+void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose& pi, const Pose& pj,
+               const PositionMap& mi, const PositionMap& mj, double range, bool derivatives,
+               long& evaluations, std::vector<Gap>& out)
+{
+  const Body& A = m.bodies[static_cast<std::size_t>(a)];
+  const Body& B = m.bodies[static_cast<std::size_t>(b)];
+  const bool swapped = !A.facets && second_probes(A, B);
+  const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
+                  mi, mj,   evaluations};
+  const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,
+                        m.bodies[static_cast<std::size_t>(side.f)], side.pf);
+  if (A.facets) {
+    mesh_gaps(side, frame, range, derivatives, out);
+  } else if (probe_dimension(frame) == 1) {
+    gaps_of<1>(side, frame, range, derivatives, out);
+  } else {
+    gaps_of<2>(side, frame, range, derivatives, out);
+  }
+}
+
+/// Sum of squared violations and the anchor, with Gauss-Newton terms.
+struct Penalty {
+  double value = 0.0, worst = 0.0, smallest = 0.0;
+  Vector gradient;
+  Matrix hessian;
+};
+
+Penalty penalty(const Model& m, const State& start, const State& s, double target, Cell cell)
+{
+  Penalty p;
+  const Vector away = difference(m, start, s).cwiseProduct(m.metric);
+  p.value = 0.5 * anchor_weight * away.dot(difference(m, start, s));
+  p.gradient = anchor_weight * away;
+  p.hessian = Matrix::Zero(m.dofs(), m.dofs());
+  p.hessian.diagonal() = anchor_weight * m.metric;
+  p.smallest = std::numeric_limits<double>::infinity();
+  for (const Gap& g : find_gaps(m, s, target, true)) {
+    const double r = target - g.gap;
+    p.smallest = std::min(p.smallest, g.gap);
+    if (r <= 0.0) continue;
+    p.worst = std::max(p.worst, r);
+    p.value += 0.5 * r * r;
+    p.gradient -= r * g.dy;
+    p.hessian.noalias() += g.dy * g.dy.transpose();
+  }
+  for (const LinearInequality& w : m.walls) {
+    double g = w.offset;
+    for (const auto& t : w.terms) g += t.coefficient * s.e[t.element * m.coordinate_count + t.coordinate];
+    if (g < 0.0) {
+      p.value += 0.5 * g * g;
+      for (const auto& t : w.terms) {
+        p.gradient[m.offset(t.element) + t.coordinate] += g * t.coefficient;
+        for (const auto& r : w.terms) {
+          p.hessian(m.offset(t.element) + t.coordinate, m.offset(r.element) + r.coordinate) +=
+              t.coefficient * r.coefficient;
+        }
+      }
+    }
+  }
+  if (cell == Cell::free) return p;
+  p.gradient.head(m.macro_count).setZero();
+  p.hessian.leftCols(m.macro_count).setZero();
+  p.hessian.topRows(m.macro_count).setZero();
+  p.hessian.diagonal().head(m.macro_count).setOnes();
+  return p;
+}
+
+}  // namespace
+
+std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool derivatives, long* evaluations)
+{
+  long count = 0;
+  std::vector<Gap> out;
+  const double reach = range + m.clearance;
+  PositionMap mi, mj;
+  const auto nm = static_cast<std::size_t>(m.macro_count), nc = static_cast<std::size_t>(m.coordinate_count);
+  for (const ElementPair& pair : near_pairs(m, s, reach)) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    m.load->position({s.macro.data(), nm}, {s.e.data() + i * nc, nc}, m.rest[i].position, Vec3::Zero(), mi);
+    m.load->position({s.macro.data(), nm}, {s.e.data() + j * nc, nc}, m.rest[j].position,
+                     m.translation(pair.image), mj);
+    const Pose pi{mi.x, s.rotation[i]}, pj{mj.x, s.rotation[j]};
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body& A = m.bodies[static_cast<std::size_t>(a)];
+        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const double d = (pi.position + pi.rotation * A.center - pj.position - pj.rotation * B.center).norm();
+        if (d >= A.bound + B.bound + reach) continue;
+        body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, count, out);
+      }
+    }
+  }
+  if (evaluations != nullptr) *evaluations += count;
+  return out;
+}
+
+double smallest_gap(const Model& m, const State& s, double range)
+{
+  // Where something is nearly touching, a narrow search finds it, and is a cheap one.
+  constexpr double nearly_touching = 1e-4;
+  double g = std::numeric_limits<double>::infinity();
+  for (const double within : {std::min(range, nearly_touching), range}) {
+    for (const Gap& x : find_gaps(m, s, within, false)) g = std::min(g, x.gap);
+    if (g < within || within == range) break;
+  }
+  return g;
+}
+
+bool meshes_meet(const Model& m, const State& s)
+{
+  for (const ElementPair& pair : near_pairs(m, s, 0.0)) {
+    const Pose pi = image_pose(m, s, pair.i, {0, 0}), pj = image_pose(m, s, pair.j, pair.image);
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
+      for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
+        const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+        if (A.facets && B.facets && facets_intersect(PairFrame(A, pi, B, pj))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::string body_name(const SceneSpec& spec, const Body& body)
+{
+  const PlacedElement& element = spec.elements[static_cast<std::size_t>(body.element)];
+  const ElementType& type = spec.types[static_cast<std::size_t>(element.type)];
+  const std::vector<Primitive> primitives = type.shape->primitives(element.parameters);
+  return fmt::format("element {} ({} of {})", body.element,
+                     primitives[static_cast<std::size_t>(body.index)].name, type.name);
+}
+
+std::string pair_name(const SceneSpec& spec, const Model& m, const Gap& g)
+{
+  std::string text = body_name(spec, m.bodies[static_cast<std::size_t>(g.a)]) + " and " +
+                     body_name(spec, m.bodies[static_cast<std::size_t>(g.b)]);
+  if (g.image != Image{}) text += fmt::format(" of image [{}]", fmt::join(shown(g.image), ", "));
+  return text;
+}
+
+std::string tightest_pair(const SceneSpec& spec, const Model& m, const State& s)
+{
+  const std::vector<Gap> gaps = find_gaps(m, s, 1.0, false);
+  const auto least =
+      std::min_element(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.gap < b.gap; });
+  if (least == gaps.end()) return "";
+  return "; the tightest are " + pair_name(spec, m, *least) +
+         (spec.length_unit.empty() ? "" : " (lengths in " + spec.length_unit + ")");
+}
+
+Relaxed relax(const Model& m, const State& start, double target, Cell cell, int most_iterations)
+{
+  Relaxed out;
+  out.state = start;
+  const double aim = target * (1.0 + room);
+  Penalty now = penalty(m, start, start, aim, cell);
+  double damping = 1e-4;
+  for (int it = 0; it < most_iterations && now.smallest < target; ++it) {
+    Matrix A = now.hessian;
+    A.diagonal() += damping * m.metric;
+    Vector dy = free_part(m, -A.llt().solve(now.gradient));
+    const double size = step_norm(m, dy);
+    if (size > 0.1) dy *= 0.1 / size;
+    const State trial = advanced(m, out.state, dy, 1.0);
+    const Penalty next = penalty(m, start, trial, aim, cell);
+    if (next.value < now.value) {
+      out.state = trial;
+      const double gain = (now.value - next.value) / std::max(now.value, 1e-300);
+      now = next;
+      out.moved = true;
+      damping = std::max(0.1 * damping, 1e-12);
+      if (gain < 1e-10) break;
+    } else {
+      damping *= 10.0;
+      if (damping > 1e6) break;
+    }
+  }
+  out.smallest = now.smallest;
+  out.largest_motion = largest_motion(m, difference(m, start, out.state));
+  if (!links_kept(m, out.state)) {
+    out.problem = "relaxation would undo a link";
+  } else if (now.smallest < target - 1e-12) {
+    out.problem = fmt::format("the nearest state with room leaves a gap of {:.3g} where {:.3g} is needed",
+                              now.smallest * m.length, target * m.length);
+  }
+  return out;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,112 @@
+#include "equilibrium/barrier_path.hpp"
+#include "equilibrium/constrained.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Conditions missed by less than this (strain, or curvature times L) are rounding.
+constexpr double kept = 1e-15;
+/// Stiffness of a tether over the size of the load: what is left of the conditions is the reaction over it.
+constexpr double first_tether = 1e2, most_tether = 1e8, stiffer = 1e2;
+/// Part of any gap that the last step into the conditions leaves.
+constexpr double keep_gap = 0.1;
+
+/// Brings a state to where its conditions are kept, on a certified path: a tether draws the macroscopic
+/// unknowns there while the load pulls and contact resists; what the tether leaves, the reaction over its
+/// stiffness, is one step that is short beside the gaps of the widest stage.
+class Approach {
+ public:
+  Approach(const Model& m, const State& start, const MacroLoad& load, ContactChoice choice,
+           const Schedule& schedule, const KeepGoing& keep_going)
+      : m_(m), load_(load), keep_going_(keep_going), size_(load_size(m, load.pull))
+  {
+    const Formulation f = formulation_at(choice, schedule.first, schedule);
+    stage_ = barrier_stage(m, size_, choice, schedule, schedule.first, false, f);
+    stage_.tether = load.held;
+    for (Eigen::Index k = 0; k < stage_.tether.cols(); ++k) stage_.tether.col(k).normalize();
+    out_.state = start;
+  }
+
+  Locked run()
+  {
+    for (double stiffness = first_tether; stiffness <= most_tether; stiffness *= stiffer) {
+      if (step_in()) return finish(LockStatus::locked, "");
+      stage_.tether_stiffness = stiffness * size_;
+      const StageResult r = solve_stage(m_, out_.state, load_.pull, stage_, keep_going_, &bounds_);
+      out_.iterations += r.iterations;
+      out_.evaluations += r.evaluations;
+      if (r.status == StageStatus::interrupted) return finish(LockStatus::interrupted, r.message);
+      if (r.status == StageStatus::unbounded) return finish(LockStatus::unbounded, r.message);
+    }
+    if (step_in()) return finish(LockStatus::locked, "");
+    return finish(LockStatus::stalled, fmt::format("what is held is missed by {:.1e} on the way from another "
+                                                   "state: contact keeps it from there",
+                                                   missed(load_.held, out_.state.macro)));
+  }
+
+ private:
+  bool step_in()
+  {
+    Vector dy = Vector::Zero(m_.dofs());
+    dy.head(m_.macro_count) = within(load_.held, out_.state.macro) - out_.state.macro;
+    const State there = advanced(m_, out_.state, dy, 1.0);
+    if (!m_.load->admissible({there.macro.data(), static_cast<std::size_t>(m_.macro_count)})) return false;
+    const SafeStep safe = checked_step(m_, out_.state, dy, keep_gap, stage_, &bounds_);
+    out_.evaluations += safe.evaluations;
+    if (safe.alpha < 1.0) return false;
+    out_.state = there;
+    return true;
+  }
+
+  Locked finish(LockStatus status, std::string message)
+  {
+    out_.status = status;
+    out_.message = std::move(message);
+    return std::move(out_);
+  }
+
+  const Model& m_;
+  const MacroLoad& load_;
+  const KeepGoing& keep_going_;
+  double size_;
+  Stage stage_;
+  GapBounds bounds_;
+  Locked out_;
+};
+
+Locked lock_freely(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+                   const Schedule& schedule, const KeepGoing& keep_going)
+{
+  return choice == ContactChoice::constrained
+             ? constrained_lock(model, start, load, schedule, keep_going)
+             : barrier_lock(model, start, load, choice, schedule, keep_going);
+}
+
+}  // namespace
+
+Locked lock(const Model& model, const State& start, const MacroLoad& load, ContactChoice choice,
+            const Schedule& schedule, const KeepGoing& keep_going)
+{
+  if (load.held.cols() == 0) return lock_freely(model, start, load.pull, choice, schedule, keep_going);
+  Locked approach;
+  approach.state = start;
+  if (missed(load.held, start.macro) > kept) {
+    approach = Approach(model, start, load, choice, schedule, keep_going).run();
+    if (approach.status != LockStatus::locked) return approach;
+  }
+  const HeldModel held(model, load.held);
+  Locked out = lock_freely(held.model(), held.restricted(approach.state), held.pull(load.pull), choice,
+                           schedule, keep_going);
+  out.state = held.full(out.state);
+  for (State& s : out.trail) s = held.full(s);
+  for (State& s : out.path) s = held.full(s);
+  out.iterations += approach.iterations;
+  out.evaluations += approach.evaluations;
+  return out;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,88 @@
+#pragma once
+/// Minimisation of E(y) = -load . macro + mu contact(y), or of the published objective, at fixed stiffness,
+/// without passing through anything.
+
+#include "equilibrium/contact_energy.hpp"
+#include "motion/advancement.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace hauberk {
+
+/// One stage: contact formulation, activation distance and stiffness (scaled).
+struct Stage {
+  ContactSettings contact;
+  double mu = 0.0;  ///< E has the unit of the value
+  CollisionCheck ccd = CollisionCheck::certified;
+  /// T of the published objective (paper equations (12) and (14)), 1/2 |macro - T load|^2: divided by T and
+  /// without its constant, -load . macro + |macro|^2/(2 T). Infinite: the load alone.
+  double target = std::numeric_limits<double>::infinity();
+  /// Draws macroscopic unknowns to where tether^T macro = 0: adds tether_stiffness / 2 |tether^T macro|^2.
+  Matrix tether;
+  double tether_stiffness = 0.0;
+  /// Ends as `merging` at a state with a contact less curved than this (relative curvature, 1/L; nearest).
+  double least_curvature = -std::numeric_limits<double>::infinity();
+  bool balance = false;       ///< last stage: go on where forces do not balance though the energy is flat
+  double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
+  bool keep_path = false;     ///< StageResult::path is wanted
+  int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
+};
+
+enum class StageStatus { minimum, stalled, iteration_limit, unbounded, not_a_sheet, merging, interrupted };
+
+/// Outcome of a stage.
+struct StageResult {
+  StageStatus status = StageStatus::stalled;
+  std::string message;
+  int iterations = 0;
+  long evaluations = 0;
+  double energy = 0.0;
+  double residual = 0.0;        ///< norm of dE/dy over the norm of the load, in the dual of the step norm
+  double lowest_curvature = 0;  ///< smallest eigenvalue of the Hessian in the step norm, when it was needed
+  int escapes = 0;              ///< saddles left along a direction of negative curvature
+  std::vector<State> path;      ///< where kept: the states after each step; steps between them are checked
+};
+
+/// Called between iterations; returns false to interrupt. Must be thread safe.
+using KeepGoing = std::function<bool()>;
+
+/// Trust-region Newton from `state` (gaps positive) to a minimum of E.
+///
+/// Every trial step is first shortened by the stage's collision check: by conservative advancement, so that
+/// the path from the first to the last state is free of intersections, or by the sampled one; F stays
+/// positive definite. The quadratic model is shifted by lambda * metric until it is positive definite and its
+/// step stays within the trust radius. A stationary point with negative curvature is left along it. Null
+/// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. A state that is no sheet
+/// any more (LoadCase::not_a_sheet) ends it. Thread safe; deterministic. `bounds`: what is known of gaps from
+/// stages before; otherwise nothing is at the beginning.
+StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
+                        const KeepGoing& keep_going, GapBounds* bounds = nullptr);
+
+/// What drives the macroscopic unknowns in a state: the load, less macro/T where the target is finite, less
+/// what a tether pulls. At an equilibrium the contact forces balance it.
+Vector driving_load(const Model& model, const State& state, const Vector& load, const Stage& stage);
+
+/// -load . macro (+ |macro|^2/(2 T), + a tether's energy) + mu contact, with derivatives as asked.
+struct TotalEnergy {
+  double energy = 0.0;
+  Vector gradient;
+  Matrix hessian;  ///< with what the load case holds made stiff
+  /// Lower triangle, of models with many unknowns (Model::sparse), with nothing held.
+  Eigen::SparseMatrix<double> sparse_hessian;
+  ContactEnergy contact;
+  bool admissible = false;  ///< all gaps positive
+};
+TotalEnergy total_energy(const Model& model, const State& state, const Vector& load, const Stage& stage,
+                         const std::vector<ElementPair>& pairs, int order, const GapBounds* bounds = nullptr);
+
+/// How far the step is free of collisions by the stage's check; `keep`: the part of any gap that the
+/// certified one leaves.
+SafeStep checked_step(const Model& model, const State& from, const Vector& dy, double keep,
+                      const Stage& stage, GapBounds* bounds = nullptr);
+
+/// Element pairs that can matter within this stage's range, in this state.
+std::vector<ElementPair> stage_pairs(const Model& model, const State& state, const Stage& stage);
+
+}  // namespace hauberk

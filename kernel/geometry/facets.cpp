@@ -1,0 +1,380 @@
+#include "geometry/facets.hpp"
+
+#include "geometry/box_tree.hpp"
+#include "geometry/closed_curve.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/triangle_surface.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace hauberk {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Angles of section i of n, and of point j of n in a section.
+double section_angle(int i, int n) { return 2.0 * pi * (i + 0.5) / n; }
+double corner_angle(int j, int n) { return pi + 2.0 * pi * (j + 0.5) / n; }
+
+/// A vector with its derivatives in the harmonics of a curve, columns.
+struct Varied {
+  Vec3 x;
+  Eigen::Matrix3Xd d;
+};
+
+Varied normalized(const Varied& v)
+{
+  const double length = v.x.norm();
+  const Vec3 n = v.x / length;
+  return {n, (v.d - n * (n.transpose() * v.d)) / length};
+}
+
+Varied cross(const Varied& a, const Varied& b)
+{
+  Varied out{a.x.cross(b.x), Eigen::Matrix3Xd(3, a.d.cols())};
+  for (Eigen::Index k = 0; k < a.d.cols(); ++k)
+    out.d.col(k) = Vec3(a.d.col(k)).cross(b.x) + a.x.cross(Vec3(b.d.col(k)));
+  return out;
+}
+
+/// What of v is across the unit vector t, of length 1.
+Varied across(const Varied& v, const Varied& t)
+{
+  const double along = v.x.dot(t.x);
+  const Eigen::RowVectorXd by = v.x.transpose() * t.d + t.x.transpose() * v.d;
+  return normalized({v.x - along * t.x, v.d - along * t.d - t.x * by});
+}
+
+/// a, which is across s, turned as s turns to t (unit vectors).
+Varied turned(const Varied& a, const Varied& s, const Varied& t)
+{
+  const double both = 1.0 + s.x.dot(t.x), part = t.x.dot(a.x) / both;
+  const Eigen::RowVectorXd by = (a.x.transpose() * t.d + t.x.transpose() * a.d -
+                                 part * (t.x.transpose() * s.d + s.x.transpose() * t.d)) /
+                                both;
+  return {a.x - part * (s.x + t.x), a.d - part * (s.d + t.d) - (s.x + t.x) * by};
+}
+
+/// Core's point and unit tangent in a section.
+struct CoreSection {
+  Varied x, t;
+};
+
+CoreSection core_section(const ClosedCurve& curve, double u)
+{
+  const auto count = static_cast<Eigen::Index>(harmonic_dofs * curve.size());
+  Varied x{Vec3::Zero(), Eigen::Matrix3Xd::Zero(3, count)}, xu = x;
+  for (std::size_t h = 0; h < curve.size(); ++h) {
+    const Harmonic& harmonic = curve.harmonics()[h];
+    const auto k = static_cast<double>(h + 1);
+    const double c = std::cos(k * u), s = std::sin(k * u);
+    const auto at = static_cast<Eigen::Index>(harmonic_dofs * h);
+    x.x += c * harmonic.c + s * harmonic.s;
+    x.d.middleCols<3>(at).diagonal().setConstant(c);
+    x.d.middleCols<3>(at + 3).diagonal().setConstant(s);
+    xu.x += k * (c * harmonic.s - s * harmonic.c);
+    xu.d.middleCols<3>(at).diagonal().setConstant(-k * s);
+    xu.d.middleCols<3>(at + 3).diagonal().setConstant(k * c);
+  }
+  return {x, normalized(xu)};
+}
+
+/// The first section's a: what of x is across t, or of a coordinate axis where x is along t.
+Varied first_across(const CoreSection& section)
+{
+  constexpr double nearly_along = 1e-3;  // sine of an angle
+  if (section.x.x.cross(section.t.x).norm() > nearly_along * section.x.x.norm())
+    return across(section.x, section.t);
+  Eigen::Index axis = 0;
+  section.t.x.cwiseAbs().minCoeff(&axis);
+  return across({Vec3::Unit(axis), Eigen::Matrix3Xd::Zero(3, section.x.d.cols())}, section.t);
+}
+
+/// Gives every point and edge to the first triangle that has it.
+void give_features(std::vector<Facets::Triangle>& triangles, std::vector<std::array<int, 2>>& edges,
+                   std::size_t point_count)
+{
+  std::vector<bool> owned(point_count, false);
+  std::map<std::array<int, 2>, int> numbers;
+  for (Facets::Triangle& t : triangles) {
+    t.own_points.fill(-1);
+    t.own_edges.fill(-1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto point = static_cast<std::size_t>(t.points[k]);
+      if (!owned[point]) t.own_points[k] = t.points[k];
+      owned[point] = true;
+      const int a = t.points[k], b = t.points[(k + 1) % 3];
+      const auto [at, added] =
+          numbers.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(edges.size()));
+      if (!added) continue;
+      t.own_edges[k] = at->second;
+      edges.push_back({a, b});
+    }
+  }
+}
+
+std::array<Vec3, 3> corners_of(const Facets& facets, const Facets::Triangle& t)
+{
+  std::array<Vec3, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = facets.points()[static_cast<std::size_t>(t.points[k])];
+  return out;
+}
+
+}  // namespace
+
+Facets::Facets(double R, double r0, double r1, int n)
+{
+  const auto size = static_cast<std::size_t>(n);
+  points_.reserve(size * size);
+  by_size_.reserve(size * size);
+  for (int i = 0; i < n; ++i) {
+    const double u = section_angle(i, n), cu = std::cos(u), su = std::sin(u);
+    for (int j = 0; j < n; ++j) {
+      const double v = corner_angle(j, n), cv = std::cos(v), sv = std::sin(v);
+      Mat3 by;
+      by << cu, cv * cu, 0.0, su, cv * su, 0.0, 0.0, 0.0, sv;
+      points_.emplace_back(by * Vec3(R, r0, r1));
+      by_size_.push_back(by);
+    }
+  }
+  add_quadrilaterals(n);
+  loops_.emplace_back();
+  for (int i = 0; i < n; ++i) {
+    const double u = section_angle(i, n);
+    loops_[0].emplace_back(R * std::cos(u), R * std::sin(u), 0.0);
+  }
+  parts_ = {0};
+  complete();
+}
+
+Facets::Facets(const ClosedCurve& curve, double r, int n)
+{
+  const auto size = static_cast<std::size_t>(n);
+  std::vector<CoreSection> core;
+  std::vector<Varied> a;
+  core.reserve(size);
+  a.reserve(size + 1);
+  for (int i = 0; i < n; ++i) core.push_back(core_section(curve, section_angle(i, n)));
+  a.push_back(first_across(core[0]));
+  for (std::size_t i = 0; i < size; ++i) {
+    const Varied &s = core[i].t, &t = core[(i + 1) % size].t;
+    constexpr double turns_back = 1e-2;
+    if (1.0 + s.x.dot(t.x) < turns_back) {
+      throw InputError("solver.facets " + std::to_string(n) +
+                       " are so few that a tube's curve turns back between two sections; use more");
+    }
+    a.push_back(turned(a[i], s, t));
+  }
+  // a comes back turned by phi in the first section.
+  const Varied b = cross(a[0], core[0].t), &back = a.back();
+  const double along = back.x.dot(a[0].x), beside = back.x.dot(b.x), phi = std::atan2(beside, along);
+  const Eigen::RowVectorXd by_phi = along * (back.x.transpose() * b.d + b.x.transpose() * back.d) -
+                                    beside * (back.x.transpose() * a[0].d + a[0].x.transpose() * back.d);
+
+  points_.reserve(size * size);
+  by_size_.reserve(size * size);
+  sections_.reserve(size);
+  loops_.emplace_back();
+  for (int i = 0; i < n; ++i) {
+    const CoreSection& here = core[static_cast<std::size_t>(i)];
+    const Varied &ai = a[static_cast<std::size_t>(i)], bi = cross(ai, here.t);
+    const double part = -static_cast<double>(i) / n, c = std::cos(part * phi), s = std::sin(part * phi);
+    const Varied e{c * ai.x + s * bi.x, c * ai.d + s * bi.d + (c * bi.x - s * ai.x) * (part * by_phi)};
+    const Varied f = cross(e, here.t);
+    for (int j = 0; j < n; ++j) {
+      const double v = corner_angle(j, n);
+      Mat3 by = Mat3::Zero();
+      by.col(1) = std::cos(v) * e.x + std::sin(v) * f.x;
+      points_.emplace_back(here.x.x + r * by.col(1));
+      by_size_.push_back(by);
+    }
+    loops_[0].push_back(here.x.x);
+    sections_.push_back({here.x.d, r * e.d, r * f.d});
+  }
+  add_quadrilaterals(n);
+  parts_ = {0};
+  complete();
+}
+
+void Facets::add_harmonics(int point, const Vec3& n, std::vector<double>& out) const
+{
+  if (sections_.empty()) return;
+  const auto count = static_cast<int>(sections_.size());
+  const Section& section = sections_[static_cast<std::size_t>(point / count)];
+  const double v = corner_angle(point % count, count), c = std::cos(v), s = std::sin(v);
+  out.resize(static_cast<std::size_t>(section.x.cols()), 0.0);
+  Eigen::Map<Eigen::RowVectorXd>(out.data(), section.x.cols()) +=
+      n.transpose() * section.x + c * n.transpose() * section.a + s * n.transpose() * section.b;
+}
+
+void Facets::add_quadrilaterals(int n)
+{
+  triangles_.reserve(2 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int i1 = (i + 1) % n, j1 = (j + 1) % n;
+      const int a = i * n + j, b = i1 * n + j, c = i1 * n + j1, d = i * n + j1;
+      triangles_.push_back({{a, b, c}, {}, {}});
+      triangles_.push_back({{a, c, d}, {}, {}});
+    }
+  }
+}
+
+Facets::Facets(const TriangleSurface& surface, double R) : parts_(surface.parts())
+{
+  points_.reserve(surface.points().size());
+  by_size_.reserve(surface.points().size());
+  for (const Vec3& x : surface.points()) {
+    points_.emplace_back(R * x);
+    Mat3 by = Mat3::Zero();
+    by.col(0) = x;
+    by_size_.push_back(by);
+  }
+  triangles_.reserve(surface.triangles().size());
+  for (const auto& t : surface.triangles()) triangles_.push_back({t, {}, {}});
+  loops_.reserve(surface.loops().size());
+  for (const std::vector<int>& loop : surface.loops()) {
+    std::vector<Vec3>& corners = loops_.emplace_back();
+    corners.reserve(loop.size());
+    for (const int k : loop) corners.push_back(points_[static_cast<std::size_t>(k)]);
+  }
+  complete();
+}
+
+void Facets::complete()
+{
+  edges_.reserve(3 * triangles_.size() / 2);
+  give_features(triangles_, edges_, points_.size());
+  double sum = 0.0;
+  for (const auto& [a, b] : edges_)
+    sum += (points_[static_cast<std::size_t>(a)] - points_[static_cast<std::size_t>(b)]).norm();
+  mean_edge_ = sum / static_cast<double>(edges_.size());
+
+  std::vector<Box> boxes;
+  boxes.reserve(triangles_.size());
+  for (const Triangle& t : triangles_) boxes.push_back(box_around(corners_of(*this, t)));
+  tree_ = std::make_unique<const Tree>(boxes);
+}
+
+Facets::~Facets() = default;
+
+namespace {
+
+/// Corners of a triangle of P, in F's frame.
+std::array<Vec3, 3> corners_in(const PairFrame& frame, const Mat3& axes, const Facets& facets,
+                               const Facets::Triangle& t)
+{
+  std::array<Vec3, 3> out;
+  for (std::size_t k = 0; k < 3; ++k)
+    out[k] = frame.a + axes * facets.points()[static_cast<std::size_t>(t.points[k])];
+  return out;
+}
+
+Mat3 axes_of(const PairFrame& frame)
+{
+  Mat3 axes;
+  axes << frame.e1, frame.e2, frame.e3;
+  return axes;
+}
+
+/// Pairs of triangles whose boxes are within `range`: visit(P's triangle, F's triangle).
+template <class Visit>
+void near_triangles(const PairFrame& frame, double range, const Visit& visit)
+{
+  visit_near(frame.P->facets->tree(), frame.F_facets->tree(), axes_of(frame), frame.a, range, visit);
+}
+
+}  // namespace
+
+void near_features(const PairFrame& frame, double range, const FeatureVisitor& visit)
+{
+  const Facets &P = *frame.P->facets, &F = *frame.F_facets;
+  const Mat3 axes = axes_of(frame);
+  near_triangles(frame, range, [&](int tp, int tf) {
+    const Facets::Triangle& p = P.triangles()[static_cast<std::size_t>(tp)];
+    const Facets::Triangle& f = F.triangles()[static_cast<std::size_t>(tf)];
+    const std::array<Vec3, 3> cp = corners_in(frame, axes, P, p), cf = corners_of(F, f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (p.own_points[k] >= 0) visit({{p.own_points[k]}, f.points, 1, 3}, {cp[k]}, cf);
+      if (f.own_points[k] >= 0) visit({p.points, {f.own_points[k]}, 3, 1}, cp, {cf[k]});
+      if (p.own_edges[k] < 0) continue;
+      const std::size_t k1 = (k + 1) % 3;
+      for (std::size_t l = 0; l < 3; ++l) {
+        const std::size_t l1 = (l + 1) % 3;
+        if (f.own_edges[l] < 0) continue;
+        visit({{p.points[k], p.points[k1]}, {f.points[l], f.points[l1]}, 2, 2}, {cp[k], cp[k1]},
+              {cf[l], cf[l1]});
+      }
+    }
+  });
+}
+
+bool segment_meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle)
+{
+  // Heights over the triangle's plane, times twice its area.
+  const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double ha = normal.dot(a - triangle[0]), hb = normal.dot(b - triangle[0]);
+  const double size = a.norm() + b.norm() + triangle[0].norm();
+  constexpr double roundings = 16.0 * std::numeric_limits<double>::epsilon();
+  if (std::max(std::abs(ha), std::abs(hb)) <= roundings * size * normal.norm()) return false;
+  if ((ha > 0.0 && hb > 0.0) || (ha < 0.0 && hb < 0.0)) return false;
+  const Vec3 x = a + ha / (ha - hb) * (b - a);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (normal.dot((triangle[(k + 1) % 3] - triangle[k]).cross(x - triangle[k])) < 0.0) return false;
+  }
+  return true;
+}
+
+bool facets_intersect(const PairFrame& frame)
+{
+  const Facets &P = *frame.P->facets, &F = *frame.F_facets;
+  const Mat3 axes = axes_of(frame);
+  bool found = false;
+  near_triangles(frame, 0.0, [&](int tp, int tf) {
+    if (found) return;
+    const auto cp = corners_in(frame, axes, P, P.triangles()[static_cast<std::size_t>(tp)]);
+    const auto cf = corners_of(F, F.triangles()[static_cast<std::size_t>(tf)]);
+    for (std::size_t k = 0; k < 3 && !found; ++k)
+      found = segment_meets(cp[k], cp[(k + 1) % 3], cf) || segment_meets(cf[k], cf[(k + 1) % 3], cp);
+  });
+  return found;
+}
+
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+namespace {
+
+/// True if x, in the mesh's frame, is inside of it: its parts, seen from there, cover the sphere.
+bool encloses(const Facets& mesh, const Vec3& x)
+{
+  double angle = 0.0;
+  for (const Facets::Triangle& t : mesh.triangles()) {
+    const std::array<Vec3, 3> c = corners_of(mesh, t);
+    angle += solid_angle(c[0] - x, c[1] - x, c[2] - x);
+  }
+  return std::abs(angle) > 2.0 * pi;
+}
+
+}  // namespace
+
+bool facets_inside(const PairFrame& frame)
+{
+  const Facets &P = *frame.P->facets, &F = *frame.F_facets;
+  const Mat3 axes = axes_of(frame);
+  const auto point_of = [](const Facets& mesh, int k) { return mesh.points()[static_cast<std::size_t>(k)]; };
+  return std::any_of(P.parts().begin(), P.parts().end(),
+                     [&](int k) { return encloses(F, frame.a + axes * point_of(P, k)); }) ||
+         std::any_of(F.parts().begin(), F.parts().end(),
+                     [&](int k) { return encloses(P, axes.transpose() * (point_of(F, k) - frame.a)); });
+}
+
+}  // namespace hauberk

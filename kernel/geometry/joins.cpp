@@ -1,0 +1,281 @@
+#include "geometry/closed_curve.hpp"
+#include "geometry/spine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace hauberk {
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double touching = 1e-9;  ///< L: surfaces no farther apart touch
+/// Squared distances of circles are polynomials of degree 1 in the sines and cosines of each angle, those of
+/// curves of the degree of their harmonics: this many points a degree separate their minima.
+constexpr int points_per_degree = 48;
+/// Joins nearer than this part of the tubes' radii are one.
+constexpr double same_point = 1e-3;
+
+/// Point of a core with its derivatives, element frame.
+CurvePoint core_at(const Body& b, double u)
+{
+  const Angle angle(u);
+  if (b.curve) {
+    const CurvePoint p = b.curve->at(angle);
+    return {b.center + b.axes * p.x, b.axes * p.xu, b.axes * p.xuu};
+  }
+  const Vec3 radial = b.R * (angle.c * b.axes.col(0) + angle.s * b.axes.col(1));
+  return {b.center + radial, b.R * (angle.c * b.axes.col(1) - angle.s * b.axes.col(0)), -radial};
+}
+
+int degree(const Body& b) { return b.curve ? static_cast<int>(b.curve->size()) : 1; }
+
+/// Parts of a set of cells, each joined with the neighbours that are named to it.
+class Parts {
+ public:
+  explicit Parts(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
+  std::size_t of(std::size_t k)
+  {
+    while (up_[k] != k) k = up_[k] = up_[up_[k]];
+    return k;
+  }
+  void join(std::size_t a, std::size_t b) { up_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::size_t> up_;
+};
+
+/// Keeps the deepest of joins that belong to one part.
+struct Candidate {
+  std::size_t part;
+  double depth;
+  Join join;
+};
+
+/// Descents from neighbouring cells may end at one point, which differs by less than `near` then.
+std::vector<Join> one_of_each_part(const std::vector<Candidate>& candidates, double near)
+{
+  std::vector<Candidate> kept;
+  for (const Candidate& c : candidates) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Candidate& k) {
+      return k.part == c.part || (k.join.common - c.join.common).norm() < near;
+    });
+    if (same == kept.end()) {
+      kept.push_back(c);
+    } else if (c.depth < same->depth) {
+      *same = c;
+    }
+  }
+  std::vector<Join> out;
+  out.reserve(kept.size());
+  for (const Candidate& c : kept) out.push_back(c.join);
+  return out;
+}
+
+/// Descends from a point of the grid to the nearest minimum of |a(u) - b(v)|: Newton's method, halved where
+/// it does not fall, along the gradient where the Hessian is not positive.
+double nearest_cores(const Body& A, const Body& B, double& u, double& v)
+{
+  constexpr int most_steps = 60;
+  double value = (core_at(A, u).x - core_at(B, v).x).squaredNorm();
+  for (int k = 0; k < most_steps; ++k) {
+    const CurvePoint a = core_at(A, u), b = core_at(B, v);
+    const Vec3 d = a.x - b.x;
+    const Eigen::Vector2d gradient(d.dot(a.xu), -d.dot(b.xu));
+    Eigen::Matrix2d hessian;
+    hessian << a.xu.squaredNorm() + d.dot(a.xuu), -a.xu.dot(b.xu), -a.xu.dot(b.xu),
+        b.xu.squaredNorm() - d.dot(b.xuu);
+    Eigen::Vector2d step = -gradient / (a.xu.squaredNorm() + b.xu.squaredNorm());
+    if (hessian(0, 0) > 0.0 && hessian.determinant() > 1e-12 * hessian.squaredNorm())
+      step = -hessian.inverse() * gradient;
+    bool fell = false;
+    for (double part = 1.0; part > 1e-6 && !fell; part *= 0.5) {
+      const double next = (core_at(A, u + part * step[0]).x - core_at(B, v + part * step[1]).x).squaredNorm();
+      if (next >= value) continue;
+      fell = true;
+      value = next;
+      u += part * step[0];
+      v += part * step[1];
+    }
+    if (!fell) break;
+  }
+  return std::sqrt(value);
+}
+
+std::vector<Join> joins_of_tubes(const Body& A, const Body& B)
+{
+  const int na = points_per_degree * degree(A), nb = points_per_degree * degree(B);
+  std::vector<Vec3> a, b;
+  for (int i = 0; i < na; ++i) a.push_back(core_at(A, full_turn * i / na).x);
+  for (int j = 0; j < nb; ++j) b.push_back(core_at(B, full_turn * j / nb).x);
+  const auto cell = [=](int i, int j) {
+    return static_cast<std::size_t>((i + na) % na) * static_cast<std::size_t>(nb) +
+           static_cast<std::size_t>((j + nb) % nb);
+  };
+  std::vector<double> distance(static_cast<std::size_t>(na) * static_cast<std::size_t>(nb));
+  for (int i = 0; i < na; ++i)
+    for (int j = 0; j < nb; ++j)
+      distance[cell(i, j)] = (a[static_cast<std::size_t>(i)] - b[static_cast<std::size_t>(j)]).norm();
+  const double together = A.r0 + B.r0 + touching;
+  const double slack =
+      0.5 * full_turn * ((A.curve ? A.curve->first() : A.R) / na + (B.curve ? B.curve->first() : B.R) / nb);
+  Parts parts(distance.size());
+  for (int i = 0; i < na; ++i) {
+    for (int j = 0; j < nb; ++j) {
+      if (distance[cell(i, j)] > together) continue;
+      for (const auto& [di, dj] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}})
+        if (distance[cell(i + di, j + dj)] <= together) parts.join(cell(i, j), cell(i + di, j + dj));
+    }
+  }
+  std::vector<Candidate> found;
+  for (int i = 0; i < na; ++i) {
+    for (int j = 0; j < nb; ++j) {
+      const double here = distance[cell(i, j)];
+      if (here > together + slack) continue;
+      bool lowest = true;
+      for (int di = -1; di <= 1; ++di)
+        for (int dj = -1; dj <= 1; ++dj) lowest = lowest && here <= distance[cell(i + di, j + dj)];
+      if (!lowest) continue;
+      double u = full_turn * i / na, v = full_turn * j / nb;
+      const double nearest = nearest_cores(A, B, u, v);
+      if (nearest > together) continue;
+      const Vec3 xa = core_at(A, u).x, xb = core_at(B, v).x;
+      found.push_back(
+          {parts.of(cell(i, j)), nearest - together, {u, v, xa + A.r0 / (A.r0 + B.r0) * (xb - xa)}});
+    }
+  }
+  return one_of_each_part(found, same_point * std::min(A.r0, B.r0));
+}
+
+/// How far a point is in an elliptical torus: below 1 inside, 1 on the surface.
+double level(const Body& torus, const Vec3& x)
+{
+  const Vec3 p = torus.axes.transpose() * (x - torus.center);
+  return std::hypot((std::hypot(p.x(), p.y()) - torus.R) / torus.r0, p.z() / torus.r1);
+}
+
+double angle_about(const Body& torus, const Vec3& x)
+{
+  const Vec3 p = torus.axes.transpose() * (x - torus.center);
+  return std::atan2(p.y(), p.x());
+}
+
+/// Points of the solid of a body by coordinate u, and polar coordinates (s in [0, 1], w) of its section.
+Vec3 solid_point(const Body& b, double u, double s, double w)
+{
+  const CurvePoint p = core_at(b, u);
+  if (!b.curve)
+    return p.x + s * (b.r0 * std::cos(w) * (p.x - b.center) / b.R + b.r1 * std::sin(w) * b.axes.col(2));
+  const Vec3 t = p.xu.normalized();
+  Eigen::Index least = 0;
+  t.cwiseAbs().minCoeff(&least);
+  const Vec3 n = t.cross(Vec3::Unit(least)).normalized();
+  return p.x + s * b.r0 * (std::cos(w) * n + std::sin(w) * t.cross(n));
+}
+
+/// Lowest level of `field` over the solid of `b` near a point of its grid: steps along each coordinate,
+/// halved where none falls.
+double lowest_level(const Body& b, const Body& field, std::array<double, 3>& at, std::array<double, 3> step)
+{
+  double value = level(field, solid_point(b, at[0], at[1], at[2]));
+  for (int halved = 0; halved < 40;) {
+    bool fell = false;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      for (const double way : {1.0, -1.0}) {
+        std::array<double, 3> next = at;
+        next[k] += way * step[k];
+        next[1] = std::clamp(next[1], 0.0, 1.0);
+        const double there = level(field, solid_point(b, next[0], next[1], next[2]));
+        if (there >= value) continue;
+        value = there;
+        at = next;
+        fell = true;
+      }
+    }
+    if (fell) continue;
+    for (double& s : step) s *= 0.5;
+    ++halved;
+  }
+  return value;
+}
+
+/// Where at least one cross-section is an ellipse, that of `field`.
+std::vector<Join> joins_by_points(const Body& b, const Body& field)
+{
+  constexpr int rings = 3, around = 12;  // of a section
+  const int along = points_per_degree * degree(b);
+  const auto cell = [=](int i, int ring, int k) {
+    return static_cast<std::size_t>(((i + along) % along * rings + ring) * around + (k + around) % around);
+  };
+  const auto at = [=](int i, int ring, int k) {
+    return std::array{full_turn * i / along, (ring + 0.0) / (rings - 1), full_turn * k / around};
+  };
+  std::vector<double> levels(static_cast<std::size_t>(along * rings * around));
+  for (int i = 0; i < along; ++i)
+    for (int ring = 0; ring < rings; ++ring)
+      for (int k = 0; k < around; ++k) {
+        const auto [u, s, w] = at(i, ring, k);
+        levels[cell(i, ring, k)] = level(field, solid_point(b, u, s, w));
+      }
+  const auto neighbours = [&](int i, int ring, int k, const auto& f) {
+    for (const int d : {-1, 1}) {
+      f(cell(i + d, ring, k));
+      f(cell(i, ring, k + d));
+      if (ring + d >= 0 && ring + d < rings) f(cell(i, ring + d, k));
+    }
+    if (ring == 0) f(cell(i, 0, k + around / 2));
+  };
+  const double inside = 1.0 + touching / std::min(field.r0, field.r1);
+  Parts parts(levels.size());
+  std::vector<Candidate> found;
+  const auto each = [&](const auto& f) {
+    for (int i = 0; i < along; ++i)
+      for (int ring = 0; ring < rings; ++ring)
+        for (int k = 0; k < around; ++k) f(i, ring, k);
+  };
+  each([&](int i, int ring, int k) {
+    const std::size_t here = cell(i, ring, k);
+    if (levels[here] > inside) return;
+    neighbours(i, ring, k, [&](std::size_t other) {
+      if (levels[other] <= inside) parts.join(here, other);
+    });
+  });
+  // A level changes along a way by no more than the way over the smaller half-axis.
+  const double slack = full_turn *
+                       ((b.curve ? b.curve->first() : b.R + b.r0) / along +
+                        std::max(b.r0, b.r1) * (1.0 / around + 1.0 / full_turn)) /
+                       std::min(field.r0, field.r1);
+  each([&](int i, int ring, int k) {
+    const std::size_t here = cell(i, ring, k);
+    if (levels[here] > inside + slack) return;
+    bool lowest = true;
+    neighbours(i, ring, k, [&](std::size_t other) { lowest = lowest && levels[here] <= levels[other]; });
+    if (!lowest) return;
+    std::array<double, 3> p = at(i, ring, k);
+    const double deepest =
+        lowest_level(b, field, p, {0.5 * full_turn / along, 0.25, 0.5 * full_turn / around});
+    if (deepest > inside) return;
+    const Vec3 x = solid_point(b, p[0], p[1], p[2]);
+    found.push_back({parts.of(here), deepest, {p[0], angle_about(field, x), x}});
+  });
+  return one_of_each_part(found, same_point * std::min({b.r0, b.r1, field.r0, field.r1}));
+}
+
+}  // namespace
+
+std::vector<Join> joins(const Body& A, const Body& B)
+{
+  if (A.surface || B.surface) return {};
+  if ((A.center - B.center).norm() > A.bound + B.bound + touching) return {};
+  const auto round = [](const Body& b) { return b.curve != nullptr || b.is_tube(); };
+  if (round(A) && round(B)) return joins_of_tubes(A, B);
+  if (!B.curve) return joins_by_points(A, B);
+  std::vector<Join> out = joins_by_points(B, A);
+  for (Join& j : out) std::swap(j.u, j.v);
+  return out;
+}
+
+}  // namespace hauberk

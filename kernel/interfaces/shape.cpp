@@ -1,0 +1,128 @@
+#include "geometry/closed_curve.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/shape.hpp>
+#include <hauberk/triangle_surface.hpp>
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <sstream>
+
+namespace hauberk {
+namespace {
+
+/// Largest deviation of a primitive's rotation from orthonormal; rounding of a few products stays far below.
+constexpr double rotation_tolerance = 1e-9;
+
+void check_parameters(const std::vector<ParameterInfo>& infos, std::span<const double> p)
+{
+  if (p.size() != infos.size()) {
+    throw PluginError("shape: expected " + std::to_string(infos.size()) + " parameters, found " +
+                      std::to_string(p.size()));
+  }
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const ParameterInfo& info = infos[k];
+    if (p[k] >= info.lower && p[k] <= info.upper) continue;  // false for not-a-number as well
+    std::ostringstream message;
+    message << "parameter '" << info.name << "' = " << p[k] << " is outside [" << info.lower << ", "
+            << info.upper << "]";
+    throw InputError(message.str());
+  }
+}
+
+/// Radius of a tube over the mean radius of its curve: links of thinner ones would take too long to count.
+constexpr double thinnest = 1e-4;
+
+std::string curve_defect(const Primitive& primitive)
+{
+  for (const Harmonic& h : primitive.curve) {
+    if (!h.c.allFinite() || !h.s.allFinite()) return "has a harmonic that is not finite";
+  }
+  if (primitive.r0() != primitive.r1()) return "is a curve tube with two radii";
+  if (!(primitive.r0() >= thinnest * primitive.R())) {
+    std::ostringstream message;
+    message << "is a tube of radius " << primitive.r0() << ", too thin for its curve, which takes "
+            << thinnest * primitive.R() << " and more";
+    return message.str();
+  }
+  const double bend = ClosedCurve(primitive.curve, 1.0).tightest_bend();
+  if (!(bend > primitive.r0())) {
+    std::ostringstream message;
+    message << "is a tube of radius " << primitive.r0() << " around a curve that bends with a radius of "
+            << bend;
+    return message.str();
+  }
+  return {};
+}
+
+/// Empty when the primitive is sound, else what is wrong with it.
+std::string defect(const Primitive& primitive)
+{
+  if (!primitive.position.allFinite()) return "has a position that is not finite";
+  const Mat3& Q = primitive.rotation;
+  // Negated so that not-a-number counts as a defect.
+  if (!((Q * Q.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() <= rotation_tolerance) ||
+      !(Q.determinant() > 0.0)) {
+    return "has axes that are no rotation";
+  }
+  for (const double s : primitive.size) {
+    if (!std::isfinite(s) || s <= 0.0) return "has a size that is not finite and positive";
+  }
+  if ((primitive.kind == PrimitiveKind::curve_tube) == primitive.curve.empty())
+    return primitive.curve.empty() ? "is a curve tube without harmonics"
+                                   : "has harmonics, but is no curve tube";
+  if ((primitive.kind == PrimitiveKind::triangle_mesh) != (primitive.surface != nullptr))
+    return primitive.surface ? "has a surface of triangles, but is no triangle mesh"
+                             : "is a triangle mesh without surface";
+  if (primitive.kind == PrimitiveKind::curve_tube) return curve_defect(primitive);
+  if (primitive.kind == PrimitiveKind::circle_tube && primitive.r0() != primitive.r1()) {
+    return "is a circle tube with two radii";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Primitive> Shape::primitives(std::span<const double> p) const
+{
+  check_parameters(do_parameters(), p);
+  std::vector<Primitive> out;
+  do_primitives(p, out);
+  if (out.empty()) throw PluginError("shape: no primitives returned");
+  for (Primitive& primitive : out) {
+    if (!primitive.curve.empty()) primitive.size[0] = mean_radius(primitive.curve);
+    if (primitive.surface)
+      primitive.size[1] = primitive.size[2] = primitive.R() * primitive.surface->thickness();
+    const std::string what = defect(primitive);
+    if (!what.empty()) throw PluginError("shape: primitive '" + primitive.name + "' " + what);
+  }
+  return out;
+}
+
+std::vector<PrimitiveJacobian> Shape::jacobians(std::span<const double> p) const
+{
+  check_parameters(do_parameters(), p);
+  std::vector<PrimitiveJacobian> out;
+  do_jacobians(p, out);
+  if (out.empty()) throw PluginError("shape: no Jacobians returned");
+  const std::vector<Primitive> shapes = primitives(p);
+  if (out.size() != shapes.size()) {
+    throw PluginError("shape: " + std::to_string(out.size()) + " Jacobians returned for " +
+                      std::to_string(shapes.size()) + " primitives");
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::size_t expected = static_cast<std::size_t>(geometric_dofs(shapes[i])) * p.size();
+    const std::string which = "shape: Jacobian of primitive " + std::to_string(i);
+    if (out[i].size() != expected) {
+      throw PluginError(which + " has " + std::to_string(out[i].size()) + " entries, expected " +
+                        std::to_string(expected));
+    }
+    for (const double v : out[i]) {
+      if (!std::isfinite(v)) throw PluginError(which + " is not finite");
+    }
+  }
+  return out;
+}
+
+}  // namespace hauberk

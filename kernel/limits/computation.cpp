@@ -1,0 +1,597 @@
+#include "limits/confidence.hpp"
+#include "limits/donors.hpp"
+#include "limits/limit_report.hpp"
+#include "limits/relatives.hpp"
+#include "numerics/parallel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+namespace hauberk {
+namespace {
+
+/// Elements of the largest cell that has all LimitSettings::fold_starts.
+constexpr int cell_of_all_starts = 4;
+
+/// One start of one task.
+struct Attempt {
+  std::optional<Locked> locked;  ///< null: not begun, interrupted, or it threw
+  std::string error;
+  double seconds = 0.0;
+  bool needless = false;  ///< the first start has shown that nothing stops the load
+};
+
+/// What is known of a task.
+struct TaskState {
+  std::vector<Attempt> starts;
+  std::vector<FoundState> further;  ///< by tilts, and from other limits
+  std::string error;                ///< of those
+  std::string remark;               ///< a lesson that threw
+  double seconds = 0.0;             ///< of those, and of what led nowhere
+  int iterations = 0;               ///< of what led nowhere
+  long evaluations = 0;             ///< the same
+  std::size_t missing = 0;          ///< starts not done
+  bool narrow = false;              ///< the last start is that without the widest stage
+  bool known = false;               ///< its result came with the call; there are no states
+  bool learning = false;            ///< others have taught it something, or have begun to
+
+  bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
+};
+
+/// A scene that another one contains, with what its limits came to.
+struct Solved {
+  Model model;
+  std::vector<LimitTask> tasks;
+  std::vector<std::optional<State>> states;  ///< per task
+};
+
+class Computation {
+ public:
+  Computation(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
+              const LimitSettings& settings, const LimitsObserver& observer)
+      : model_(model),
+        spec_(spec),
+        tasks_(with_neighbours(model, tasks, settings.lessons ? settings.neighbours : 0.0)),
+        asked_(tasks.size()),
+        settings_(settings),
+        observer_(observer),
+        starts_(static_cast<std::size_t>(std::max(1, settings.starts))),
+        states_(tasks_.size())
+  {
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      // A fabric with room folds one way under the widest stage and another way without it.
+      const bool twice = settings.lessons && k < asked_ && may_fold(model, tasks_[k]);
+      const std::size_t starts = k >= asked_ ? 1 : twice ? std::max(starts_, fold_starts()) : starts_;
+      states_[k].narrow = twice;
+      states_[k].starts.resize(starts + (twice ? 1 : 0));
+      states_[k].missing = states_[k].starts.size();
+      results_.push_back(limit_header(model, tasks_[k]));
+      results_.back().status = LimitStatus::interrupted;
+    }
+  }
+
+  std::vector<LimitResult> run(unsigned threads, const std::vector<std::optional<LimitResult>>& known)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> items;  // task, start
+    const bool complete =
+        known.size() == asked_ && std::all_of(known.begin(), known.end(), [](const auto& r) {
+          return r.has_value() && r->confidence.is_final();
+        });
+    ended_ = complete;
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      // What was learnt from other limits is learnt again unless all is known: then nothing depends on
+      // where a run was interrupted.
+      std::optional<LimitResult> there;
+      if (k < known.size() && known[k] && known[k]->confidence.word != "unfinished") there = known[k];
+      if (there && there->status != LimitStatus::locked) there->confidence.word = "none";
+      if (there || (complete && k >= asked_)) {
+        if (there) results_[k] = std::move(*there);
+        states_[k].known = true;
+        states_[k].missing = 0;
+        continue;
+      }
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) items.emplace_back(k, s);
+      ++unfinished_;
+      if (k < asked_) ++unfinished_asked_;
+    }
+    total_ = items.size();
+    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    // Threads that have no item of their own help with the pairs of large scenes.
+    settings_.schedule.threads =
+        static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items.size())));
+    if (observer_.on_start) observer_.on_start(0, total_);
+    if (unfinished_asked_ < asked_ && unfinished_asked_ > 0) tell();
+    parallel_for(items.size(), threads, [&](std::size_t i) {
+      if (going()) solve(items[i].first, items[i].second);
+    });
+    if (unfinished_ == 0 && !complete) {
+      const Donors donors(model_, tasks_);
+      if (settings_.lessons && inherit(donors, threads)) learn(donors, threads);
+      if (going()) enter_relations(results_, model_, settings_, tasks_, donors);
+      ended_ = going();
+    }
+    for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
+    tell();
+    if (observer_.on_unreported) {
+      unreported_.insert(unreported_.end(), results_.begin() + static_cast<std::ptrdiff_t>(asked_),
+                         results_.end());
+      observer_.on_unreported(unreported_);
+    }
+    if (observer_.on_states) {
+      std::vector<std::optional<State>> states(asked_);
+      for (std::size_t k = 0; k < asked_; ++k) {
+        const std::vector<FoundState> found = found_of(k);
+        if (const auto best = furthest(model_, tasks_[k], settings_, found))
+          states[k] = found[*best].locked.state;
+      }
+      observer_.on_states(states);
+    }
+    return so_far();
+  }
+
+ private:
+  /// Starts of a limit that may fold: fewer in large cells, where each is expensive.
+  std::size_t fold_starts() const
+  {
+    const int most = settings_.fold_starts / std::max(1, model_.element_count() / cell_of_all_starts);
+    return static_cast<std::size_t>(std::max(1, most));
+  }
+
+  bool going() const { return !observer_.keep_going || observer_.keep_going(); }
+
+  /// Results of the limits asked for, as far as they are.
+  std::vector<LimitResult> so_far() const
+  {
+    std::vector<LimitResult> out(results_.begin(), results_.begin() + static_cast<std::ptrdiff_t>(asked_));
+    for (std::size_t k = 0; k < asked_ && !ended_; ++k) {
+      out[k].confidence.word = states_[k].learning ? "unfinished" : "alone";
+    }
+    return out;
+  }
+
+  void tell() const
+  {
+    if (observer_.on_limit) observer_.on_limit(so_far());
+  }
+
+  Attempt attempt(std::size_t task, std::size_t start) const
+  {
+    Attempt out;
+    const auto t0 = std::chrono::steady_clock::now();
+    const KeepGoing keep_going = [this] { return going(); };
+    try {
+      out.locked =
+          !states_[task].is_narrow(start)
+              ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
+              : limit_from_state(model_, tasks_[task], settings_,
+                                 perturbed(model_, start_state(model_, settings_), settings_.perturbation,
+                                           settings_.seed, Copies::alike),
+                                 keep_going);
+    } catch (const std::exception& error) {
+      out.error = error.what();
+    }
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    if (out.locked && out.locked->status == LockStatus::interrupted) out.locked.reset();
+    return out;
+  }
+
+  /// The first start of a task went past every bound, with a witness: others would say no more.
+  bool runs_away(std::size_t task) const
+  {
+    const std::optional<Locked>& first = states_[task].starts.front().locked;
+    return first && first->status == LockStatus::unbounded && !first->path.empty();
+  }
+
+  void solve(std::size_t task, std::size_t start)
+  {
+    Attempt done;
+    {
+      const std::lock_guard lock(mutex_);
+      done.needless = start > 0 && runs_away(task);
+    }
+    if (!done.needless) done = attempt(task, start);
+    const bool finished = done.locked || !done.error.empty() || done.needless;
+    bool last = false;
+    {
+      const std::lock_guard lock(mutex_);
+      states_[task].starts[start] = std::move(done);
+      if (!finished) return;
+      last = --states_[task].missing == 0;
+      if (last) ++states_[task].missing;  // the task itself, until its tilts are done
+    }
+    if (last) {
+      if (!tilt(task)) return;
+      LimitResult result = result_of(task);  // outside the lock: forces and balances take a moment
+      const std::lock_guard lock(mutex_);
+      states_[task].missing = 0;
+      results_[task] = std::move(result);
+      --unfinished_;
+      // The last one is told when limits have learnt from each other: who was told all has all.
+      if (task < asked_ && --unfinished_asked_ > 0) tell();
+    }
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (observer_.on_start) observer_.on_start(done_, total_);
+  }
+
+  /// Locks a task under tilted loads too, and again from where one of them is further than all that is known.
+  /// False: interrupted.
+  bool tilt(std::size_t task)
+  {
+    if (task >= asked_ || settings_.tilts == 0) return true;
+    TaskState& t = states_[task];
+    const LimitTask& limit = tasks_[task];
+    const auto t0 = std::chrono::steady_clock::now();
+    const KeepGoing keep_going = [this] { return going(); };
+    const MacroLoad load = macro_load(model_, limit.direction, limit.sense);
+    try {
+      for (int k = 0; k < settings_.tilts; ++k) {
+        const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
+        const State from =
+            perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
+        Locked found = lock(model_, from, tilted(model_, load.pull, settings_, seed), settings_.contact,
+                            settings_.schedule, keep_going);
+        if (found.status == LockStatus::interrupted) return false;
+        const std::vector<FoundState> known = found_of(task);
+        const std::optional<std::size_t> best = furthest(model_, limit, settings_, known);
+        if (found.status != LockStatus::locked ||
+            (load.held.cols() == 0 && best &&
+             reached(model_, limit, found.state) <
+                 reached(model_, limit, known[*best].locked.state) + further_than(settings_))) {
+          t.iterations += found.iterations;
+          t.evaluations += found.evaluations;
+          continue;
+        }
+        Locked own = limit_from_state(model_, limit, settings_, found.state, keep_going);
+        if (own.status == LockStatus::interrupted) return false;
+        own.iterations += found.iterations;
+        own.evaluations += found.evaluations;
+        t.further.push_back({std::move(own), "tilt", seed});
+      }
+    } catch (const std::exception& error) {
+      t.error = error.what();
+    }
+    t.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    return true;
+  }
+
+  std::vector<FoundState> found_of(std::size_t task) const
+  {
+    std::vector<FoundState> found;
+    const TaskState& t = states_[task];
+    for (std::size_t s = 0; s < t.starts.size(); ++s) {
+      if (!t.starts[s].locked) continue;
+      if (s > 0 && runs_away(task)) break;  // whatever the order in which starts were done
+      found.push_back(!t.is_narrow(s) ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
+                                      : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
+    }
+    found.insert(found.end(), t.further.begin(), t.further.end());
+    return found;
+  }
+
+  /// Out of what there is. Only called when no other thread works on this task.
+  LimitResult result_of(std::size_t task) const
+  {
+    const TaskState& t = states_[task];
+    double seconds = t.seconds;
+    std::string error = t.error;
+    for (const Attempt& a : t.starts) {
+      if (error.empty()) error = a.error;
+      seconds += a.seconds;
+    }
+    LimitResult result = limit_header(model_, tasks_[task]);
+    const std::vector<FoundState> found = found_of(task);
+    try {
+      if (!found.empty()) result = summarize(model_, spec_, tasks_[task], settings_, found);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    result.seconds = seconds;
+    result.iterations += t.iterations;
+    result.evaluations += t.evaluations;
+    if (!error.empty()) {
+      result.status = LimitStatus::failed;
+      result.message = error;
+    } else if (!t.remark.empty()) {
+      result.message += (result.message.empty() ? "" : "; ") + t.remark;
+    }
+    return result;
+  }
+
+  /// The macroscopic unknowns of a result, scaled; null: it has no state.
+  std::optional<Vector> macro_of(std::size_t task) const
+  {
+    const LimitResult& r = results_[task];
+    if (static_cast<int>(r.macro.size()) != model_.macro_count) return std::nullopt;
+    Vector macro(model_.macro_count);
+    for (int k = 0; k < model_.macro_count; ++k) {
+      const int power = model_.load->macros()[static_cast<std::size_t>(k)].length_power;
+      macro[k] = r.macro[static_cast<std::size_t>(k)].second / std::pow(model_.length, power);
+    }
+    return macro;
+  }
+
+  std::optional<double> reached_by(const Donors& donors, std::size_t donor, std::size_t task) const
+  {
+    const std::optional<Vector> macro = macro_of(donors.task(donor));
+    return macro ? donors.reached(donor, *macro, tasks_[task]) : std::nullopt;
+  }
+
+  std::string learnt_from(const Donors& donors, std::size_t donor) const
+  {
+    const LimitResult& r = results_[donors.task(donor)];
+    return fmt::format("{}, {}{}", r.direction.text(), r.sense,
+                       donors.is_own(donor) ? "" : ", by a symmetry of the scene");
+  }
+
+  /// Locked state of a task from a state that `place` names; null: it threw, which the task remarks, and what
+  /// was known before stands.
+  std::optional<FoundState> begun_from(std::size_t task, const State& from, const std::string& place,
+                                       std::uint64_t seed)
+  {
+    const auto t0 = std::chrono::steady_clock::now();
+    std::optional<FoundState> out;
+    std::string problem;
+    try {
+      out = FoundState{limit_from_state(model_, tasks_[task], settings_, from, [this] { return going(); }),
+                       learnt_origin + place, seed};
+    } catch (const std::exception& failure) {
+      problem = fmt::format("from the state of {}: {}", place, failure.what());
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    const std::lock_guard lock(mutex_);  // a task may have two lessons at a time
+    if (!problem.empty()) states_[task].remark = std::move(problem);
+    states_[task].seconds += seconds;
+    return out;
+  }
+
+  /// Locked state of a task from where a donor's best state is; null where there is none, too.
+  std::optional<FoundState> taught(const Donors& donors, std::size_t task, std::size_t donor)
+  {
+    const std::size_t from = donors.task(donor);
+    const std::vector<FoundState> states = found_of(from);
+    const auto best = furthest(model_, tasks_[from], settings_, states);
+    if (!best) return std::nullopt;
+    const std::optional<State> start = donors.state(donor, states[*best].locked);
+    if (!start) return std::nullopt;
+    return begun_from(task, *start, learnt_from(donors, donor), states[*best].seed);
+  }
+
+  /// A limit whose lessons were stopped is no answer: a run that goes on has to ask again.
+  void stopped(std::size_t task, const std::string& place)
+  {
+    results_[task].status = LimitStatus::interrupted;
+    results_[task].message = fmt::format("what the state of {} leads to was not found", place);
+  }
+
+  /// Solves again what is needed of tasks whose results came with the call.
+  void find_states(const Donors& donors, const std::vector<Lesson>& lessons, unsigned threads)
+  {
+    std::vector<std::size_t> unknown;
+    for (const auto& [task, donor] : lessons) {
+      for (const std::size_t k : {task, donors.task(donor)}) {
+        if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
+          unknown.push_back(k);
+      }
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> again;
+    for (const std::size_t k : unknown)
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) again.emplace_back(k, s);
+    parallel_for(again.size(), threads, [&](std::size_t i) {
+      const auto& [k, start] = again[i];
+      states_[k].starts[start] = attempt(k, start);
+    });
+    parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
+    for (const std::size_t k : unknown) states_[k].known = false;
+  }
+
+  /// The states that the limits of a relative end in when each stands alone; no tasks: it has no use for any.
+  Solved solved(const Relative& relative, unsigned threads)
+  {
+    Solved s;
+    const LoadCase& load = relative.load ? *relative.load : *model_.load;
+    s.model = make_model(relative.scene, load, model_.clearance * model_.length);
+    const bool other_elements = s.model.dofs() != model_.dofs();  // fewer of them, or of their coordinates
+    for (std::size_t k = 0; k < asked_; ++k) {
+      const Direction& along = tasks_[k].direction;
+      if (may_fold(model_, tasks_[k]) &&
+          (other_elements || load.conditions(along).size() != model_.load->conditions(along).size()))
+        s.tasks.push_back(tasks_[k]);
+    }
+    LimitSettings settings = settings_;
+    settings.lessons = false;  // its states begin a search, they are no answers
+    // A cell's own start is one of its multiple's, which moves copies alike; the others are new.
+    const bool cell = relative.scene.elements.size() != spec_.elements.size();
+    settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
+    settings.given.clear();
+    if (settings_.start && !s.tasks.empty()) {
+      if (!cell) settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
+      if (cell || !settings.start) s.tasks.clear();
+    }
+    if (s.tasks.empty()) return s;
+    LimitsObserver observer;
+    observer.keep_going = observer_.keep_going;
+    observer.on_states = [&s](const auto& states) { s.states = states; };
+    std::vector<LimitResult> limits =
+        compute_limits(s.model, relative.scene, s.tasks, settings, threads, observer);
+    std::move(limits.begin(), limits.end(), std::back_inserter(unreported_));
+    return s;
+  }
+
+  /// States of scenes that this one contains, carried over.
+  std::vector<GivenState> inherited(unsigned threads)
+  {
+    std::vector<GivenState> out = settings_.given;
+    if (std::none_of(tasks_.begin(), tasks_.begin() + static_cast<std::ptrdiff_t>(asked_),
+                     [&](const LimitTask& t) { return may_fold(model_, t); }))
+      return out;
+    for (const Relative& relative : relatives(model_, spec_)) {
+      const Solved s = solved(relative, threads);
+      if (s.tasks.empty() || !going()) continue;
+      const Carrier carrier(s.model, relative.scene, model_, spec_);
+      if (!carrier.joined()) continue;
+      for (std::size_t k = 0; k < s.tasks.size(); ++k) {
+        const std::optional<State> state = s.states[k] ? carrier.state(*s.states[k]) : std::nullopt;
+        if (state) out.push_back({s.tasks[k].direction, s.tasks[k].sense, *state, relative.name});
+      }
+    }
+    return out;
+  }
+
+  /// Each limit begins once more from every state that is given for it. False: interrupted.
+  bool inherit(const Donors& donors, unsigned threads)
+  {
+    const std::vector<GivenState> given = inherited(threads);
+    std::vector<std::pair<std::size_t, const GivenState*>> items;
+    std::vector<Lesson> learners;
+    for (std::size_t k = 0; k < asked_; ++k) {
+      for (const GivenState& g : given) {
+        if (g.sense != tasks_[k].sense || g.direction != tasks_[k].direction) continue;
+        items.emplace_back(k, &g);
+        learners.push_back({k, donors.own(k)});
+      }
+    }
+    if (going()) find_states(donors, learners, threads);
+    std::vector<std::optional<FoundState>> found(items.size());
+    parallel_for(items.size(), threads, [&](std::size_t i) {
+      const auto& [k, from] = items[i];
+      if (going()) found[i] = begun_from(k, from->state, from->origin, settings_.seed);
+    });
+    if (!going()) {
+      // Also where scenes were not solved that would have given a state.
+      for (std::size_t k = 0; k < asked_; ++k)
+        if (may_fold(model_, tasks_[k])) stopped(k, "a scene that this one contains");
+      for (const auto& [k, from] : items) stopped(k, from->origin);
+      return false;
+    }
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const std::size_t k = items[i].first;
+      if (found[i]) states_[k].further.push_back(std::move(*found[i]));
+      states_[k].learning = true;
+      results_[k] = result_of(k);
+    }
+    return true;
+  }
+
+  /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
+  /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
+  /// loads beside its own, as long as these come to new ones.
+  void learn(const Donors& donors, unsigned threads)
+  {
+    Lessons rounds(asked_, donors.count(), further_than(settings_));
+    Walks walks(donors.beside());
+    const auto own = [&](std::size_t k) -> std::optional<double> {
+      const LimitStatus status = results_[k].status;
+      const std::size_t self = donors.own(k);
+      if (status == LimitStatus::locked) return reached_by(donors, self, k);
+      // One that stalled learns also from a state that is only as far as its own.
+      const auto there = status == LimitStatus::stalled ? reached_by(donors, self, k) : std::nullopt;
+      return there ? std::optional(*there - 2.0 * further_than(settings_)) : std::nullopt;
+    };
+    const auto given = [&](std::size_t donor, std::size_t k) {
+      return results_[donors.task(donor)].status == LimitStatus::locked ? reached_by(donors, donor, k)
+                                                                        : std::nullopt;
+    };
+    for (;;) {
+      std::vector<Lesson> lessons = rounds.next(own, given);
+      if (lessons.empty()) {
+        lessons = walks.next(
+            [&](std::size_t donor) {
+              const std::size_t k = donors.task(donor);
+              return given(donors.own(k), k);
+            },
+            further_than(settings_));
+      }
+      if (lessons.empty()) return;
+      find_states(donors, lessons, threads);
+      std::vector<std::optional<FoundState>> found(lessons.size());
+      parallel_for(lessons.size(), threads, [&](std::size_t i) {
+        if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor);
+      });
+      if (!going()) {
+        for (const auto& [task, donor] : lessons) stopped(task, learnt_from(donors, donor));
+        return;
+      }
+      for (std::size_t i = 0; i < lessons.size(); ++i) {
+        const std::size_t task = lessons[i].learner;
+        if (found[i]) states_[task].further.push_back(std::move(*found[i]));
+        states_[task].learning = true;
+        results_[task] = result_of(task);
+      }
+    }
+  }
+
+  /// Starts that were done before an interrupt are worth keeping.
+  void keep_unfinished(std::size_t task)
+  {
+    const TaskState& t = states_[task];
+    if (t.missing == 0) return;
+    const auto done = static_cast<std::size_t>(std::count_if(
+        t.starts.begin(), t.starts.end(), [](const Attempt& a) { return a.locked.has_value(); }));
+    if (done == 0) return;
+    LimitResult result = result_of(task);
+    result.status = LimitStatus::interrupted;
+    result.message = fmt::format("{} of {} starts were done", done, t.starts.size());
+    results_[task] = std::move(result);
+  }
+
+  const Model& model_;
+  const SceneSpec& spec_;
+  const std::vector<LimitTask> tasks_;  ///< those asked for, then neighbours
+  const std::size_t asked_;
+  LimitSettings settings_;
+  const LimitsObserver& observer_;
+  std::size_t starts_, total_ = 0, done_ = 0;
+  std::mutex mutex_;  ///< guards all below
+  std::vector<TaskState> states_;
+  std::size_t unfinished_ = 0, unfinished_asked_ = 0;  ///< tasks
+  bool ended_ = false;                                 ///< nothing more will be learnt
+  std::vector<LimitResult> results_;
+  std::vector<LimitResult> unreported_;  ///< of scenes that this one contains
+};
+
+}  // namespace
+
+double further_than(const LimitSettings& settings) { return std::max(1e-8, settings.schedule.last); }
+
+std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart)
+{
+  std::vector<LimitTask> all = tasks;
+  if (apart <= 0.0) return all;
+  for (const LimitTask& task : tasks) {
+    // A taut fabric whose axes are held learns nothing from others: their states break what it holds.
+    const bool taut = model.load->periodic() && !may_fold(model, task);
+    if (!task.direction.is_angle() || (taut && !model.load->conditions(task.direction).empty())) continue;
+    const bool lone = std::none_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
+      const double to = std::abs(o.direction.degrees() - task.direction.degrees());
+      return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
+    });
+    if (!lone || bounded_by_links(model, task) != Boundedness::attained) continue;
+    for (const double by : {-apart, apart}) {
+      const LimitTask beside{Direction::at_degrees(task.direction.degrees() + by), task.sense};
+      const bool there = std::any_of(all.begin(), all.end(), [&](const LimitTask& o) {
+        return o.direction.is_angle() && o.sense == task.sense &&
+               std::abs(o.direction.degrees() - beside.direction.degrees()) < 1e-9;
+      });
+      if (!there && bounded_by_links(model, beside) == Boundedness::attained) all.push_back(beside);
+    }
+  }
+  return all;
+}
+
+std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
+                                        const std::vector<LimitTask>& tasks, const LimitSettings& settings,
+                                        unsigned threads, const LimitsObserver& observer,
+                                        const std::vector<std::optional<LimitResult>>& known)
+{
+  return Computation(model, spec, tasks, settings, observer).run(threads, known);
+}
+
+}  // namespace hauberk

@@ -1,0 +1,133 @@
+#include "limits/confidence.hpp"
+
+#include "limits/limit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+std::string name_of(LockStatus status)
+{
+  switch (status) {
+    case LockStatus::locked:
+      return "locked";
+    case LockStatus::stalled:
+      return "stalled";
+    case LockStatus::unbounded:
+      return "unbounded";
+    case LockStatus::interrupted:
+      return "interrupted";
+    case LockStatus::not_a_sheet:
+      return "not_a_sheet";
+  }
+  return "failed";
+}
+
+double scale_of(const Model& m) { return std::pow(m.length, m.load->value_length_power()); }
+
+/// The value of a result towards its sense, scaled.
+double towards(const Model& m, const LimitTask& task, const LimitResult& r)
+{
+  return (task.sense == Sense::positive ? *r.value : -*r.value) / scale_of(m);
+}
+
+/// What a reported value may be off by, scaled.
+double uncertainty(const Model& m, const LimitSettings& settings, const LimitResult& r)
+{
+  return r.error_estimate ? *r.error_estimate / scale_of(m) : settings.schedule.last;
+}
+
+/// The limit's own state was found by its own searches, from rest.
+bool found_alone(const LimitResult& r)
+{
+  return std::any_of(r.starts.begin(), r.starts.end(), [&r](const LockedState& s) {
+    return s.value == *r.value && s.origin.starts_with("start");
+  });
+}
+
+}  // namespace
+
+void enter_searches(Confidence& out, const Model& m, const LimitTask& task, const LimitSettings& settings,
+                    const std::vector<FoundState>& found, std::size_t best, std::size_t distinct)
+{
+  out = {};
+  out.searches = static_cast<int>(found.size());
+  out.distinct = static_cast<int>(distinct);
+  const double furthest = reached(m, task, found[best].locked.state);
+  const double same = compared_to + further_than(settings);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Locked& l = found[k].locked;
+    const double there = reached(m, task, l.state);
+    if (l.status == LockStatus::locked) {
+      if (there < furthest - same) continue;
+      ++out.ended_here;
+      if (k != best) out.confirmed_by.push_back(found[k].origin);
+      continue;
+    }
+    FailedSearch failed{found[k].origin, found[k].seed, name_of(l.status), std::nullopt};
+    if (!l.stages.empty()) {
+      failed.reached =
+          m.load->value(task.direction, {l.state.macro.data(), static_cast<std::size_t>(m.macro_count)}) *
+          scale_of(m);
+      if (there > furthest + same)
+        out.contradicted_by.push_back(fmt::format("a search that failed came to {:.9g}", *failed.reached));
+    }
+    out.failed_searches.push_back(std::move(failed));
+  }
+  std::sort(out.confirmed_by.begin(), out.confirmed_by.end());
+  out.confirmed_by.erase(std::unique(out.confirmed_by.begin(), out.confirmed_by.end()),
+                         out.confirmed_by.end());
+  out.word = !out.contradicted_by.empty() ? "contradicted" : out.ended_here > 1 ? "confirmed" : "single";
+}
+
+void enter_relations(std::vector<LimitResult>& results, const Model& m, const LimitSettings& settings,
+                     const std::vector<LimitTask>& tasks, const Donors& donors)
+{
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    LimitResult& own = results[k];
+    if (own.status != LimitStatus::locked || !own.value) continue;
+    const double value = towards(m, tasks[k], own);
+    double most = 0.0;  // by which any state is further
+    std::string furthest;
+    for (std::size_t donor = 0; donor < donors.count(); ++donor) {
+      const std::size_t d = donors.task(donor);
+      const LimitResult& other = results[d];
+      if (d == k || other.status != LimitStatus::locked || !other.value) continue;
+      const std::string by = fmt::format("{}, {}{}", other.direction.text(), other.sense,
+                                         donors.is_own(donor) ? "" : ", by a symmetry of the scene");
+      const double margin = compared_to + uncertainty(m, settings, own) + uncertainty(m, settings, other);
+      std::optional<double> there;
+      if (donors.same_load(donor, tasks[k])) {
+        there = towards(m, tasks[d], other);
+      } else {
+        Vector macro(m.macro_count);
+        for (int i = 0; i < m.macro_count; ++i) {
+          const auto& info = m.load->macros()[static_cast<std::size_t>(i)];
+          macro[i] = other.macro[static_cast<std::size_t>(i)].second / std::pow(m.length, info.length_power);
+        }
+        there = donors.reached(donor, macro, tasks[k]);
+      }
+      if (!there) continue;
+      if (*there > value + margin) {
+        if (*there - value > most) furthest = fmt::format("{}: further by {:.3g}", by, *there - value);
+        most = std::max(most, *there - value);
+      } else if (donors.same_load(donor, tasks[k]) && *there > value - margin && found_alone(own) &&
+                 found_alone(other)) {
+        own.confidence.confirmed_by.push_back(by);
+      }
+    }
+    if (!furthest.empty()) own.confidence.contradicted_by.push_back(std::move(furthest));
+    auto& by = own.confidence.confirmed_by;
+    std::sort(by.begin(), by.end());
+    by.erase(std::unique(by.begin(), by.end()), by.end());
+    own.confidence.word = !own.confidence.contradicted_by.empty()        ? "contradicted"
+                          : own.confidence.ended_here > 1 || !by.empty() ? "confirmed"
+                                                                         : "single";
+  }
+}
+
+}  // namespace hauberk

@@ -1,0 +1,106 @@
+#include "limits/donors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Angles (degrees) that differ by less are one direction; beside each other are those up to `widest` apart.
+constexpr double same_angle = 1e-7, widest = 30.0;
+constexpr int strides = 2;
+
+/// Activation distance (L) of a stage whose gaps, a tenth of it, have room for what a scene's symmetry is off
+/// by (symmetry_tolerance).
+constexpr double room_of_image = 1e-5;
+
+/// From one direction to another, in (-90, 90].
+double turn(double from, double to)
+{
+  const double t = std::remainder(to - from, 180.0);
+  return t <= -90.0 ? t + 180.0 : t;
+}
+
+}  // namespace
+
+bool may_fold(const Model& m, const LimitTask& task)
+{
+  return m.load->periodic() && task.sense == Sense::negative;
+}
+
+Donors::Donors(const Model& m, const std::vector<LimitTask>& tasks)
+    : model_(m), tasks_(tasks), symmetries_(point_symmetries(m))
+{
+  images_.reserve(tasks.size() * symmetries_.size());
+  for (const LimitTask& task : tasks)
+    for (const SceneSymmetry& g : symmetries_) images_.push_back(transformed(m, g, task));
+  for (std::size_t k = 0; k < tasks.size(); ++k) images_[k * symmetries_.size()] = tasks[k];
+}
+
+std::optional<State> Donors::state(std::size_t donor, const Locked& own) const
+{
+  if (is_own(donor)) return own.state;
+  const State* roomy = &own.state;
+  for (std::size_t k = 0; k < own.trail.size() && own.stages[k].g_hat >= room_of_image; ++k)
+    roomy = &own.trail[k];
+  return transformed(model_, symmetries_[donor % symmetries_.size()], *roomy);
+}
+
+bool Donors::same_load(std::size_t donor, const LimitTask& task) const
+{
+  const std::optional<LimitTask>& other = images_[donor];
+  if (!other || other->sense != task.sense || other->direction.is_angle() != task.direction.is_angle())
+    return false;
+  if (task.direction.is_angle())
+    return std::abs(turn(other->direction.degrees(), task.direction.degrees())) < same_angle;
+  const auto a = other->direction.components(), b = task.direction.components();
+  constexpr double same_component = 1e-9;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return std::abs(x - y) < same_component; });
+}
+
+std::optional<double> Donors::reached(std::size_t donor, const Vector& macro, const LimitTask& along) const
+{
+  if (!images_[donor]) return std::nullopt;
+  Vector there = macro;
+  const auto n = static_cast<std::size_t>(macro.size());
+  if (!is_own(donor) && !model_.load->transform(symmetries_[donor % symmetries_.size()].O, {macro.data(), n},
+                                                {there.data(), n}))
+    return std::nullopt;
+  const MacroLoad load = macro_load(model_, along.direction, along.sense);
+  if (!keeps(load.held, there)) return std::nullopt;
+  const double v = model_.load->value(along.direction, {there.data(), n});
+  return along.sense == Sense::positive ? v : -v;
+}
+
+std::vector<Lesson> Donors::beside() const
+{
+  std::vector<Lesson> out;
+  for (std::size_t k = 0; k < tasks_.size(); ++k) {
+    if (!tasks_[k].direction.is_angle() || !may_fold(model_, tasks_[k])) continue;
+    for (const double side : {-1.0, 1.0}) {
+      double passed = 0.0;  // angle of the last donor taken
+      for (int stride = 0; stride < strides; ++stride) {
+        std::optional<std::size_t> next;
+        double nearest = widest + same_angle;
+        for (std::size_t d = 0; d < images_.size(); ++d) {
+          const std::optional<LimitTask>& other = images_[d];
+          if (!other || !other->direction.is_angle() || other->sense != tasks_[k].sense) continue;
+          const double by = side * turn(tasks_[k].direction.degrees(), other->direction.degrees());
+          // Of donors with one load those of the task itself come first.
+          const bool nearer =
+              by < nearest - same_angle || (next && by < nearest + same_angle && is_own(d) && !is_own(*next));
+          if (by < passed + same_angle || !nearer) continue;
+          nearest = by;
+          next = d;
+        }
+        if (!next) break;
+        out.push_back({k, *next});
+        passed = nearest;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace hauberk

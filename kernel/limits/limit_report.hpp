@@ -1,0 +1,32 @@
+#pragma once
+#include "limits/limits.hpp"
+
+namespace hauberk {
+
+/// How far a state is along a task: its value, less where the sense is negative.
+double reached(const Model& model, const LimitTask& task, const State& state);
+
+/// The furthest sound locked state, the first of equals; null: there is none.
+std::optional<std::size_t> furthest(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                                    const std::vector<FoundState>& found);
+
+/// Names of a task's result.
+LimitResult limit_header(const Model& model, const LimitTask& task);
+
+/// Everything that is reported about one locked state, in file units.
+LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTask& task,
+                       const LimitSettings& settings, const Locked& locked);
+
+/// What is reported of a path past the bound of strains: unbounded where links do not stop the load, not
+/// attained where they let only another strain grow; failed where they say that it cannot be.
+void add_witness(LimitResult& result, const Model& model, const LimitTask& task, const Locked& locked);
+
+/// Adds a search's state to the list of distinct locked states; mirror images count once, and the furthest of
+/// equals stands for all.
+void add_start(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
+               const FoundState& found);
+/// Lets the state that is reported stand for those that are one with it.
+void stand_for_equals(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
+                      const FoundState& reported);
+
+}  // namespace hauberk

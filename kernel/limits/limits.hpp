@@ -1,0 +1,158 @@
+#pragma once
+/// Deformation limits: locked states from rest, for directions and senses, with several starts.
+
+#include "equilibrium/locking.hpp"
+#include "limits/results.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace hauberk {
+
+/// A locked state of a scene that this one contains (relatives.hpp), carried over, with the unknowns of this
+/// one.
+struct GivenState {
+  Direction direction;
+  Sense sense = Sense::positive;
+  State state;
+  std::string origin;  ///< for people: "one cell"
+};
+
+/// How limits are computed.
+struct LimitSettings {
+  ContactChoice contact = ContactChoice::automatic;
+  Schedule schedule;
+  int starts = 1;
+  double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
+  double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
+  double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
+  /// Whether limits learn from each other, from symmetric images, from loads beside their own and from scenes
+  /// that this one contains; otherwise each stands alone, and what contradicts it is told.
+  bool lessons = true;
+  /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn; of larger
+  /// cells inversely fewer.
+  int fold_starts = 32;
+  int tilts = 0;       ///< random loads beside the task's own, from whose states it learns
+  double tilt = 20.0;  ///< degrees: by how much they differ from it
+  std::uint64_t seed = 1;
+  std::optional<State> start;     ///< where starts begin; null: at rest
+  std::vector<GivenState> given;  ///< with which limits of their direction and sense begin once more
+};
+
+/// One limit to be found.
+struct LimitTask {
+  Direction direction;
+  Sense sense = Sense::positive;
+};
+
+/// How elements that are copies of each other (PlacedElement::copy_of) are perturbed.
+enum class Copies {
+  alike,  ///< all in the same way: the repeated cell behaves like the one that it repeats
+  apart   ///< each in its own way
+};
+
+/// A state moved at random: for every element a displacement and a turn, normally distributed with
+/// standard deviation `size` (L, and radians), drawn in the element's own frame so that turning the scene
+/// turns the perturbation; shortened until nothing collides. Deterministic in `seed`.
+State perturbed(const Model& model, const State& from, double size, std::uint64_t seed, Copies copies);
+
+/// Where starts begin.
+State start_state(const Model& model, const LimitSettings& settings);
+
+/// A load turned by `settings.tilt` towards a random direction of the macroscopic unknowns, in the norm of
+/// loads (the dual of that of steps). Deterministic in `seed`.
+Vector tilted(const Model& model, const Vector& load, const LimitSettings& settings, std::uint64_t seed);
+
+/// Locked state of one task from a state that another search has found, free of collisions. Stages begin
+/// with the second: the first would let the state go back to where it came from.
+/// Where they end less far than the state is, and it keeps what the task holds, narrower stages begin once
+/// more.
+Locked limit_from_state(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                        const State& from, const KeepGoing& keep_going);
+
+/// Locked state of one task from one start. Start 0 is a small perturbation that moves copies alike, so that
+/// a repeated cell finds at least what the cell finds; where there are copies, start 1 is a small one that
+/// moves them apart, so that the repeated cell can fold; all others are large and move everything apart.
+Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,
+                        const KeepGoing& keep_going);
+
+/// Beginning of the origin of states that began from another limit's.
+inline constexpr const char* learnt_origin = "from ";
+
+/// A locked state and where it came from.
+struct FoundState {
+  Locked locked;
+  /// "start", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the limit whose state
+  /// it began with
+  std::string origin;
+  std::uint64_t seed = 0;  ///< of the start or tilt
+};
+
+/// Result of one task out of what was found (in a fixed order, the first start first). Forces, balance,
+/// sensitivities and the smallest gap are evaluated at the best state.
+LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
+                      const LimitSettings& settings, const std::vector<FoundState>& found);
+
+/// What links say of a task. `attained` is proved by them; the others mean that links do not stop the load:
+/// something else may (elements can be entangled without a link), so the load is tried.
+Boundedness bounded_by_links(const Model& model, const LimitTask& task);
+
+/// Who follows a computation of limits. Empty functions are not called.
+struct LimitsObserver {
+  /// False: stop as soon as possible. Called from all threads.
+  std::function<bool()> keep_going;
+  /// After each start of each task, one call at a time.
+  std::function<void(std::size_t done, std::size_t total)> on_start;
+  /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
+  std::function<void(const std::vector<LimitResult>&)> on_limit;
+  /// At the end: the furthest locked state of every task that was asked for; null where there is none.
+  std::function<void(const std::vector<std::optional<State>>&)> on_states;
+  /// At the end: limits that were solved for their states alone and are not reported (neighbours, scenes
+  /// that this one contains).
+  std::function<void(const std::vector<LimitResult>&)> on_unreported;
+};
+
+/// By how much one state must be further than another, as scaled value, to count as further: more than the
+/// gaps that the schedule leaves.
+double further_than(const LimitSettings& settings);
+
+/// The tasks, then those `apart` degrees to either side of every one that has no other of its sense within
+/// that angle; only tasks that links bound have neighbours and are neighbours. Directions along
+/// components and stretches of periodic cells that hold a strain have none.
+std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart);
+
+/// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
+///
+/// After its starts each task learns from tilted loads. Compressions of periodic cells then begin once more
+/// from where those of every scene lock that this one contains (relatives.hpp), and all tasks from what
+/// `settings.given` has for them. Then limits learn from each other: a locked state of
+/// any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that hold
+/// nothing that it breaks, so where its value along another task's direction is further than that task's own
+/// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
+/// folds keep from their furthest state, are searched from `fold_starts` starts and once more without the
+/// widest stage, and walk: each begins again from the states of the loads beside its own, as long as these
+/// come to further ones. A limit that has no other of its sense within `settings.neighbours` learns from
+/// limits at that angle to either side, which are not reported. `known`: results that are there already, by
+/// task; empty: none. What one limit throws is its result (status failed) and does not stop the others. Tasks
+/// that were not finished when `keep_going` said no are `interrupted`, with the best of the starts that were
+/// done. What the observer throws is rethrown.
+std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
+                                        const std::vector<LimitTask>& tasks, const LimitSettings& settings,
+                                        unsigned threads, const LimitsObserver& observer = {},
+                                        const std::vector<std::optional<LimitResult>>& known = {});
+
+/// Both senses of equal directions joined: e_s, e_c, and for strains eta = (e_s - e_c)/(1 + e_c).
+std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load);
+
+/// How listed contacts alone balance a load: load + sum of forces times gap derivatives = held * reactions.
+struct ForceBalance {
+  Vector reactions;        ///< of the conditions held: by how much the load's value rises per unit of each
+  double imbalance = 0.0;  ///< largest component of what is left, over all unknowns
+};
+ForceBalance force_balance(const Model& model, const State& state, const MacroLoad& load,
+                           const std::vector<ContactEnergy::Point>& points, double mu);
+
+}  // namespace hauberk

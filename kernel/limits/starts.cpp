@@ -1,0 +1,143 @@
+#include "limits/limits.hpp"
+#include "motion/advancement.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace hauberk {
+namespace {
+
+/// First activation distances (L) of searches that keep a state which wider stages leave.
+constexpr double narrow_stages[] = {1e-4, 1e-6};
+
+/// Further starts take this many random moves, each as long as nothing collides.
+constexpr int moves = 4;
+
+/// Normal variates by Box-Muller: std::normal_distribution differs between standard libraries.
+class Normal {
+ public:
+  explicit Normal(std::uint64_t seed) : rng_(seed) {}
+  double operator()()
+  {
+    const double u = (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53;
+    const double v = (static_cast<double>(rng_() >> 11U) + 0.5) * 0x1.0p-53;
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  }
+  Vec3 vector()
+  {
+    const double x = (*this)(), y = (*this)(), z = (*this)();
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 rng_;
+};
+
+}  // namespace
+
+State perturbed(const Model& m, const State& from, double size, std::uint64_t seed, Copies copies)
+{
+  State s = from;
+  if (size <= 0.0) return s;
+  Normal normal(seed);
+  const int count = size > 0.01 ? moves : 1;
+  for (int k = 0; k < count; ++k) {
+    Vector dy = Vector::Zero(m.dofs());
+    for (int i = 0; i < m.element_count(); ++i) {
+      const int source = m.source[static_cast<std::size_t>(i)];
+      if (copies == Copies::alike && source != i) {
+        dy.segment(m.offset(i), m.element_dofs()) = dy.segment(m.offset(source), m.element_dofs());
+        continue;
+      }
+      const Mat3& Q = m.rest[static_cast<std::size_t>(i)].rotation;
+      const Vec3 u = Q * normal.vector(), w = Q * normal.vector();
+      dy.segment(m.offset(i), m.coordinate_count) = size * u.head(m.coordinate_count);
+      dy.segment<3>(m.offset(i) + m.coordinate_count) = size * w;
+    }
+    dy = free_part(m, dy);
+    const SafeStep safe = largest_safe_step(m, s, dy, 0.3);
+    s = advanced(m, s, dy, safe.alpha);
+  }
+  return s;
+}
+
+State start_state(const Model& m, const LimitSettings& settings)
+{
+  return settings.start ? *settings.start : rest_state(m);
+}
+
+Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings, std::uint64_t seed)
+{
+  Normal normal(seed);
+  const auto metric = m.metric.head(m.macro_count).array();
+  const auto dot = [&](const Vector& a, const Vector& b) { return (a.array() * b.array() / metric).sum(); };
+  const double size = std::sqrt(dot(load, load));
+  Vector across(m.macro_count);
+  for (int k = 0; k < m.macro_count; ++k) across[k] = normal() * std::sqrt(metric[k]);
+  across -= dot(across, load) / (size * size) * load;
+  const double angle = settings.tilt * degree;
+  return std::cos(angle) * load + std::sin(angle) * size / std::sqrt(dot(across, across)) * across;
+}
+
+Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                        const State& from, const KeepGoing& keep_going)
+{
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  Schedule schedule = without_widest(settings.schedule);
+  Locked out = lock(m, from, load, settings.contact, schedule, keep_going);
+  if (!keeps(load.held, from.macro)) return out;
+  // Wide stages may let a fold go that the state is in. It is further then than where they lead, and narrower
+  // ones hold it.
+  const auto reached = [&load](const State& s) { return load.pull.dot(s.macro); };
+  for (const double first : narrow_stages) {
+    const bool shorter =
+        out.status == LockStatus::locked && reached(out.state) < reached(from) - further_than(settings);
+    if (!shorter || first <= schedule.last) break;
+    schedule.first = first;
+    Locked narrow = lock(m, from, load, settings.contact, schedule, keep_going);
+    if (narrow.status == LockStatus::interrupted) return narrow;
+    const int iterations = out.iterations + narrow.iterations;
+    const long evaluations = out.evaluations + narrow.evaluations;
+    if (narrow.status == LockStatus::locked && reached(narrow.state) > reached(out.state))
+      out = std::move(narrow);
+    out.iterations = iterations;
+    out.evaluations = evaluations;
+  }
+  return out;
+}
+
+Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettings& settings, int start,
+                        const KeepGoing& keep_going)
+{
+  bool repeated = false;
+  for (int i = 0; i < m.element_count(); ++i) repeated |= m.source[static_cast<std::size_t>(i)] != i;
+  const bool small = start == 0 || (start == 1 && repeated && settings.perturbation > 0.0);
+  const State from = perturbed(
+      m, start_state(m, settings), small ? settings.perturbation : settings.further_perturbation,
+      settings.seed + static_cast<std::uint64_t>(start), start == 0 ? Copies::alike : Copies::apart);
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  Schedule schedule = settings.schedule;
+  // Where links do not stop a load, the way from rest shows whether anything does.
+  schedule.keep_path = !settings.start && bounded_by_links(m, task) != Boundedness::attained;
+  Locked out;
+  // Where steps are not certified, or a finite target holds what no contact does, a barrier is asked first
+  // whether anything stops the load at all.
+  const bool witnesses = settings.contact != ContactChoice::constrained &&
+                         settings.contact != ContactChoice::published && !std::isfinite(schedule.target) &&
+                         schedule.ccd == CollisionCheck::certified;
+  if (schedule.keep_path && !witnesses) {
+    Schedule certified = schedule;
+    certified.target = std::numeric_limits<double>::infinity();
+    certified.ccd = CollisionCheck::certified;
+    out = lock(m, from, load, ContactChoice::automatic, certified, keep_going);
+  }
+  if (out.status != LockStatus::unbounded && out.status != LockStatus::interrupted)
+    out = lock(m, from, load, settings.contact, schedule, keep_going);
+  if (out.status != LockStatus::unbounded) out.path.clear();
+  // A perturbed start lies straight ahead of rest.
+  if (!out.path.empty()) out.path.insert(out.path.begin(), rest_state(m));
+  return out;
+}
+
+}  // namespace hauberk

@@ -1,0 +1,147 @@
+#include "motion/track.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hauberk {
+
+Track::Track(const Model& model, const State& state, const Vector& step, int k, const Image& im)
+    : m(&model), from(&state), dy(&step), element(k), image(im)
+{
+  const int nc = m->coordinate_count, o = m->offset(k);
+  w = step.segment<3>(o + nc);
+  const auto n = static_cast<std::size_t>(nc), nm = static_cast<std::size_t>(m->macro_count);
+  acceleration = m->load->acceleration_bound(
+      {state.macro.data(), nm}, {step.data(), nm}, {state.e.data() + k * nc, n}, {step.data() + o, n},
+      m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
+  at(0.0, pose, velocity);
+}
+
+void Track::at(double s, Pose& there, Vec3& moving) const
+{
+  const int nc = m->coordinate_count, nm = m->macro_count, o = m->offset(element);
+  std::array<double, max_macro> macro{};
+  std::array<double, max_coordinates> e{};
+  for (int k = 0; k < nm; ++k) macro[static_cast<std::size_t>(k)] = from->macro[k] + s * (*dy)[k];
+  for (int k = 0; k < nc; ++k) e[static_cast<std::size_t>(k)] = from->e[element * nc + k] + s * (*dy)[o + k];
+  PositionMap map;
+  const auto i = static_cast<std::size_t>(element);
+  m->load->position({macro.data(), static_cast<std::size_t>(nm)}, {e.data(), static_cast<std::size_t>(nc)},
+                    m->rest[i].position, m->translation(image), map);
+  there = {map.x, rotation_exp(s * w) * from->rotation[i]};
+  moving = map.J.leftCols(nm) * dy->head(nm) + map.J.middleCols(nm, nc) * dy->segment(o, nc);
+}
+
+double wall_step(const Model& m, const State& from, const Vector& dy, double keep)
+{
+  double alpha = 1.0;
+  for (const LinearInequality& w : m.walls) {
+    double g = w.offset, rate = 0.0;
+    for (const auto& t : w.terms) {
+      g += t.coefficient * from.e[t.element * m.coordinate_count + t.coordinate];
+      rate += t.coefficient * dy[m.offset(t.element) + t.coordinate];
+    }
+    if (rate < 0.0) alpha = std::min(alpha, std::max(0.0, (1.0 - keep) * g / -rate));
+  }
+  return alpha;
+}
+
+namespace {
+
+/// Margin of `near_pairs` that no pair which touches on the way exceeds, from how the lattice moves; infinite
+/// where it changes by too much for that.
+///
+/// With A the lattice's vectors, G = (dA/ds) A^-1 and n the image, x_ij,n = x_ij,0 - A n moves by
+///   v_ij,n = v_ij,0 - G (x_ij,0 - x_ij,n) = G x_ij,n + q_i - q_j,   q_i = v_i - G x_i,
+/// and what touches at some s in [0, 1] has |x_ij,n(0)| <= touching + |v_ij,n|, so that
+///   |x_ij,n(0)| <= (touching + |q_i - q_j|) / (1 - |G|).
+/// The q of elements that keep their places in the moving lattice, however far it was stretched, differ
+/// little.
+double margin_of_lattice(const Model& m, const State& from, const Vector& dy, double widest)
+{
+  constexpr double most_change = 0.6;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const Track origin(m, from, dy, 0, {0, 0});
+  Mat3 A = Mat3::Identity(), dA = Mat3::Zero();
+  for (std::size_t k = 0; k < m.lattice.size(); ++k) {
+    Image image{};
+    image[k] = 1;
+    const Track there(m, from, dy, 0, image);
+    if (there.acceleration > 0.0) return never;
+    A.col(static_cast<Eigen::Index>(k)) = there.pose.position - origin.pose.position;
+    dA.col(static_cast<Eigen::Index>(k)) = there.velocity - origin.velocity;
+  }
+  const Mat3 G = dA * A.inverse();
+  const double change = G.norm();
+  if (!(change <= most_change)) return never;
+  Vec3 lowest = Vec3::Constant(never), highest = -lowest;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const Track t(m, from, dy, i, {0, 0});
+    if (t.acceleration > 0.0) return never;
+    const Vec3 q = t.velocity - G * t.pose.position;
+    lowest = lowest.cwiseMin(q);
+    highest = highest.cwiseMax(q);
+  }
+  const double touching = 2.0 * widest + m.clearance;
+  return (touching + (highest - lowest).norm()) / (1.0 - change) - 2.0 * widest;
+}
+
+/// Pairs of a periodic cell that the step may bring together.
+std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const Vector& dy)
+{
+  // x_ij(s) = F(s) X + u_ij(s), X at rest. A pair that touches at s has |x_ij(s)| <= touching, so that
+  //   |X| <= (touching + |u_ij(s)|)/s_min,   |x_ij(0)| <= touching + own + |dF| |X|,
+  // where u_ij is as far as elements have left their places in the deformed lattice. The smallest stretch of
+  // a symmetric F is concave in F: it is least at one of the two ends.
+  const State to = advanced(m, from, dy, 1.0);
+  const double own = 2.0 * largest_motion(m, dy);
+  const double strain = dy.head(m.macro_count).cwiseAbs().sum();
+  double widest = 0.0;
+  for (const double r : m.reach) widest = std::max(widest, r);
+  const double smin =
+      std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
+               m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
+  const int nc = m.coordinate_count;
+  Vector lowest = from.e.head(nc), highest = lowest;
+  for (int k = 1; k < m.element_count(); ++k) {
+    lowest = lowest.cwiseMin(from.e.segment(k * nc, nc));
+    highest = highest.cwiseMax(from.e.segment(k * nc, nc));
+  }
+  const double touching = 2.0 * widest + m.clearance, apart = (highest - lowest).norm() + own;
+  double margin = m.clearance + own + strain * (touching + apart) / std::max(smin, 1e-3);
+  // Where that is wide, elements have left their places in the lattice at rest, or the lattice was stretched
+  // far. Beyond rounding: what is as far as it may be is told apart later.
+  if (margin > 2.0 * widest) margin = std::min(margin, margin_of_lattice(m, from, dy, widest) * (1.0 + 1e-9));
+  return near_pairs(m, from, margin);
+}
+
+/// Pairs of a patch that the step may bring together: no element goes farther than the fastest one may.
+std::vector<ElementPair> pairs_of_patch(const Model& m, const State& from, const Vector& dy)
+{
+  double farthest = 0.0;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const Track track(m, from, dy, i, {0, 0});
+    farthest = std::max(farthest, track.velocity.norm() + 0.5 * track.acceleration);
+  }
+  // Beyond rounding: what is as far as it may be is told apart below.
+  return near_pairs(m, from, (m.clearance + 2.0 * farthest) * (1.0 + 1e-12) + 1e-12);
+}
+
+}  // namespace
+
+std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy)
+{
+  std::vector<CandidatePair> out;
+  for (const ElementPair& pair :
+       m.lattice.empty() ? pairs_of_patch(m, from, dy) : pairs_of_cell(m, from, dy)) {
+    const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const double approach = (ti.velocity - tj.velocity).norm() + 0.5 * (ti.acceleration + tj.acceleration);
+    if ((ti.pose.position - tj.pose.position).norm() - m.reach[i] - m.reach[j] - approach > m.clearance)
+      continue;
+    out.push_back({ti, tj, approach});
+  }
+  return out;
+}
+
+}  // namespace hauberk

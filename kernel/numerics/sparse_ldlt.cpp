@@ -1,0 +1,233 @@
+#include "numerics/sparse_ldlt.hpp"
+
+#include "numerics/dense_product.hpp"
+
+#include <cholmod.h>
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <new>
+
+namespace hauberk {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Columns that are eliminated one by one.
+constexpr int panel = 32;
+
+/// Eliminates the first `columns` of a dense symmetric matrix (lower triangle): L and D take their place,
+/// what is left of the others theirs. Returns false where a pivot is zero; counts negative ones, to no more
+/// than one too many.
+bool eliminate(Eigen::Map<MatrixXd>& front, int columns, int most_negative, int& negative, MatrixXd& scaled,
+               ProductSpace& space)
+{
+  const int rows = static_cast<int>(front.rows());
+  scaled.resize(rows, columns);
+  for (int begin = 0; begin < columns; begin += panel) {
+    const int end = std::min(begin + panel, columns);
+    for (int j = begin; j < end; ++j) {
+      const int below = rows - j - 1;
+      const double d = front(j, j);
+      if (!(d < 0.0) && !(d > 0.0)) return false;
+      if (d < 0.0 && ++negative > most_negative) return false;
+      scaled.col(j).tail(below) = front.col(j).tail(below);
+      front.col(j).tail(below) /= d;
+      for (int k = j + 1; k < end; ++k)
+        front.col(k).tail(rows - k) -= scaled(k, j) * front.col(j).tail(rows - k);
+    }
+    if (end < columns) {
+      subtract_product(rows - end, columns - end, end - begin, &front(end, begin), rows, &scaled(end, begin),
+                       rows, &front(end, end), rows, space);
+    }
+  }
+  if (columns < rows) {
+    subtract_product(rows - columns, rows - columns, columns, &front(columns, 0), rows, &scaled(columns, 0),
+                     rows, &front(columns, columns), rows, space);
+  }
+  return true;
+}
+
+/// CHOLMOD's workspace and settings.
+class Workspace {
+ public:
+  Workspace()
+  {
+    cholmod_start(&common_);
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.print = 0;
+    common_.error_handler = nullptr;
+  }
+  ~Workspace() { cholmod_finish(&common_); }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  cholmod_common* operator&() { return &common_; }
+  cholmod_common* operator->() { return &common_; }
+
+ private:
+  cholmod_common common_{};
+};
+
+/// Its view of a lower triangle.
+cholmod_sparse view(const Sparse& lower)
+{
+  cholmod_sparse a{};
+  a.nrow = static_cast<std::size_t>(lower.rows());
+  a.ncol = static_cast<std::size_t>(lower.cols());
+  a.nzmax = static_cast<std::size_t>(lower.nonZeros());
+  // Read only; the interface has no const.
+  a.p = const_cast<int*>(lower.outerIndexPtr());
+  a.i = const_cast<int*>(lower.innerIndexPtr());
+  a.x = const_cast<double*>(lower.valuePtr());
+  a.stype = -1;
+  a.itype = CHOLMOD_INT;
+  a.xtype = CHOLMOD_REAL;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = 1;
+  a.packed = 1;
+  return a;
+}
+
+}  // namespace
+
+SparseLdlt::SparseLdlt(const Sparse& lower, const std::vector<int>& order)
+{
+  analyze(lower, order);
+  const auto n = static_cast<Eigen::Index>(order_.size());
+  permutation_.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    permutation_.indices()[order_[static_cast<std::size_t>(k)]] = static_cast<int>(k);
+  permuted_.resize(n, n);
+  permuted_.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(permutation_);
+}
+
+void SparseLdlt::analyze(const Sparse& lower, const std::vector<int>& order)
+{
+  Workspace common;
+  cholmod_sparse a = view(lower);
+  std::vector<int> given = order;
+  if (!given.empty()) {
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+  }
+  const auto release = [&common](cholmod_factor* f) { cholmod_free_factor(&f, &common); };
+  std::unique_ptr<cholmod_factor, decltype(release)> symbolic(nullptr, release);
+  {
+    // METIS, which CHOLMOD tries where minimum degree leaves much to do, draws random numbers of one
+    // generator for the whole process. It seeds it anew each time, so one call at a time is reproducible.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    symbolic.reset(cholmod_analyze_p(&a, given.empty() ? nullptr : given.data(), nullptr, 0, &common));
+  }
+  if (!symbolic) throw std::bad_alloc();
+  const auto ints = [](const void* p) { return static_cast<const int*>(p); };
+  order_.assign(ints(symbolic->Perm), ints(symbolic->Perm) + symbolic->n);
+
+  const int *first = ints(symbolic->super), *begin = ints(symbolic->pi), *rows = ints(symbolic->s);
+  std::vector<int> block_of(symbolic->n);
+  blocks_.resize(symbolic->nsuper);
+  std::size_t size = 0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    Block& b = blocks_[k];
+    b.first = first[k];
+    b.columns = first[k + 1] - first[k];
+    b.rows.assign(rows + begin[k], rows + begin[k + 1]);
+    b.at = size;
+    size += b.rows.size() * static_cast<std::size_t>(b.columns);
+    std::fill_n(block_of.begin() + b.first, b.columns, static_cast<int>(k));
+  }
+  for (Block& b : blocks_) {
+    const auto columns = static_cast<std::size_t>(b.columns);
+    if (columns < b.rows.size()) b.parent = block_of[static_cast<std::size_t>(b.rows[columns])];
+  }
+  values_.resize(size);
+}
+
+bool SparseLdlt::factor(double shift, int most_negative)
+{
+  negative_ = 0;
+  std::vector<MatrixXd> left(blocks_.size());  // of each block, until its parent takes it
+  std::vector<std::vector<int>> children(blocks_.size());
+  std::vector<int> place(order_.size());  // of a row in the front
+  std::vector<int> to;                    // of a child's rows
+  std::vector<double> storage;
+  MatrixXd scaled;
+  ProductSpace space;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const Block& b = blocks_[k];
+    const auto rows = static_cast<Eigen::Index>(b.rows.size());
+    if (storage.size() < b.rows.size() * b.rows.size()) storage.resize(b.rows.size() * b.rows.size());
+    Eigen::Map<MatrixXd> front(storage.data(), rows, rows);
+    front.triangularView<Eigen::Lower>().setZero();
+    for (std::size_t r = 0; r < b.rows.size(); ++r)
+      place[static_cast<std::size_t>(b.rows[r])] = static_cast<int>(r);
+    for (int c = 0; c < b.columns; ++c) {
+      for (Sparse::InnerIterator it(permuted_, b.first + c); it; ++it)
+        front(place[static_cast<std::size_t>(it.row())], c) += it.value();
+      front(c, c) += shift;
+    }
+    for (const int child : children[k]) {
+      const Block& from = blocks_[static_cast<std::size_t>(child)];
+      MatrixXd& part = left[static_cast<std::size_t>(child)];
+      to.clear();
+      for (auto row = from.rows.begin() + from.columns; row != from.rows.end(); ++row)
+        to.push_back(place[static_cast<std::size_t>(*row)]);
+      for (Eigen::Index c = 0; c < part.cols(); ++c) {
+        double* column = &front(0, to[static_cast<std::size_t>(c)]);
+        const double* added = &part(0, c);
+        for (Eigen::Index r = c; r < part.rows(); ++r) column[to[static_cast<std::size_t>(r)]] += added[r];
+      }
+      part.resize(0, 0);
+    }
+    if (!eliminate(front, b.columns, most_negative, negative_, scaled, space)) return false;
+    Eigen::Map<MatrixXd>(values_.data() + b.at, rows, b.columns) = front.leftCols(b.columns);
+    if (b.parent >= 0) {
+      const Eigen::Index rest = rows - b.columns;
+      left[k].resize(rest, rest);
+      left[k].triangularView<Eigen::Lower>() = front.bottomRightCorner(rest, rest);
+      children[static_cast<std::size_t>(b.parent)].push_back(static_cast<int>(k));
+    }
+  }
+  return true;
+}
+
+MatrixXd SparseLdlt::solve(const MatrixXd& b) const
+{
+  const MatrixXd permuted = permutation_ * b;
+  MatrixXd x(b.rows(), b.cols());
+  // One column at a time: of few columns a product of matrices costs more than those of vectors.
+  for (Eigen::Index k = 0; k < b.cols(); ++k) x.col(k) = solve_permuted(permuted.col(k));
+  return permutation_.transpose() * x;
+}
+
+Eigen::VectorXd SparseLdlt::solve_permuted(Eigen::VectorXd x) const
+{
+  Eigen::VectorXd rest;
+  const auto l_of = [this](const Block& block) {
+    return Eigen::Map<const MatrixXd>(values_.data() + block.at, static_cast<Eigen::Index>(block.rows.size()),
+                                      block.columns);
+  };
+  for (const Block& block : blocks_) {
+    const auto l = l_of(block);
+    auto own = x.segment(block.first, block.columns);
+    l.topRows(block.columns).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    rest.noalias() = l.bottomRows(l.rows() - block.columns) * own;
+    for (Eigen::Index r = 0; r < rest.size(); ++r)
+      x[block.rows[static_cast<std::size_t>(block.columns + r)]] -= rest[r];
+  }
+  for (std::size_t k = blocks_.size(); k-- > 0;) {
+    const Block& block = blocks_[k];
+    const auto l = l_of(block);
+    auto own = x.segment(block.first, block.columns);
+    own.array() /= l.diagonal().array();
+    rest.resize(l.rows() - block.columns);
+    for (Eigen::Index r = 0; r < rest.size(); ++r)
+      rest[r] = x[block.rows[static_cast<std::size_t>(block.columns + r)]];
+    own.noalias() -= l.bottomRows(rest.size()).transpose() * rest;
+    l.topRows(block.columns).triangularView<Eigen::UnitLower>().transpose().solveInPlace(own);
+  }
+  return x;
+}
+
+}  // namespace hauberk

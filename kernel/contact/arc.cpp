@@ -76,7 +76,7 @@ double level_length(const Body& F, const FieldValue& f)
 {
   const double radius = 1.0 / std::max(f.m.k, 1e-300);
   double length = 0.2 * radius;
-  if (!F.is_tube()) {
+  if (!F.is_circle_tube()) {
     const double a = F.r0 * f.m.s, b = F.r1 * f.m.c, w = a * a + b * b;
     const double eccentric = std::sqrt(std::abs(F.r0 * F.r0 - F.r1 * F.r1));
     const double closer = f.m.k * f.m.phi < 0.5 ? 1.0 / (1.0 - f.m.k * f.m.phi) : 2.0;  // 1 + kappa phi
@@ -282,7 +282,7 @@ class ArcIntegral {
   bool beyond_core_tube(const Vec3& p, double reach) const
   {
     const Body& F = *frame_.F;
-    if (F.is_tube()) return false;
+    if (F.is_circle_tube()) return false;
     const double across = std::sqrt(p.x() * p.x() + p.y() * p.y()) - F.R;
     const double needed =
         settings_.g_hat + probe_.offset + settings_.clearance + std::max(F.r0, F.r1) + reach;

@@ -62,11 +62,11 @@ std::vector<ContactMinimum> minima_of(const PairFrame& frame, double threshold, 
                                       int& evaluations)
 {
   std::vector<ContactMinimum> out;
-  const ChartPair<double> pair = chart_pair(frame);
+  const TorusPair<double> pair = torus_pair(frame);
   for (const Minimum& m : local_minima<dim>(frame, threshold, evaluations)) {
     if (m.distance <= 0.0) continue;
-    const ChartPoint<double> c = published::chart_start<dim>(frame, m);
-    const published::ChartMinimum chart = published::refine(pair, c, evaluations);
+    const TorusCoordinates<double> c = published::chart_start<dim>(frame, m);
+    const published::PublishedMinimum chart = published::refine(pair, c, evaluations);
     ContactMinimum found;
     found.on_a = frame.P->center + frame.P->axes * chart_point(*frame.P, c[0], c[1]);
     found.on_b = frame.F->center + frame.F->axes * chart_point(*frame.F, c[2], c[3]);

@@ -84,10 +84,10 @@ void insert(std::vector<Minimum>& minima, const Minimum& m)
 
 /// Finds all minima by subdivision.
 template <int dim>
-class Search {
+class StationarySearch {
  public:
-  Search(const PairFrame& frame, double threshold, const NearPanels& near, std::vector<Minimum>& out,
-         int& evaluations)
+  StationarySearch(const PairFrame& frame, double threshold, const NearPanels& near,
+                   std::vector<Minimum>& out, int& evaluations)
       : probe_(frame),
         near_(with_basins(near)),
         threshold_(threshold + probe_.offset),
@@ -290,7 +290,7 @@ std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int&
                                   const NearPanels& near)
 {
   std::vector<Minimum> minima;
-  Search<dim>(frame, threshold, near, minima, evaluations).run();
+  StationarySearch<dim>(frame, threshold, near, minima, evaluations).run();
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
   return minima;

@@ -7,7 +7,7 @@
 namespace hauberk {
 namespace {
 
-using published::ChartMinimum;
+using published::PublishedMinimum;
 
 constexpr int most_newton_steps = 30;
 
@@ -20,7 +20,7 @@ constexpr double gradient_rounding = 1e-14;
 
 /// The inverse of H by its eigenvectors, without those whose eigenvalue is rounding: at a merge of two minima
 /// the minimum does not respond smoothly, and the fade takes the contact out.
-Eigen::Matrix4d inverse_hessian(const ChartMinimum& m)
+Eigen::Matrix4d inverse_hessian(const PublishedMinimum& m)
 {
   Eigen::Vector4d inverse;
   for (int k = 0; k < 4; ++k) {
@@ -36,7 +36,7 @@ Eigen::Matrix4d inverse_hessian(const ChartMinimum& m)
 /// makes first derivatives exact, c_q = -H^-1 d_cq (paper eq. (7)), the second one second derivatives. The
 /// value of c stays.
 template <typename S>
-void respond(ChartPoint<S>& c, std::array<S, 4> residual, const Eigen::Matrix4d& inverse)
+void respond(TorusCoordinates<S>& c, std::array<S, 4> residual, const Eigen::Matrix4d& inverse)
 {
   for (std::size_t i = 0; i < 4; ++i) {
     residual[i].v = 0.0;
@@ -61,7 +61,7 @@ S faded_barrier(const S& d, const S& lambda, const S& clearance, double g_hat)
 
 class Contact {
  public:
-  Contact(const PairFrame& frame, const ContactSettings& settings, const ChartMinimum& m)
+  Contact(const PairFrame& frame, const ContactSettings& settings, const PublishedMinimum& m)
       : frame_(frame), settings_(settings), m_(m)
   {
     const double d_hat = settings.g_hat * settings.g_hat;
@@ -82,21 +82,21 @@ class Contact {
 
  private:
   template <typename S>
-  S energy(const ChartPair<S>& pair, const S& clearance, int order, int& evaluations) const
+  S energy(const TorusPair<S>& pair, const S& clearance, int order, int& evaluations) const
   {
     const Eigen::Matrix4d inverse = inverse_hessian(m_);
-    ChartPoint<S> c{S(m_.c[0]), S(m_.c[1]), S(m_.c[2]), S(m_.c[3])};
-    respond(c, pair.at(c, ChartOrder::gradient).gradient, inverse);
+    TorusCoordinates<S> c{S(m_.c[0]), S(m_.c[1]), S(m_.c[2]), S(m_.c[3])};
+    respond(c, pair.at(c, DistanceOrder::gradient).gradient, inverse);
     evaluations += 2;
     if (!faded_) {
       // d_c = 0: d(c(q), q) to second order needs c to first order only. The factor is constant.
-      return faded_barrier(pair.at(c, ChartOrder::value).d, S(lambda_), clearance, settings_.g_hat);
+      return faded_barrier(pair.at(c, DistanceOrder::value).d, S(lambda_), clearance, settings_.g_hat);
     }
     if (order >= 2) {
-      respond(c, pair.at(c, ChartOrder::gradient).gradient, inverse);
+      respond(c, pair.at(c, DistanceOrder::gradient).gradient, inverse);
       ++evaluations;
     }
-    const ChartDistance<S> at = pair.at(c, ChartOrder::hessian);
+    const TorusDistance<S> at = pair.at(c, DistanceOrder::hessian);
     const std::array<S, 3> B = published::lowest_block(at.H, m_.eigenvectors, m_.eigenvalues);
     return faded_barrier(at.d, lowest(B, at.d, clearance), clearance, settings_.g_hat);
   }
@@ -113,7 +113,7 @@ class Contact {
 
   void add_pose(SideTerms& out, int order) const
   {
-    const PoseJet e = energy(pose_chart_pair(frame_), PoseJet(settings_.clearance), 2, out.evaluations);
+    const PoseJet e = energy(pose_torus_pair(frame_), PoseJet(settings_.clearance), 2, out.evaluations);
     for (int i = 0; i < 6; ++i) {
       out.gradient[i] += e.g[static_cast<std::size_t>(i)];
       if (order < 2) continue;
@@ -126,7 +126,7 @@ class Contact {
   void add_sizes(SideTerms& out) const
   {
     const SizeJet e =
-        energy(size_chart_pair(frame_), SizeJet::variable(settings_.clearance, 9), 1, out.evaluations);
+        energy(size_torus_pair(frame_), SizeJet::variable(settings_.clearance, 9), 1, out.evaluations);
     for (std::size_t k = 0; k < 3; ++k) {
       out.dP[k] += e.g[k];
       out.dF[k] -= e.g[k];
@@ -160,7 +160,7 @@ class Contact {
 
   const PairFrame& frame_;
   const ContactSettings& settings_;
-  const ChartMinimum& m_;
+  const PublishedMinimum& m_;
   double gap_ = 0.0;
   double width_ = 0.0;   ///< of the smooth minimum of two eigenvalues
   double lambda_ = 0.0;  ///< smallest eigenvalue of the Hessian of the squared gap
@@ -172,7 +172,7 @@ class Contact {
 namespace published {
 
 template <int dim>
-ChartPoint<double> chart_start(const PairFrame& frame, const Minimum& m)
+TorusCoordinates<double> chart_start(const PairFrame& frame, const Minimum& m)
 {
   const ProbePoint q = Probe<dim>(frame).at(m.u, m.v);
   const FieldValue f = field_at(*frame.F, q.p);
@@ -182,16 +182,16 @@ ChartPoint<double> chart_start(const PairFrame& frame, const Minimum& m)
   return {m.u, v, std::atan2(q.p.y(), q.p.x()), std::atan2(f.m.s, f.m.c)};
 }
 
-template ChartPoint<double> chart_start<1>(const PairFrame&, const Minimum&);
-template ChartPoint<double> chart_start<2>(const PairFrame&, const Minimum&);
+template TorusCoordinates<double> chart_start<1>(const PairFrame&, const Minimum&);
+template TorusCoordinates<double> chart_start<2>(const PairFrame&, const Minimum&);
 
-ChartMinimum refine(const ChartPair<double>& pair, ChartPoint<double> c, int& evaluations)
+PublishedMinimum refine(const TorusPair<double>& pair, TorusCoordinates<double> c, int& evaluations)
 {
-  ChartMinimum m;
+  PublishedMinimum m;
   double best = std::numeric_limits<double>::infinity();
-  ChartDistance<double> found{};
+  TorusDistance<double> found{};
   for (int k = 0; k < most_newton_steps; ++k) {
-    const ChartDistance<double> at = pair.at(c, ChartOrder::hessian);
+    const TorusDistance<double> at = pair.at(c, DistanceOrder::hessian);
     ++evaluations;
     const Eigen::Map<const Eigen::Vector4d> g(at.gradient.data());
     const double slope = g.norm();
@@ -220,18 +220,18 @@ template <int dim>
 void add_published(const PairFrame& frame, const ContactSettings& settings, const Request& request,
                    SideTerms& out)
 {
-  const auto add = [&](const ChartMinimum& m) {
+  const auto add = [&](const PublishedMinimum& m) {
     const double gap = std::sqrt(m.d) - settings.clearance;
     if (m.converged && gap > 0.0 && gap < settings.g_hat) Contact(frame, settings, m).add(request, out);
   };
   if (settings.search == MinimaSearch::sampled) {
-    for (const ChartMinimum& m : published::sampled_minima(frame, out.evaluations)) {
+    for (const PublishedMinimum& m : published::sampled_minima(frame, out.evaluations)) {
       out.min_gap = std::min(out.min_gap, std::sqrt(m.d) - settings.clearance);
       add(m);
     }
     return;
   }
-  const ChartPair<double> pair = chart_pair(frame);
+  const TorusPair<double> pair = torus_pair(frame);
   for (const Minimum& found :
        local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
     out.min_gap = std::min(out.min_gap, found.distance - settings.clearance);

@@ -2,8 +2,8 @@
 /// The published contact (paper equations (2) to (4) and (9) to (11)): the barrier of every local minimum of
 /// the squared distance between two charts, faded by the smallest eigenvalue of the distance's Hessian.
 
-#include "contact/chart_pair.hpp"
 #include "contact/formulation.hpp"
+#include "contact/torus_pair.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -111,8 +111,8 @@ std::array<S, 3> lowest_block(const std::array<std::array<S, 4>, 4>& H, const Ei
 }
 
 /// A local minimum of the squared distance over the four chart coordinates.
-struct ChartMinimum {
-  ChartPoint<double> c{};
+struct PublishedMinimum {
+  TorusCoordinates<double> c{};
   double d = 0.0;
   Eigen::Vector4d eigenvalues;   ///< of H = d_cc, rising
   Eigen::Matrix4d eigenvectors;  ///< columns
@@ -121,13 +121,13 @@ struct ChartMinimum {
 
 /// Chart coordinates of both surface points from a minimum of P's probe set of dimension `dim` in F's field.
 template <int dim>
-ChartPoint<double> chart_start(const PairFrame& frame, const Minimum& m);
+TorusCoordinates<double> chart_start(const PairFrame& frame, const Minimum& m);
 
 /// Full Newton steps from `c` until the norm of the gradient decreases no further (paper, below eq. (3)).
-ChartMinimum refine(const ChartPair<double>& pair, ChartPoint<double> c, int& evaluations);
+PublishedMinimum refine(const TorusPair<double>& pair, TorusCoordinates<double> c, int& evaluations);
 
 /// The paper's search: samples of both surfaces as starting points, Newton's method from those that are
 /// locally nearest. Nothing certifies that no minimum is missed. Nearest first; never empty.
-std::vector<ChartMinimum> sampled_minima(const PairFrame& frame, int& evaluations);
+std::vector<PublishedMinimum> sampled_minima(const PairFrame& frame, int& evaluations);
 
 }  // namespace hauberk::published

@@ -44,7 +44,7 @@ Samples sample(double R, double r0, double r1, const Vec3& a, const Vec3& e1, co
 }
 
 /// Newton step; where H is not positive definite, with its eigenvalues replaced by their sizes.
-Eigen::Vector4d downhill(const ChartDistance<double>& at)
+Eigen::Vector4d downhill(const TorusDistance<double>& at)
 {
   const Eigen::Map<const Eigen::Vector4d> g(at.gradient.data());
   const Eigen::Matrix4d H = Eigen::Map<const Eigen::Matrix4d>(at.H[0].data());
@@ -57,18 +57,18 @@ Eigen::Vector4d downhill(const ChartDistance<double>& at)
 }
 
 /// Newton's method from a sample, made to descend: steps of limited length, halved until the distance falls.
-ChartPoint<double> descend(const ChartPair<double>& pair, ChartPoint<double> c, int& evaluations)
+TorusCoordinates<double> descend(const TorusPair<double>& pair, TorusCoordinates<double> c, int& evaluations)
 {
-  ChartDistance<double> at = pair.at(c, ChartOrder::hessian);
+  TorusDistance<double> at = pair.at(c, DistanceOrder::hessian);
   ++evaluations;
   for (int it = 0; it < most_steps; ++it) {
     Eigen::Vector4d step = downhill(at);
     step *= std::min(1.0, longest_step / std::max(step.norm(), 1e-300));
     bool lower = false;
     for (double t = 1.0; t > 1e-3 && !lower; t *= 0.5) {
-      ChartPoint<double> next = c;
+      TorusCoordinates<double> next = c;
       for (std::size_t k = 0; k < 4; ++k) next[k] += t * step[static_cast<int>(k)];
-      const ChartDistance<double> there = pair.at(next, ChartOrder::hessian);
+      const TorusDistance<double> there = pair.at(next, DistanceOrder::hessian);
       ++evaluations;
       lower = there.d < at.d;
       if (lower) {
@@ -81,7 +81,7 @@ ChartPoint<double> descend(const ChartPair<double>& pair, ChartPoint<double> c, 
   return c;
 }
 
-bool same(const ChartPoint<double>& a, const ChartPoint<double>& b)
+bool same(const TorusCoordinates<double>& a, const TorusCoordinates<double>& b)
 {
   for (std::size_t k = 0; k < 4; ++k) {
     if (std::abs(std::remainder(a[k] - b[k], 2.0 * pi)) > same_minimum) return false;
@@ -91,7 +91,7 @@ bool same(const ChartPoint<double>& a, const ChartPoint<double>& b)
 
 }  // namespace
 
-std::vector<ChartMinimum> sampled_minima(const PairFrame& frame, int& evaluations)
+std::vector<PublishedMinimum> sampled_minima(const PairFrame& frame, int& evaluations)
 {
   const Body &P = *frame.P, &F = *frame.F;
   const Samples p = sample(P.R, P.r0, P.r1, frame.a, frame.e1, frame.e2, frame.e3);
@@ -114,19 +114,20 @@ std::vector<ChartMinimum> sampled_minima(const PairFrame& frame, int& evaluation
   }
   evaluations += samples;
 
-  const ChartPair<double> pair = chart_pair(frame);
-  std::vector<ChartMinimum> out;
+  const TorusPair<double> pair = torus_pair(frame);
+  std::vector<PublishedMinimum> out;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const Start& s = starts[k];
     const auto end = starts.begin() + static_cast<std::ptrdiff_t>(k);
     if (std::find(starts.begin(), end, s) != end) continue;
     const auto &a = p.angles[s.on_p], &b = f.angles[s.on_f];
-    const ChartMinimum m = refine(pair, descend(pair, {a[0], a[1], b[0], b[1]}, evaluations), evaluations);
-    if (std::none_of(out.begin(), out.end(), [&m](const ChartMinimum& o) { return same(o.c, m.c); }))
+    const PublishedMinimum m =
+        refine(pair, descend(pair, {a[0], a[1], b[0], b[1]}, evaluations), evaluations);
+    if (std::none_of(out.begin(), out.end(), [&m](const PublishedMinimum& o) { return same(o.c, m.c); }))
       out.push_back(m);
   }
   std::stable_sort(out.begin(), out.end(),
-                   [](const ChartMinimum& x, const ChartMinimum& y) { return x.d < y.d; });
+                   [](const PublishedMinimum& x, const PublishedMinimum& y) { return x.d < y.d; });
   return out;
 }
 

@@ -152,17 +152,17 @@ std::vector<std::optional<double>> target_values(const DesignSpec& design,
 namespace {
 
 /// One search and what came of it.
-struct Search {
+struct SearchOutcome {
   OptimizerResult found;
   std::vector<DesignIterate> history;
   bool interrupted = false;
 };
 
-Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
-              std::span<const double> x0, int start, const DesignObserver& observer)
+SearchOutcome search(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
+                     std::span<const double> x0, int start, const DesignObserver& observer)
 {
   Recorder recorder(problem, design, start, observer);
-  Search s;
+  SearchOutcome s;
   s.found = optimizer.minimize(problem, x0, recorder);
   s.history = std::move(recorder.history);
   s.interrupted = recorder.interrupted;
@@ -181,7 +181,7 @@ Search search(DesignProblem& problem, const DesignSpec& design, const Optimizer&
   return s;
 }
 
-void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, const Search& s)
+void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, const SearchOutcome& s)
 {
   const DesignPoint& p = problem.current();
   out.status = s.interrupted ? "interrupted" : s.found.status;
@@ -222,7 +222,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
 
   Designed out;
   std::unique_ptr<DesignProblem> best_problem;
-  Search best;
+  SearchOutcome best;
   std::string failure;
   bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
@@ -232,7 +232,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
     problem->set_memory(memory);
     problem->set_schedule(coarse);
     const std::vector<double> x0 = problem->feasible_towards(random_move(design, start));
-    Search s = search(*problem, design, optimizer, x0, start, observer);
+    SearchOutcome s = search(*problem, design, optimizer, x0, start, observer);
     out.result.evaluations += problem->evaluations();
     interrupted = s.interrupted;
     if (s.history.empty()) {
@@ -251,7 +251,8 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   if (!interrupted) {
     const long before = best_problem->evaluations();
     best_problem->set_schedule(design.schedule);
-    const Search fine = search(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
+    const SearchOutcome fine =
+        search(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
     out.result.evaluations += best_problem->evaluations() - before;
     if (!fine.history.empty()) {
       out.result.iterations += fine.found.iterations;

@@ -60,7 +60,7 @@ Body between(const Body& a, const Body& b, double t)
   q.center = (1.0 - t) * a.center + t * b.center;
   q.bound = std::max(a.bound, b.bound);
   q.reach = std::max(a.reach, b.reach);
-  if (!b.is_tube()) q.kind = b.kind;
+  if (!b.is_circle_tube()) q.kind = b.kind;
   if (a.curve && b.curve) set_core(q, mixed(*a.curve, *b.curve, t), q.r0);
   return q;
 }

@@ -57,10 +57,10 @@ struct Point {
   }
 };
 
-class Search {
+class ConstrainedSearch {
  public:
-  Search(const Model& m, const State& start, const Vector& load, const Schedule& schedule,
-         const KeepGoing& keep_going)
+  ConstrainedSearch(const Model& m, const State& start, const Vector& load, const Schedule& schedule,
+                    const KeepGoing& keep_going)
       : m_(m),
         load_(load),
         schedule_(schedule),
@@ -355,7 +355,7 @@ class Search {
 Locked constrained_lock(const Model& model, const State& start, const Vector& load, const Schedule& schedule,
                         const KeepGoing& keep_going)
 {
-  return Search(model, start, load, schedule, keep_going).run();
+  return ConstrainedSearch(model, start, load, schedule, keep_going).run();
 }
 
 }  // namespace hauberk

@@ -32,7 +32,7 @@ struct Body {
   /// how thin it is and nothing else, and only `facets` know where it is.
   std::shared_ptr<const TriangleSurface> surface;
 
-  bool is_tube() const { return kind == PrimitiveKind::circle_tube; }
+  bool is_circle_tube() const { return kind == PrimitiveKind::circle_tube; }
   /// A ball of radius r0.
   bool is_point() const { return R == 0.0; }
   /// Radius of a ball about `center` that holds the core

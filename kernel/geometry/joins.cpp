@@ -270,7 +270,7 @@ std::vector<Join> joins(const Body& A, const Body& B)
 {
   if (A.surface || B.surface) return {};
   if ((A.center - B.center).norm() > A.bound + B.bound + touching) return {};
-  const auto round = [](const Body& b) { return b.curve != nullptr || b.is_tube(); };
+  const auto round = [](const Body& b) { return b.curve != nullptr || b.is_circle_tube(); };
   if (round(A) && round(B)) return joins_of_tubes(A, B);
   if (!B.curve) return joins_by_points(A, B);
   std::vector<Join> out = joins_by_points(B, A);

@@ -180,7 +180,7 @@ inline std::array<Panel, 2> halves(const Panel& s, bool along_u)
 
 /// Which body of a pair probes the other: the one of the lower rank. A curve always does, as its field has no
 /// closed form; a surface does only where both are.
-inline int probe_rank(const Body& b) { return b.curve ? 0 : b.is_tube() ? 1 : 2; }
+inline int probe_rank(const Body& b) { return b.curve ? 0 : b.is_circle_tube() ? 1 : 2; }
 
 /// True where of two bodies the second one probes the first: of equal kinds the smaller ring, as the field of
 /// the larger one is smooth around it, while a ring that is threaded through a small one runs along its axis,
@@ -195,7 +195,7 @@ inline bool second_probes(const Body& a, const Body& b)
 inline int probe_dimension(const PairFrame& frame)
 {
   if (frame.P->curve) return frame.difference != nullptr ? 2 : 1;
-  return frame.P->is_tube() ? 1 : 2;
+  return frame.P->is_circle_tube() ? 1 : 2;
 }
 
 }  // namespace hauberk

@@ -222,7 +222,7 @@ PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint
     if (field.third < std::numeric_limits<double>::infinity())
       r.bound = std::max(r.bound, curved_bound(probe, s, q, at, field));
   };
-  if (!probe.f.F->is_tube()) {
+  if (!probe.f.F->is_circle_tube()) {
     const RolledField rolled(*probe.f.F, f);
     raise(rolled.f, rolled.curvature(d));
     if (r.bound >= needed) return r;

@@ -3,8 +3,8 @@
 #include "equilibrium/gaps.hpp"
 #include "limits/kinks.hpp"
 
-#include <fmt/format.h>
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -24,9 +24,9 @@ std::string reduction(const Body& a, const Body& b)
   if (a.curve && b.curve) return "distance of two curves minus radii: both coordinates searched";
   if (a.curve || b.curve)
     return "one coordinate of the curve searched, the distance to the torus in closed form or by one angle";
-  if (a.is_tube() && b.is_tube())
+  if (a.is_circle_tube() && b.is_circle_tube())
     return "distance of two circles minus radii: one angle searched, the other in closed form";
-  if (a.is_tube() || b.is_tube())
+  if (a.is_circle_tube() || b.is_circle_tube())
     return "distance of a circle to a revolved ellipse: one angle searched, point-ellipse in the meridian "
            "plane";
   return "two angles searched on one surface, point-ellipse in the meridian plane of the other";
@@ -120,7 +120,7 @@ void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const 
   }
   if (m.coordinate_count == 2) p.decisions.emplace_back("z is fixed: one unknown less per element");
   const bool smooth_only =
-      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_tube(); });
+      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_circle_tube(); });
   if (smooth_only)
     p.decisions.emplace_back("every cross-section is a circle: no surface is searched in two angles");
   switch (settings.contact) {

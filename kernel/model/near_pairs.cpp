@@ -2,8 +2,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

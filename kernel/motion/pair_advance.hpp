@@ -277,7 +277,7 @@ class PairAdvance {
       bound = std::max(bound, g + least - third_order(field, size));
       return true;
     };
-    if (!frame_.F->is_tube()) {
+    if (!frame_.F->is_circle_tube()) {
       const RolledField rolled(*frame_.F, f);
       if (stays(rolled.f, rolled.curvature(path.first))) return Verdict::holds;
     }

@@ -71,7 +71,7 @@ class PairSearch {
     int evaluations = 0;
     const auto minima = published::sampled_minima(frame, evaluations);
     count_.evaluations += evaluations;
-    const published::ChartMinimum& m = minima.front();
+    const published::PublishedMinimum& m = minima.front();
     const Frame wp = world_frame(P_, pp), wf = world_frame(F_, pf);
     const Vec3 a = wp.center + wp.axes * chart_point(P_, m.c[0], m.c[1]);
     const Vec3 b = wf.center + wf.axes * chart_point(F_, m.c[2], m.c[3]);

@@ -2,7 +2,7 @@
 /// Periodic sheet under a macroscopic in-plane strain, stretched or compressed along a direction.
 
 #include <hauberk/load_case.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <memory>
 #include <vector>

@@ -2,7 +2,7 @@
 /// A finite patch whose elements stay on a paraboloid, bent along a direction.
 
 #include <hauberk/load_case.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 /// Fields as optimizers declare them.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <string>
 

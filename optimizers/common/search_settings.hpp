@@ -1,7 +1,7 @@
 #pragma once
 /// Settings that line-search methods share.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 /// Algorithms of NLopt as optimizers.
 
 #include <hauberk/optimizer.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <memory>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "minimizer.hpp"
 
 #include <hauberk/optimizer.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <common/run_optimizer.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Checking a value tree against a table of fields.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <functional>
 #include <string>

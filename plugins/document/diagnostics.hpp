@@ -1,7 +1,7 @@
 #pragma once
 /// Problems of one file, as a person reads them.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <string>
 #include <vector>

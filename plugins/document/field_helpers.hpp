@@ -1,7 +1,7 @@
 #pragma once
 /// Short constructors that keep the table of fields readable.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <string>
 #include <vector>

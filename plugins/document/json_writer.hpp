@@ -1,7 +1,7 @@
 #pragma once
 /// Writing Node trees as JSON.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <boost/json/value.hpp>
 

@@ -4,7 +4,7 @@
 /// Boost.JSON, used for everything that is written, keeps no line numbers and silently keeps the last of
 /// duplicate keys; experiment files are written by people, who need both.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <optional>
 #include <string>

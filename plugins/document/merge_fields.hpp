@@ -1,7 +1,7 @@
 #pragma once
 #include "document/merge_fields.hpp"
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <vector>
 

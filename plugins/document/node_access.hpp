@@ -1,7 +1,7 @@
 #pragma once
 /// Reading checked nodes: what was wrong has been removed, so everything may be absent.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <string_view>
 

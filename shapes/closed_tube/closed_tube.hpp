@@ -1,7 +1,7 @@
 #pragma once
 /// A tube of constant radius around a closed curve whose Fourier coefficients are linear in the parameters.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>
 
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include "mesh_file.hpp"
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>
 #include <hauberk/triangle_surface.hpp>
 

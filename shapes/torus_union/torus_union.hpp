@@ -1,7 +1,7 @@
 #pragma once
 /// A rigid union of tori whose radii are the design parameters, placed by numbers or by those parameters.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>
 
 #include <memory>

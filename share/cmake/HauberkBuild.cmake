@@ -56,16 +56,25 @@ if(HAUBERK_COVERAGE)
   add_link_options(--coverage)
 endif()
 
-# Adds every folder below the current one that has a CMakeLists.txt. A folder without one is looked into
-# (tests/unit/host is found although tests/unit has none); new folders are noticed by the next build.
+# Adds every folder below the current one that has a CMakeLists.txt, up to three levels down. A folder without one is
+# looked into (tests/kernel/model is found although tests/kernel has none), one with one looks after what is below it
+# itself; new folders are noticed by the next build.
 function(hauberk_add_children)
-  file(GLOB lists CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}"
-       "${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt" "${CMAKE_CURRENT_SOURCE_DIR}/*/*/CMakeLists.txt")
+  set(here "${CMAKE_CURRENT_SOURCE_DIR}")
+  file(GLOB lists CONFIGURE_DEPENDS RELATIVE "${here}" "${here}/*/CMakeLists.txt" "${here}/*/*/CMakeLists.txt"
+       "${here}/*/*/*/CMakeLists.txt")
   list(SORT lists)
   foreach(list IN LISTS lists)
     get_filename_component(folder "${list}" DIRECTORY)
-    get_filename_component(parent "${folder}" DIRECTORY)
-    if(NOT parent OR NOT EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${parent}/CMakeLists.txt")
+    set(is_child TRUE)
+    get_filename_component(above "${folder}" DIRECTORY)
+    while(above)
+      if(EXISTS "${here}/${above}/CMakeLists.txt")
+        set(is_child FALSE)
+      endif()
+      get_filename_component(above "${above}" DIRECTORY)
+    endwhile()
+    if(is_child)
       add_subdirectory("${folder}")
     endif()
   endforeach()

@@ -5,9 +5,9 @@ include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/hauberk")
 
 set_target_properties(hauberk_host PROPERTIES EXPORT_NAME host)
-set_target_properties(hauberk_settings PROPERTIES EXPORT_NAME settings)
+set_target_properties(hauberk_fields PROPERTIES EXPORT_NAME fields)
 set_target_properties(hauberk_conformance PROPERTIES EXPORT_NAME conformance)
-install(TARGETS hauberk_kernel hauberk_host hauberk_settings hauberk_conformance EXPORT hauberkTargets)
+install(TARGETS hauberk_kernel hauberk_host hauberk_fields hauberk_conformance EXPORT hauberkTargets)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/kernel/api/" "${PROJECT_BINARY_DIR}/kernel/api/"
                   "${PROJECT_SOURCE_DIR}/plugins/host/include/" "${PROJECT_SOURCE_DIR}/plugins/conformance/include/"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")

@@ -74,7 +74,7 @@ std::vector<Minimum> sampled_places(const Torus& P, const Torus& F)
   const Body p = kernel_body(P), f = kernel_body(F);
   int evaluations = 0;
   std::vector<Minimum> out;
-  for (const published::ChartMinimum& m :
+  for (const published::PublishedMinimum& m :
        published::sampled_minima(PairFrame(p, kernel_pose(P), f, kernel_pose(F)), evaluations))
     out.push_back({m.c[0], P.round() ? 0.0 : m.c[1], std::sqrt(m.d)});
   return out;

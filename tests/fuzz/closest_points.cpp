@@ -126,7 +126,7 @@ bool is_dear(const Bodies& p)
   constexpr double nearly = 1e-3, sharp = 0.03;
   const Vec3 axis = p.pa.rotation.col(2), across = p.pb.position - p.pa.position;
   if (axis.cross(p.pb.rotation.col(2)).norm() < nearly && axis.cross(across).norm() < nearly) return true;
-  if (p.a.is_tube() || p.b.is_tube()) return false;
+  if (p.a.is_circle_tube() || p.b.is_circle_tube()) return false;
   double radius = infinite;
   for (const Body* b : {&p.a, &p.b})
     radius = std::min({radius, b->r0 * b->r0 / b->r1, b->r1 * b->r1 / b->r0});
@@ -136,8 +136,8 @@ bool is_dear(const Bodies& p)
 /// As the solver does: a tube is the one that is probed. None where the kernel gives up.
 std::vector<Minimum> checked_minima(const PairInput& input, const Bodies& p, double threshold, double lower)
 try {
-  if (p.a.is_tube()) return checked_minima<1>(input, p, threshold, lower);
-  if (p.b.is_tube()) return checked_minima<1>(input, swapped(p), threshold, lower);
+  if (p.a.is_circle_tube()) return checked_minima<1>(input, p, threshold, lower);
+  if (p.b.is_circle_tube()) return checked_minima<1>(input, swapped(p), threshold, lower);
   return checked_minima<2>(input, p, threshold, lower);
 } catch (const ComputationError&) {
   require(is_dear(p), input, "the minima of an ordinary pair are too many");
@@ -152,7 +152,7 @@ void check_sampled_minima(const PairInput& input, const Bodies& p, double lower)
   require(!minima.empty(), input, "no sampled minimum");
   require(evaluations <= most_evaluations, input,
           fmt::format("sampled minima took {} evaluations", evaluations));
-  for (const published::ChartMinimum& m : minima) {
+  for (const published::PublishedMinimum& m : minima) {
     require(std::isfinite(m.d) && m.d >= 0.0 && std::isfinite(m.c[0] + m.c[1] + m.c[2] + m.c[3]), input,
             "sampled minimum is no number");
     require(std::sqrt(m.d) >= lower - rounding(p), input,

@@ -6,7 +6,7 @@
 
 #include <hauberk/load_case.hpp>
 #include <hauberk/optimizer.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>
 
 #include <cstdint>

@@ -65,7 +65,7 @@ std::set<std::pair<double, double>> round_rings(const Model& m)
 {
   std::set<std::pair<double, double>> rings;
   for (const Body& body : m.bodies) {
-    if (body.is_tube()) rings.emplace(body.R, body.r0);
+    if (body.is_circle_tube()) rings.emplace(body.R, body.r0);
   }
   return rings;
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include <hauberk/linalg.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 namespace hauberk {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Fields of the sections that make variants of a file.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <string>
 

@@ -62,7 +62,7 @@ void check_surfaces(const Scene& scene, const Limit& limit, const Contact& conta
     const auto k = static_cast<std::size_t>(contact.elements[side]);
     Place place = limit.poses[k];
     if (side == 1) place.position += translation(scene, limit.macro->deformation(), contact.image);
-    const Torus torus =
+    const Primitive torus =
         placed(scene.elements[k].tori[static_cast<std::size_t>(contact.primitives[side])], place);
     if (torus.facets > 0) {
       const double off = mesh_distance(torus, contact.points[side]);

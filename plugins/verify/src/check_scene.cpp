@@ -58,7 +58,7 @@ void compare_parameters(const Layout& laid, const json::value& scene, const std:
 }
 
 /// Whether two primitives are one surface under one name. A torus may be turned about its axis, and over.
-bool same_primitive(const Torus& made, const Torus& found, double length)
+bool same_primitive(const Primitive& made, const Primitive& found, double length)
 {
   const auto near = [&](double a, double b) { return std::abs(a - b) <= rounding * length; };
   bool same = made.name == found.name && near(made.R, found.R) && near(made.r0, found.r0) &&
@@ -93,7 +93,7 @@ void compare_primitives(const json::value& experiment, const Layout& laid, const
                     "primitives of shapes that are not known here");
       continue;
     }
-    const std::vector<Torus>& found = scene.elements[k].tori;
+    const std::vector<Primitive>& found = scene.elements[k].tori;
     bool same = made->size() == found.size();
     for (std::size_t p = 0; same && p < made->size(); ++p)
       same = same_primitive((*made)[p], found[p], scene.length);

@@ -61,9 +61,9 @@ double unit_of_value(const Scene& scene, const Limit& limit)
 
 /// The distance of one pair of primitives when one element has other tori.
 double distance_with(const Scene& scene, const Limit& limit, const Contact& contact, std::size_t element,
-                     const std::vector<Torus>& tori)
+                     const std::vector<Primitive>& tori)
 {
-  std::array<Torus, 2> pair;
+  std::array<Primitive, 2> pair;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto k = static_cast<std::size_t>(contact.elements[side]);
     Place place = limit.poses[k];
@@ -83,9 +83,9 @@ std::optional<double> parameter_sum(const Scene& scene, const Limit& limit, cons
   // Changes stay small beside every tube: closest points move as far as sizes do over the tube's radius.
   double thinnest = std::numeric_limits<double>::infinity();
   for (const Element& e : scene.elements)
-    for (const Torus& t : e.tori) thinnest = std::min({thinnest, t.r0, t.r1});
+    for (const Primitive& t : e.tori) thinnest = std::min({thinnest, t.r0, t.r1});
   const double h = std::min(step * std::max(std::abs(at), 1e-3 * scene.length), 1e-3 * thinnest);
-  std::array<std::vector<Torus>, 2> tori;
+  std::array<std::vector<Primitive>, 2> tori;
   for (std::size_t way = 0; way < 2; ++way) {
     parameters[name] = at + (way == 0 ? h : -h);
     auto made = primitives_of(section, parameters, where);

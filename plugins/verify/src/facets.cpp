@@ -49,7 +49,7 @@ Sector sector_of(std::vector<Triangle> triangles)
 /// Unit vectors across a curve in the middle of each of n parts of it: the first as much along the core's
 /// point as it can, carried on by the smallest rotation of one tangent to the next, which leaves an angle at
 /// the end that all share.
-std::vector<std::array<Vec3, 2>> frames_along(const Torus& tube)
+std::vector<std::array<Vec3, 2>> frames_along(const Primitive& tube)
 {
   const int n = tube.facets;
   const auto angle = [n](int i) { return 2.0 * std::numbers::pi * (i + 0.5) / n; };
@@ -76,7 +76,7 @@ std::vector<std::array<Vec3, 2>> frames_along(const Torus& tube)
   return out;
 }
 
-std::vector<Sector> tube_sectors(const Torus& torus)
+std::vector<Sector> tube_sectors(const Primitive& torus)
 {
   const int n = torus.facets;
   const double step = 2.0 * std::numbers::pi / n;
@@ -125,7 +125,7 @@ void add_sectors(std::vector<Triangle> triangles, std::vector<Sector>& out)
   add_sectors({middle, triangles.end()}, out);
 }
 
-std::vector<Sector> sectors(const Torus& torus)
+std::vector<Sector> sectors(const Primitive& torus)
 {
   if (!torus.surface) return tube_sectors(torus);
   std::vector<Triangle> triangles;
@@ -217,7 +217,7 @@ bool inside(const std::vector<Sector>& mesh, const Vec3& x)
 
 }  // namespace
 
-double mesh_separation(const Torus& a, const Torus& b)
+double mesh_separation(const Primitive& a, const Primitive& b)
 {
   const std::vector<Sector> first = sectors(a), second = sectors(b);
   struct Candidate {
@@ -242,7 +242,7 @@ double mesh_separation(const Torus& a, const Torus& b)
   return within ? -nearest : nearest;
 }
 
-double mesh_distance(const Torus& torus, const Vec3& x)
+double mesh_distance(const Primitive& torus, const Vec3& x)
 {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Sector& sector : sectors(torus)) {
@@ -252,7 +252,7 @@ double mesh_distance(const Torus& torus, const Vec3& x)
   return nearest;
 }
 
-double mesh_excess(const Torus& torus)
+double mesh_excess(const Primitive& torus)
 {
   return (torus.R + torus.r0) * (1.0 - std::cos(std::numbers::pi / torus.facets));
 }

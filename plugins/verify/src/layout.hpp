@@ -31,9 +31,9 @@ std::optional<Layout> laid_out(const boost::json::value& experiment);
 /// The primitives that the rule of an element's shape makes of parameters; nothing for shapes whose rule is
 /// not known here. `section` is the entry of the experiment's `elements`. Throws Malformed where a parameter
 /// is missing.
-std::optional<std::vector<Torus>> primitives_of(const boost::json::value& section,
-                                                const std::map<std::string, double>& parameters,
-                                                const std::string& where);
+std::optional<std::vector<Primitive>> primitives_of(const boost::json::value& section,
+                                                    const std::map<std::string, double>& parameters,
+                                                    const std::string& where);
 
 /// A design variable as the experiment asks for it.
 struct AskedVariable {

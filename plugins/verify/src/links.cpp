@@ -39,7 +39,7 @@ int number_in(const std::vector<Link>& list, const Link& pair)
 
 /// Gauss's integral of two cores that do not meet, 1/(4 pi) of that of (x - y) . (dx cross dy)/|x - y|^3, by
 /// ever finer sums, which for closed smooth curves converge faster than any power.
-int gauss_number(const Torus& a, const Torus& b)
+int gauss_number(const Primitive& a, const Primitive& b)
 {
   const auto sum = [&](int count) {
     const double width = 2.0 * std::numbers::pi / count;
@@ -66,7 +66,7 @@ int gauss_number(const Torus& a, const Torus& b)
 }
 
 /// Loops that generate what can be linked with a mesh.
-std::vector<std::vector<Vec3>> loops_of(const Torus& torus)
+std::vector<std::vector<Vec3>> loops_of(const Primitive& torus)
 {
   std::vector<std::vector<Vec3>> out;
   if (!torus.surface) {
@@ -95,7 +95,7 @@ std::vector<std::pair<int, std::vector<Vec3>>> cycles(const Element& element, co
 {
   std::vector<std::pair<int, std::vector<Vec3>>> out;
   int k = 0;
-  for (const Torus& torus : element.tori) {
+  for (const Primitive& torus : element.tori) {
     if (torus.surface) {
       for (std::vector<Vec3>& loop : loops_of(placed(torus, place))) out.emplace_back(k, std::move(loop));
     } else {
@@ -140,7 +140,7 @@ void add_loops(std::vector<Link>& out, const Neighbour& pair, const Element& fir
     }
 }
 
-int mesh_number(const Torus& a, const Torus& b)
+int mesh_number(const Primitive& a, const Primitive& b)
 {
   int divisor = 0;
   const auto first = loops_of(a), second = loops_of(b);
@@ -156,7 +156,7 @@ int mesh_number(const Torus& a, const Torus& b)
 
 }  // namespace
 
-int linking_number(const Torus& a, const Torus& b)
+int linking_number(const Primitive& a, const Primitive& b)
 {
   if (a.surface || b.surface) return mesh_number(a, b);
   if (!a.curve.empty() || !b.curve.empty()) return gauss_number(a, b);

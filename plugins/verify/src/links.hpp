@@ -9,7 +9,7 @@ namespace hauberk::verification {
 /// a's disc, each counted by its direction. -1, 0 or 1.
 /// Of curves Gauss's integral; with surfaces of triangles the greatest common divisor of the linking numbers
 /// of loops that generate the homology of both.
-int linking_number(const Torus& a, const Torus& b);
+int linking_number(const Primitive& a, const Primitive& b);
 
 /// A pair of cycles that are linked.
 struct Link {

@@ -52,7 +52,7 @@ struct Surface {
 /// An ellipse with half-axes r0 (radial) and r1 (axial), revolved at distance R about its own z axis; or a
 /// tube of radius r0 = r1 around a curve, the sum of c cos k u + s sin k u over k = 1, 2, ...;
 /// or R times a surface of triangles, and then r0 = r1 is its thickness.
-struct Torus {
+struct Primitive {
   std::string name;
   Place place;  ///< in its element's frame, or in space
   double R = 0.0, r0 = 0.0, r1 = 0.0;
@@ -70,7 +70,7 @@ struct Loop {
 struct Element {
   Place rest;
   std::map<std::string, double> parameters;
-  std::vector<Torus> tori;
+  std::vector<Primitive> tori;
   std::vector<Loop> loops;  ///< see loops_together
   /// Of a sphere about the element's origin that holds the element.
   double reach = 0.0;

@@ -14,7 +14,7 @@ namespace {
 
 /// The two tori of a pair, in space.
 struct PlacedPair {
-  Torus first, second;
+  Primitive first, second;
 };
 
 PlacedPair placed_pair(const Scene& scene, const MovedState& state, int k, int l, int p, int q,

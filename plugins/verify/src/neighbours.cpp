@@ -79,7 +79,7 @@ std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>
 {
   struct Candidate {
     Closest closest;  ///< distance is a lower bound
-    Torus first, second;
+    Primitive first, second;
   };
   std::vector<Candidate> candidates;
   for (const Neighbour& pair : neighbours(scene, places, F, margin)) {

@@ -96,8 +96,8 @@ double thickness(const Surface& surface)
 }
 
 /// What a primitive of triangles says about its surface.
-void read_mesh(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces, Torus& out,
-               const std::string& where)
+void read_mesh(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces,
+               Primitive& out, const std::string& where)
 {
   const json::value& number = member(v, "surface", where);
   const bool known = number.is_int64() && number.get_int64() >= 0 &&
@@ -110,10 +110,10 @@ void read_mesh(const json::value& v, const std::vector<std::shared_ptr<const Sur
     throw Malformed(where + "/parameters: not those of the surface (R > 0, r0 = r1 its thickness)");
 }
 
-Torus read_torus(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces,
-                 const std::string& where)
+Primitive read_torus(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces,
+                     const std::string& where)
 {
-  Torus out;
+  Primitive out;
   out.name = text(member(v, "name", where), where + "/name");
   out.place = read_place(v, where);
   const std::string kind = text(member(v, "kind", where), where + "/kind");
@@ -278,7 +278,7 @@ Scene read_scene(const json::value& scene, const std::string& where)
     for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
       element.tori.push_back(
           read_torus(p, surfaces, at + "/primitives/" + std::to_string(element.tori.size())));
-      const Torus& torus = element.tori.back();
+      const Primitive& torus = element.tori.back();
       element.reach = std::max(element.reach, torus.place.position.norm() + reach(torus));
     }
     out.elements.push_back(std::move(element));
@@ -366,7 +366,7 @@ void check_length(const Scene& scene, double length, const std::string& where)
 {
   std::vector<double> radii;
   for (const Element& element : scene.elements)
-    for (const Torus& torus : element.tori) radii.push_back(torus.R);
+    for (const Primitive& torus : element.tori) radii.push_back(torus.R);
   if (radii.empty()) throw Malformed(where + "/elements: no primitives");
   std::sort(radii.begin(), radii.end());
   const double middle = radii[radii.size() / 2];

@@ -144,7 +144,7 @@ double torus_minimum(const F& f, double slope_u, double slope_v)
 }
 
 /// A tube of constant radius is an offset of its core: its distance is that of the core less the radius.
-double tube_separation(const Torus& tube, const Torus& other)
+double tube_separation(const Primitive& tube, const Primitive& other)
 {
   return circle_minimum([&](double u) { return signed_distance(other, core_point(tube, u)); },
                         core_speed(tube)) -
@@ -153,7 +153,7 @@ double tube_separation(const Torus& tube, const Torus& other)
 
 }  // namespace
 
-double separation(const Torus& a, const Torus& b)
+double separation(const Primitive& a, const Primitive& b)
 {
   if (a.facets > 0) return mesh_separation(a, b);
   if (a.r0 == a.r1) return tube_separation(a, b);
@@ -162,13 +162,13 @@ double separation(const Torus& a, const Torus& b)
                        a.R + a.r0, std::max(a.r0, a.r1));
 }
 
-double separation_bound(const Torus& a, const Torus& b)
+double separation_bound(const Primitive& a, const Primitive& b)
 {
-  const auto mesh_of_curve = [](const Torus& t) { return t.facets > 0 && !t.curve.empty(); };
+  const auto mesh_of_curve = [](const Primitive& t) { return t.facets > 0 && !t.curve.empty(); };
   if (a.surface || b.surface || mesh_of_curve(a) || mesh_of_curve(b))
     return (a.place.position - b.place.position).norm() - reach(a) - reach(b);
   const double excess = a.facets > 0 ? mesh_excess(a) + mesh_excess(b) : 0.0;
-  Torus thin_a = a, thin_b = b;
+  Primitive thin_a = a, thin_b = b;
   thin_a.r0 = thin_a.r1 = std::max(a.r0, a.r1);
   thin_b.r0 = thin_b.r1 = std::max(b.r0, b.r1);
   return tube_separation(thin_a, thin_b) - excess;

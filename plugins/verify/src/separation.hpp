@@ -10,10 +10,10 @@ namespace hauberk::verification {
 /// best value found holds no smaller one and is dropped, the others are divided again. Cells that remain at
 /// the finest division and are no higher than their neighbours are refined by golden sections. Negative: the
 /// surfaces intersect.
-double separation(const Torus& a, const Torus& b);
+double separation(const Primitive& a, const Primitive& b);
 
 /// Lower bound of the separation: distance of the core circles less the largest half-axes. Exact for circles.
 /// Of surfaces of triangles that of the balls around them.
-double separation_bound(const Torus& a, const Torus& b);
+double separation_bound(const Primitive& a, const Primitive& b);
 
 }  // namespace hauberk::verification

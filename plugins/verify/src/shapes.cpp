@@ -44,14 +44,14 @@ Vec3 position_of(const json::value* v, const Parameters& parameters, Vec3& along
   return distance * along;
 }
 
-std::vector<Torus> torus_union(const json::value& section, const Parameters& parameters,
-                               const std::string& where)
+std::vector<Primitive> torus_union(const json::value& section, const Parameters& parameters,
+                                   const std::string& where)
 {
-  std::vector<Torus> out;
+  std::vector<Primitive> out;
   for (const json::value& item : array(member(section, "tori", where), where + "/tori")) {
     const std::string at = where + "/tori/" + std::to_string(out.size());
     const json::object& torus = item.as_object();
-    Torus t;
+    Primitive t;
     t.name = text(member(item, "name", at), at + "/name");
     const json::value* group = torus.if_contains("group");
     const std::string prefix = group != nullptr ? text(*group, at + "/group") : t.name;
@@ -105,7 +105,7 @@ void knot(Core& core, int p, int q, double R, double a, double b)
   core.sine(q, 2, b);
 }
 
-Torus closed_tube(const json::value& section, const Parameters& parameters, const std::string& where)
+Primitive closed_tube(const json::value& section, const Parameters& parameters, const std::string& where)
 {
   const std::string family = text(member(section, "curve", where), where + "/curve");
   const auto p = [&](const std::string& name) { return value_of(parameters, name, where); };
@@ -140,7 +140,7 @@ Torus closed_tube(const json::value& section, const Parameters& parameters, cons
   } else {
     throw Malformed(where + "/curve: \"" + family + "\" is not known to this check");
   }
-  Torus out;
+  Primitive out;
   out.name = "tube";
   out.r0 = out.r1 = p("r");
   double squares = 0.0;
@@ -152,12 +152,12 @@ Torus closed_tube(const json::value& section, const Parameters& parameters, cons
 
 }  // namespace
 
-std::optional<std::vector<Torus>> primitives_of(const json::value& section, const Parameters& parameters,
-                                                const std::string& where)
+std::optional<std::vector<Primitive>> primitives_of(const json::value& section, const Parameters& parameters,
+                                                    const std::string& where)
 {
   const std::string shape = text(member(section, "shape", where), where + "/shape");
   if (shape == "torus_union") return torus_union(section, parameters, where);
-  if (shape == "closed_tube") return std::vector<Torus>{closed_tube(section, parameters, where)};
+  if (shape == "closed_tube") return std::vector<Primitive>{closed_tube(section, parameters, where)};
   return std::nullopt;
 }
 

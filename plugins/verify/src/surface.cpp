@@ -30,7 +30,7 @@ double closest_angle(double a, double b, double p, double q)
 }
 
 /// Bound of the length of the derivative of this order of a curve.
-double sum_of_terms(const Torus& torus, int order)
+double sum_of_terms(const Primitive& torus, int order)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < torus.curve.size(); ++i)
@@ -42,7 +42,7 @@ double sum_of_terms(const Torus& torus, int order)
 /// Tries points so close to each other that between two of them there is one lowest at most, as long as x is
 /// not at a centre of curvature; then halves the bracket of the slope around each that is lower than its
 /// neighbours.
-double distance_from_curve(const Torus& torus, const Vec3& x, Vec3* outward)
+double distance_from_curve(const Primitive& torus, const Vec3& x, Vec3* outward)
 {
   const int count = 48 * static_cast<int>(torus.curve.size());
   const double width = 2.0 * std::numbers::pi / count;
@@ -76,14 +76,14 @@ Place compose(const Place& a, const Place& b)
   return {a.position + a.rotation * b.position, a.rotation * b.rotation};
 }
 
-Torus placed(const Torus& torus, const Place& element)
+Primitive placed(const Primitive& torus, const Place& element)
 {
-  Torus out = torus;
+  Primitive out = torus;
   out.place = compose(element, torus.place);
   return out;
 }
 
-double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward)
+double signed_distance(const Primitive& torus, const Vec3& x, Vec3* outward)
 {
   if (!torus.curve.empty()) return distance_from_curve(torus, x, outward);
   const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
@@ -112,7 +112,7 @@ double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward)
   return distance;
 }
 
-Vec3 core_point(const Torus& torus, double u)
+Vec3 core_point(const Primitive& torus, double u)
 {
   if (!torus.curve.empty()) {
     Vec3 local = Vec3::Zero();
@@ -126,7 +126,7 @@ Vec3 core_point(const Torus& torus, double u)
          torus.place.rotation * Vec3(torus.R * std::cos(u), torus.R * std::sin(u), 0.0);
 }
 
-Vec3 core_tangent(const Torus& torus, double u)
+Vec3 core_tangent(const Primitive& torus, double u)
 {
   Vec3 local(-torus.R * std::sin(u), torus.R * std::cos(u), 0.0);
   if (!torus.curve.empty()) local.setZero();
@@ -137,16 +137,16 @@ Vec3 core_tangent(const Torus& torus, double u)
   return torus.place.rotation * local;
 }
 
-double core_reach(const Torus& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 0); }
+double core_reach(const Primitive& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 0); }
 
-double reach(const Torus& torus)
+double reach(const Primitive& torus)
 {
   return torus.surface ? torus.R * torus.surface->reach : core_reach(torus) + std::max(torus.r0, torus.r1);
 }
 
-double core_speed(const Torus& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 1); }
+double core_speed(const Primitive& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 1); }
 
-Vec3 surface_point(const Torus& torus, double u, double v)
+Vec3 surface_point(const Primitive& torus, double u, double v)
 {
   const double rho = torus.R + torus.r0 * std::cos(v);
   return torus.place.position +

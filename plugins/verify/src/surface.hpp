@@ -7,23 +7,23 @@ namespace hauberk::verification {
 Place compose(const Place& a, const Place& b);
 
 /// The torus in space when its element has the given place.
-Torus placed(const Torus& torus, const Place& element);
+Primitive placed(const Primitive& torus, const Place& element);
 
 /// Signed distance of x to the surface: negative inside. Exact to rounding: the closest point lies in the
 /// meridian plane of x, and there on the quarter of the ellipse that x is nearest to, where the derivative of
 /// the squared distance by the angle changes sign once. Of a curve the closest point is the lowest of many
 /// tried. `outward`, when wanted, is the unit normal at the closest point.
-double signed_distance(const Torus& torus, const Vec3& x, Vec3* outward = nullptr);
+double signed_distance(const Primitive& torus, const Vec3& x, Vec3* outward = nullptr);
 
 /// Point of the core and its derivative in u.
-Vec3 core_point(const Torus& torus, double u);
-Vec3 core_tangent(const Torus& torus, double u);
+Vec3 core_point(const Primitive& torus, double u);
+Vec3 core_tangent(const Primitive& torus, double u);
 /// Bounds of the distance of its points from its centre, and of the length of its tangent.
-double core_reach(const Torus& torus);
-double core_speed(const Torus& torus);
+double core_reach(const Primitive& torus);
+double core_speed(const Primitive& torus);
 /// Bound of the distance of points of the surface from its centre; of surfaces of triangles the largest.
-double reach(const Torus& torus);
+double reach(const Primitive& torus);
 /// Point of the surface, V(u, v).
-Vec3 surface_point(const Torus& torus, double u, double v);
+Vec3 surface_point(const Primitive& torus, double u, double v);
 
 }  // namespace hauberk::verification

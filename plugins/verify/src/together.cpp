@@ -20,7 +20,7 @@ struct Inside {
   double u = 0.0, depth = 0.0, v = 0.0;
 };
 
-Vec3 solid_point(const Torus& t, const Inside& at)
+Vec3 solid_point(const Primitive& t, const Inside& at)
 {
   const Vec3 core = core_point(t, at.u);
   return core + at.depth * (surface_point(t, at.u, at.v) - core);
@@ -99,7 +99,7 @@ void spread(const Grid& grid, const std::vector<double>& depth, double most, int
 }
 
 /// Coordinate of the point of a core that is nearest to x.
-double nearest_on_core(const Torus& t, const Vec3& x)
+double nearest_on_core(const Primitive& t, const Vec3& x)
 {
   constexpr int samples = 720;
   double u = 0.0, best = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ double nearest_on_core(const Torus& t, const Vec3& x)
 }
 
 /// Corners from a core's point at u to that at w, the short way; chords stay within a quarter of the tube.
-std::vector<Vec3> arc(const Torus& t, double u, double w)
+std::vector<Vec3> arc(const Primitive& t, double u, double w)
 {
   const double turn = std::remainder(w - u, full_turn);
   const double bend = t.curve.empty() ? t.R : core_speed(t) * static_cast<double>(t.curve.size());
@@ -156,7 +156,7 @@ bool find_way(const std::vector<Way>& tree, int from, int to, int came_by, std::
   return false;
 }
 
-Loop closed(const std::vector<Torus>& tori, const std::vector<Way>& ways)
+Loop closed(const std::vector<Primitive>& tori, const std::vector<Way>& ways)
 {
   Loop loop;
   for (std::size_t k = 0; k < ways.size(); ++k) {
@@ -170,7 +170,7 @@ Loop closed(const std::vector<Torus>& tori, const std::vector<Way>& ways)
   return loop;
 }
 
-bool same(const Torus& a, const Torus& b)
+bool same(const Primitive& a, const Primitive& b)
 {
   return a.place.position == b.place.position && a.place.rotation == b.place.rotation && a.R == b.R &&
          a.r0 == b.r0 && a.r1 == b.r1 && a.curve == b.curve && a.surface == b.surface;
@@ -178,7 +178,7 @@ bool same(const Torus& a, const Torus& b)
 
 }  // namespace
 
-std::vector<Overlap> overlaps(const Torus& a, const Torus& b)
+std::vector<Overlap> overlaps(const Primitive& a, const Primitive& b)
 {
   std::vector<Overlap> out;
   if (a.surface || b.surface) return out;
@@ -220,7 +220,7 @@ std::vector<Overlap> overlaps(const Torus& a, const Torus& b)
   return out;
 }
 
-std::vector<Loop> loops_together(const std::vector<Torus>& tori)
+std::vector<Loop> loops_together(const std::vector<Primitive>& tori)
 {
   std::vector<Way> tree;
   std::vector<Loop> out;

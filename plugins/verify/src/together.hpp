@@ -13,11 +13,11 @@ struct Overlap {
 /// One for every part that the solids of a and b share, of a sampled solid a: neighbouring samples inside of
 /// b are one part; a part between samples is found by descent of the signed distance to b. None for surfaces
 /// of triangles.
-std::vector<Overlap> overlaps(const Torus& a, const Torus& b);
+std::vector<Overlap> overlaps(const Primitive& a, const Primitive& b);
 
 /// Closed polygons inside of an element, in its frame, that generate with the cores of its primitives all
 /// that can be linked with it: for each overlap beyond those of a spanning tree the way through it and back.
-std::vector<Loop> loops_together(const std::vector<Torus>& tori);
+std::vector<Loop> loops_together(const std::vector<Primitive>& tori);
 
 /// Finds those of all elements of a scene; equal elements are looked at once.
 void find_loops(Scene& scene);

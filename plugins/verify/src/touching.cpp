@@ -18,7 +18,7 @@ Touching flipped(const Touching& t) { return {t.distance, -t.normal, t.on_b, t.o
 
 /// Angles of the surface point nearest to x; v is exact for circular sections and close enough to start from
 /// else.
-Eigen::Vector2d angles(const Torus& torus, const Vec3& x)
+Eigen::Vector2d angles(const Primitive& torus, const Vec3& x)
 {
   const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
   const double p = std::hypot(local.x(), local.y()) - torus.R;
@@ -26,7 +26,7 @@ Eigen::Vector2d angles(const Torus& torus, const Vec3& x)
 }
 
 /// Coordinate of the point of a tube's core that is nearest to x, close enough to start from.
-double core_angle(const Torus& tube, const Vec3& x)
+double core_angle(const Primitive& tube, const Vec3& x)
 {
   if (tube.curve.empty()) return angles(tube, x)[0];
   const int count = 48 * static_cast<int>(tube.curve.size());
@@ -44,7 +44,7 @@ struct OnCore {
   Vec3 outward;
 };
 
-OnCore on_core(const Torus& tube, const Torus& b, double u)
+OnCore on_core(const Primitive& tube, const Primitive& b, double u)
 {
   OnCore out{};
   out.value = signed_distance(b, core_point(tube, u), &out.outward);
@@ -53,7 +53,7 @@ OnCore on_core(const Torus& tube, const Torus& b, double u)
 }
 
 /// Walks downhill until the slope changes sign, then halves the bracket: nothing is assumed about curvature.
-Touching descend_tube(const Torus& tube, const Torus& b, double u)
+Touching descend_tube(const Primitive& tube, const Primitive& b, double u)
 {
   constexpr double first_step = 1e-4, growth = 1.6;
   double step = on_core(tube, b, u).slope > 0.0 ? -first_step : first_step;
@@ -73,7 +73,7 @@ Touching descend_tube(const Torus& tube, const Torus& b, double u)
 }
 
 /// Derivatives of the distance of b to the surface of a by a's angles.
-Eigen::Vector2d slope_on_surface(const Torus& a, const Torus& b, const Eigen::Vector2d& at)
+Eigen::Vector2d slope_on_surface(const Primitive& a, const Primitive& b, const Eigen::Vector2d& at)
 {
   const double cu = std::cos(at[0]), su = std::sin(at[0]), cv = std::cos(at[1]), sv = std::sin(at[1]);
   const double rho = a.R + a.r0 * cv;
@@ -85,7 +85,7 @@ Eigen::Vector2d slope_on_surface(const Torus& a, const Torus& b, const Eigen::Ve
 }
 
 /// Newton's method with differences of the slope, made positive definite, and halved steps.
-Touching descend_surface(const Torus& a, const Torus& b, Eigen::Vector2d at)
+Touching descend_surface(const Primitive& a, const Primitive& b, Eigen::Vector2d at)
 {
   constexpr double h = 1e-6;
   const auto value = [&](const Eigen::Vector2d& x) {
@@ -120,14 +120,14 @@ Touching descend_surface(const Torus& a, const Torus& b, Eigen::Vector2d at)
 
 }  // namespace
 
-Touching touching_near(const Torus& a, const Torus& b, const Vec3& near)
+Touching touching_near(const Primitive& a, const Primitive& b, const Vec3& near)
 {
   if (a.r0 == a.r1) return descend_tube(a, b, core_angle(a, near));
   if (b.r0 == b.r1) return flipped(descend_tube(b, a, core_angle(b, near)));
   return descend_surface(a, b, angles(a, near));
 }
 
-std::vector<Touching> touchings(const Torus& a, const Torus& b, double range)
+std::vector<Touching> touchings(const Primitive& a, const Primitive& b, double range)
 {
   if (a.r0 != a.r1 && b.r0 == b.r1) {
     std::vector<Touching> out = touchings(b, a, range);

@@ -14,9 +14,9 @@ struct Touching {
 };
 
 /// The local minimum that descent reaches from the point of a nearest to `near`.
-Touching touching_near(const Torus& a, const Torus& b, const Vec3& near);
+Touching touching_near(const Primitive& a, const Primitive& b, const Vec3& near);
 
 /// All local minima with a distance below `range` that a dense sampling of one surface shows.
-std::vector<Touching> touchings(const Torus& a, const Torus& b, double range);
+std::vector<Touching> touchings(const Primitive& a, const Primitive& b, double range);
 
 }  // namespace hauberk::verification

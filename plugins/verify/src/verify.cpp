@@ -74,7 +74,7 @@ Scene read_placed_scene(const json::value& scene_json, const std::string& prefix
 {
   Scene scene = read_scene(scene_json, prefix + "/scene");
   for (Element& element : scene.elements)
-    for (Torus& torus : element.tori) {
+    for (Primitive& torus : element.tori) {
       torus.facets = setting.facets;
       if (torus.surface && setting.facets == 0)
         throw Malformed(prefix +

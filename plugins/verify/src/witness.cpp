@@ -31,9 +31,9 @@ Vec3 own_displacement(const Scene& scene, const MovedState& s, std::size_t k)
 /// Smallest separation of two placed elements is above `needed`.
 bool apart(const Element& a, const Place& at, const Element& b, const Place& other, double needed)
 {
-  for (const Torus& p : a.tori)
-    for (const Torus& q : b.tori) {
-      const Torus x = placed(p, at), y = placed(q, other);
+  for (const Primitive& p : a.tori)
+    for (const Primitive& q : b.tori) {
+      const Primitive x = placed(p, at), y = placed(q, other);
       if ((x.place.position - y.place.position).norm() - reach(x) - reach(y) > needed) continue;
       if (separation_bound(x, y) > needed) continue;
       if (!(separation(x, y) > needed)) return false;

@@ -4,7 +4,7 @@
 
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/plugin.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 /// Values put at places of the file: by --set /solver/tolerance=1e-3, or by members of a stability
 /// experiment.
 
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <string>
 

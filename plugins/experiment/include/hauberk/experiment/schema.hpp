@@ -3,7 +3,7 @@
 
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/plugin.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <span>
 #include <string>

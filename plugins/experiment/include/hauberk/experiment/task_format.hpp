@@ -4,7 +4,7 @@
 
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/experiment/plugin_resolver.hpp>
-#include <hauberk/settings.hpp>
+#include <hauberk/section.hpp>
 
 #include <memory>
 #include <string_view>

@@ -8,9 +8,9 @@ namespace hauberk {
 /// Norm of a load in the dual of the step norm.
 double load_size(const Model& model, const Vector& load);
 
-/// The stage of a schedule at an activation distance, for a load of this size.
+/// A planned stage of a schedule for a load of this size.
 Stage barrier_stage(const Model& model, double load_size, ContactChoice choice, const Schedule& schedule,
-                    double g_hat, bool last, Formulation formulation);
+                    const PlannedStage& plan);
 
 /// `lock` by barriers, with nothing held.
 Locked barrier_lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,

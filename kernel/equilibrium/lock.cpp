@@ -24,8 +24,8 @@ class Approach {
            const Schedule& schedule, const KeepGoing& keep_going)
       : m_(m), load_(load), keep_going_(keep_going), size_(load_size(m, load.pull))
   {
-    const Formulation f = formulation_at(choice, schedule.first, schedule);
-    stage_ = barrier_stage(m, size_, choice, schedule, schedule.first, false, f);
+    stage_ =
+        barrier_stage(m, size_, choice, schedule, planned_stage(choice, schedule, schedule.first, false));
     stage_.tether = load.held;
     for (Eigen::Index k = 0; k < stage_.tether.cols(); ++k) stage_.tether.col(k).normalize();
     out_.state = start;

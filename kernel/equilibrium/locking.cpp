@@ -48,8 +48,8 @@ class Path {
 
   Locked run()
   {
-    for (const double g_hat : activation_distances(schedule_))
-      if (!stage(g_hat, g_hat == schedule_.last)) return std::move(out_);
+    for (const PlannedStage& planned : planned_stages(choice_, schedule_))
+      if (!stage(planned)) return std::move(out_);
     out_.status = LockStatus::locked;
     balance();
     if (out_.status != LockStatus::locked) return std::move(out_);
@@ -58,37 +58,34 @@ class Path {
   }
 
  private:
-  Stage make_stage(double g_hat, bool last, Formulation f) const
+  Stage make_stage(const PlannedStage& plan) const
   {
-    return barrier_stage(m_, size_, choice_, schedule_, g_hat, last, f);
+    return barrier_stage(m_, size_, choice_, schedule_, plan);
   }
 
-  Formulation formulation(double g_hat) const
-  {
-    return arc_to_the_end_ ? Formulation::arc : formulation_at(choice_, g_hat, schedule_);
-  }
-
-  bool stage(double g_hat, bool last)
+  bool stage(PlannedStage plan)
   {
     const State before = out_.state;
-    Formulation f = formulation(g_hat);
-    StageResult r = attempt(before, g_hat, last, f);
-    if (choice_ == ContactChoice::automatic && f == Formulation::nearest &&
+    if (arc_to_the_end_) plan.formulation = Formulation::arc;
+    PlannedStage arc = plan;
+    arc.formulation = Formulation::arc;
+    StageResult r = attempt(before, plan);
+    if (choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest &&
         (r.status == StageStatus::merging || r.status == StageStatus::stalled ||
          r.status == StageStatus::iteration_limit)) {
       arc_to_the_end_ = r.status != StageStatus::merging;
-      f = Formulation::arc;
-      r = attempt(before, g_hat, last, f);
+      plan = arc;
+      r = attempt(before, plan);
     }
-    if (choice_ == ContactChoice::automatic && f == Formulation::nearest && last &&
+    if (choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest && plan.last &&
         r.status == StageStatus::minimum && r.residual > unbalanced) {
       // Contacts that merge can leave forces on points that do not balance; spread forces do.
       const State points = out_.state;
       const std::vector<State> path = path_;
-      const StageResult spread = attempt(before, g_hat, last, Formulation::arc);
+      const StageResult spread = attempt(before, arc);
       if (spread.status == StageStatus::interrupted ||
           (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
-        f = Formulation::arc;
+        plan = arc;
         r = spread;
       } else {
         out_.state = points;
@@ -115,11 +112,11 @@ class Path {
       out_.message = r.message;
       return false;
     }
-    out_.stage = make_stage(g_hat, last, f);
+    out_.stage = make_stage(plan);
     StageRecord record;
-    record.g_hat = g_hat;
+    record.g_hat = plan.g_hat;
     record.value = load_.dot(out_.state.macro);
-    record.formulation = f;
+    record.formulation = plan.formulation;
     record.iterations = r.iterations;
     record.residual = r.residual;
     record.escapes = r.escapes;
@@ -154,7 +151,7 @@ class Path {
       out_.status = narrowest.status;  // what an attempt before this one said does not count
       out_.message = narrowest.message;
       previous_.reset();
-      if (!stage(g_hat, true)) {
+      if (!stage(planned_stage(choice_, schedule_, g_hat, true))) {
         if (out_.status == LockStatus::interrupted) return;
         continue;
       }
@@ -166,12 +163,12 @@ class Path {
     out_ = std::move(best);
   }
 
-  StageResult attempt(const State& before, double g_hat, bool last, Formulation f)
+  StageResult attempt(const State& before, const PlannedStage& plan)
   {
     State s = before;
-    extrapolate(s, g_hat, f);
+    extrapolate(s, plan);
     const State from = schedule_.keep_path ? s : State();
-    StageResult r = solve_stage(m_, s, load_, make_stage(g_hat, last, f), keep_going_, &bounds_);
+    StageResult r = solve_stage(m_, s, load_, make_stage(plan), keep_going_, &bounds_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
     if (schedule_.keep_path) {
@@ -184,13 +181,14 @@ class Path {
 
   /// y(g_hat) is asymptotically linear: continue the line through the last two stages' ends. Barriers push
   /// alike (barrier.hpp), so it goes on where the formulation changes.
-  void extrapolate(State& s, double g_hat, Formulation f)
+  void extrapolate(State& s, PlannedStage plan)
   {
     const std::size_t n = out_.stages.size();
     if (n < 2 || !previous_) return;
     const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
-    const Vector dy = ((g_hat - b) / (b - a)) * difference(m_, *previous_, s);
-    const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(g_hat, false, f), &bounds_);
+    const Vector dy = ((plan.g_hat - b) / (b - a)) * difference(m_, *previous_, s);
+    plan.last = false;
+    const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(plan), &bounds_);
     out_.evaluations += safe.evaluations;
     const State next = advanced(m_, s, dy, safe.alpha);
     if (m_.load->admissible({next.macro.data(), static_cast<std::size_t>(m_.macro_count)})) s = next;
@@ -217,16 +215,14 @@ double load_size(const Model& m, const Vector& load)
   return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
 }
 
-Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Schedule& schedule, double g_hat,
-                    bool last, Formulation f)
+Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Schedule& schedule,
+                    const PlannedStage& plan)
 {
+  const auto& [g_hat, f, quadrature, sides, last] = plan;
   Stage s;
   s.contact = {f, g_hat, m.clearance, schedule.search};
-  // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
-  s.contact.quadrature = g_hat > schedule.change ? Quadrature::rough
-                         : last                  ? schedule.last_quadrature
-                                                 : Quadrature::fine;
-  if (!last && g_hat > schedule.change) s.contact.sides = Sides::one;
+  s.contact.quadrature = quadrature;
+  s.contact.sides = sides;
   s.contact.threads = schedule.threads;
   s.ccd = schedule.ccd;
   s.target = schedule.target;
@@ -279,6 +275,25 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
   }
   // Slack for the rounding of powers.
   return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
+}
+
+PlannedStage planned_stage(ContactChoice choice, const Schedule& schedule, double g_hat, bool last)
+{
+  PlannedStage out{g_hat, formulation_at(choice, g_hat, schedule)};
+  out.last = last;
+  // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
+  const bool wide = g_hat > schedule.change;
+  out.quadrature = wide ? Quadrature::rough : last ? schedule.last_quadrature : Quadrature::fine;
+  out.sides = wide && !last ? Sides::one : Sides::both;
+  return out;
+}
+
+std::vector<PlannedStage> planned_stages(ContactChoice choice, const Schedule& schedule)
+{
+  std::vector<PlannedStage> out;
+  for (const double g_hat : activation_distances(schedule))
+    out.push_back(planned_stage(choice, schedule, g_hat, g_hat == schedule.last));
+  return out;
 }
 
 double constrained_margin(const Schedule& schedule) { return 0.1 * schedule.last; }

@@ -53,6 +53,21 @@ std::vector<double> activation_distances(const Schedule& schedule);
 /// arc above schedule.change, else nearest.
 Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule);
 
+/// A stage as it is decided before anything is solved.
+struct PlannedStage {
+  double g_hat = 0.0;  ///< activation distance, L
+  Formulation formulation = Formulation::arc;
+  Quadrature quadrature = Quadrature::fine;  ///< of arc
+  Sides sides = Sides::both;                 ///< of arc
+  bool last = false;
+};
+
+/// The stages that a limit runs, in this order. `automatic` takes arc for one of them again where contacts
+/// merge, and for all that follow from where nearest stalls.
+std::vector<PlannedStage> planned_stages(ContactChoice choice, const Schedule& schedule);
+/// The same for one activation distance.
+PlannedStage planned_stage(ContactChoice choice, const Schedule& schedule, double g_hat, bool last);
+
 /// Gap (L) that `constrained` leaves: a tenth of the last activation distance, as barriers do.
 double constrained_margin(const Schedule& schedule);
 

@@ -4,11 +4,10 @@
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <string>
 #include <tuple>
 
 namespace hauberk {
@@ -17,19 +16,13 @@ namespace {
 constexpr std::size_t most_tight_pairs = 10;
 constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 
-std::string reduction(const Body& a, const Body& b)
+Reduction reduction(const Body& a, const Body& b)
 {
-  if (a.facets || b.facets)
-    return "meshes: points and triangles, edges and edges, nearest points in closed form";
-  if (a.curve && b.curve) return "distance of two curves minus radii: both coordinates searched";
-  if (a.curve || b.curve)
-    return "one coordinate of the curve searched, the distance to the torus in closed form or by one angle";
-  if (a.is_circle_tube() && b.is_circle_tube())
-    return "distance of two circles minus radii: one angle searched, the other in closed form";
-  if (a.is_circle_tube() || b.is_circle_tube())
-    return "distance of a circle to a revolved ellipse: one angle searched, point-ellipse in the meridian "
-           "plane";
-  return "two angles searched on one surface, point-ellipse in the meridian plane of the other";
+  if (a.facets || b.facets) return Reduction::meshes;
+  if (a.curve && b.curve) return Reduction::two_curves;
+  if (a.curve || b.curve) return Reduction::curve_and_torus;
+  if (a.is_circle_tube() && b.is_circle_tube()) return Reduction::two_circles;
+  return a.is_circle_tube() || b.is_circle_tube() ? Reduction::circle_and_surface : Reduction::two_surfaces;
 }
 
 /// True if all primitives of the element share one axis of revolution, so that spinning about it is inert.
@@ -96,81 +89,15 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
 }
 
 /// Triangles and edges of the primitives, of which each may have others.
-std::string mesh_decision(const Model& m)
+MeshPlan mesh_plan(const Model& m)
 {
-  std::size_t least = std::numeric_limits<std::size_t>::max(), most = 0, edges = 0;
+  MeshPlan out{std::numeric_limits<std::size_t>::max(), 0, 0};
   for (const Body& b : m.bodies) {
-    least = std::min(least, b.facets->triangles().size());
-    most = std::max(most, b.facets->triangles().size());
-    edges = std::max(edges, b.facets->edges().size());
+    out.least_triangles = std::min(out.least_triangles, b.facets->triangles().size());
+    out.most_triangles = std::max(out.most_triangles, b.facets->triangles().size());
+    out.most_edges = std::max(out.most_edges, b.facets->edges().size());
   }
-  const std::string triangles = least == most ? fmt::format("{} triangles and {} edges", most, edges)
-                                              : fmt::format("{} to {} triangles", least, most);
-  return fmt::format("contact: of meshes in every stage, {} a primitive; values are those of the meshes",
-                     triangles);
-}
-
-void decide(Plan& p, const Model& m, const std::vector<LimitTask>& tasks, const LimitSettings& settings)
-{
-  if (p.inert > 0) {
-    p.decisions.push_back(
-        fmt::format("{} elements are surfaces of revolution about one axis: their spin is inert and "
-                    "carries only the regularisation of null directions",
-                    p.inert));
-  }
-  if (m.coordinate_count == 2) p.decisions.emplace_back("z is fixed: one unknown less per element");
-  const bool smooth_only =
-      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_circle_tube(); });
-  if (smooth_only)
-    p.decisions.emplace_back("every cross-section is a circle: no surface is searched in two angles");
-  switch (settings.contact) {
-    case ContactChoice::automatic:
-      p.decisions.push_back(
-          fmt::format("contact: arc down to an activation distance of {:g} L, nearest below; arc "
-                      "again where contacts merge, and from where nearest stalls",
-                      settings.schedule.change));
-      break;
-    case ContactChoice::nearest:
-      p.decisions.emplace_back("contact: nearest in every stage");
-      break;
-    case ContactChoice::arc:
-      p.decisions.emplace_back("contact: arc in every stage");
-      break;
-    case ContactChoice::published:
-      p.decisions.emplace_back(
-          "contact: published in every stage (squared distances of charts, faded by an eigenvalue)");
-      break;
-    case ContactChoice::mesh:
-      p.decisions.push_back(mesh_decision(m));
-      break;
-    case ContactChoice::constrained:
-      p.decisions.push_back(fmt::format(
-          "contact: gaps of at least {:g} L as constraints of quadratic programs, no energy; nothing is "
-          "certified on the way",
-          constrained_margin(settings.schedule)));
-      break;
-  }
-  if (settings.schedule.search == MinimaSearch::sampled)
-    p.decisions.emplace_back("closest points: Newton's method from samples, a minimum may be missed");
-  if (settings.schedule.ccd == CollisionCheck::sampled)
-    p.decisions.emplace_back("collisions: sought from samples along each step, one may be missed");
-  if (std::isfinite(settings.schedule.target)) {
-    p.decisions.push_back(fmt::format(
-        "objective: squared distance of the macroscopic unknowns to {:g} times the load; it holds back what "
-        "carries no load",
-        settings.schedule.target));
-  }
-  if (settings.contact != ContactChoice::constrained) {
-    const std::vector<double> stages = activation_distances(settings.schedule);
-    p.decisions.push_back(fmt::format("stages: {}, activation distances {:g} L to {:g} L", stages.size(),
-                                      stages.front(), stages.back()));
-  }
-  const std::size_t neighbours = with_neighbours(m, tasks, settings.neighbours).size() - tasks.size();
-  if (neighbours > 0) {
-    p.decisions.push_back(
-        fmt::format("search: limits without company learn from {} neighbours {:g} degrees beside them",
-                    neighbours, settings.neighbours));
-  }
+  return out;
 }
 
 }  // namespace
@@ -182,7 +109,17 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   p.elements = m.element_count();
   p.primitives = static_cast<int>(m.bodies.size());
   p.unknowns = m.dofs();
-  p.linear_solver = m.sparse() ? "sparse Cholesky (CHOLMOD, supernodal)" : "dense Cholesky";
+  p.sparse = m.sparse();
+  p.height_fixed = m.coordinate_count == 2;
+  p.circles_only =
+      std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_circle_tube(); });
+  p.contact = settings.contact;
+  p.schedule = settings.schedule;
+  if (settings.contact != ContactChoice::constrained)
+    p.stages = planned_stages(settings.contact, settings.schedule);
+  if (settings.contact == ContactChoice::mesh) p.mesh = mesh_plan(m);
+  p.neighbours = with_neighbours(m, tasks, settings.neighbours).size() - tasks.size();
+  p.neighbour_degrees = settings.neighbours;
   for (std::size_t i = 0; i < m.rest.size(); ++i) p.inert += spins(m, i) ? 1 : 0;
   p.links_per_element.assign(m.rest.size(), 0);
   for (const ElementLink& l : element_links(m)) {
@@ -191,7 +128,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   }
 
   const State rest = rest_state(m);
-  std::map<std::string, PairPlan> kinds;
+  std::map<std::array<std::string, 2>, PairPlan> kinds;
   for (const ElementPair& pair : near_pairs(m, rest, m.clearance + settings.schedule.first)) {
     ++p.image_pairs;
     for (std::size_t k = 0; k < pair.image.size(); ++k) {
@@ -202,25 +139,19 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const Body& A = m.bodies[static_cast<std::size_t>(a)];
         const Body& B = m.bodies[static_cast<std::size_t>(b)];
-        std::string x = name_of(A.kind), y = name_of(B.kind);
-        if (y < x) std::swap(x, y);
-        const std::string name = fmt::format("{} / {}", x, y);
-        PairPlan& k = kinds[name];
-        k.kinds = name;
-        k.distance = reduction(A, B);
-        ++k.pairs;
+        std::array<std::string, 2> names{name_of(A.kind), name_of(B.kind)};
+        std::array<PrimitiveKind, 2> of{A.kind, B.kind};
+        if (names[1] < names[0]) {
+          std::swap(names[0], names[1]);
+          std::swap(of[0], of[1]);
+        }
+        ++kinds.try_emplace(names, PairPlan{of, reduction(A, B), 0}).first->second.pairs;
       }
     }
   }
   list_tightest(p, m, rest);
   for (auto& [name, k] : kinds) p.pairs.push_back(k);
-  decide(p, m, tasks, settings);
-  for (const LimitTask& t : tasks) {
-    const Boundedness b = bounded_by_links(m, t);
-    p.bounded.emplace_back(t, b == Boundedness::attained    ? "attained"
-                              : b == Boundedness::unbounded ? "unbounded"
-                                                            : "not attained");
-  }
+  for (const LimitTask& t : tasks) p.bounded.emplace_back(t, bounded_by_links(m, t));
   return p;
 }
 

@@ -3,15 +3,33 @@
 
 #include "limits/limits.hpp"
 
-#include <string>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace hauberk {
 
+/// How the distance of two primitives is reduced to a search in few coordinates.
+enum class Reduction {
+  meshes,              ///< points and triangles, edges and edges
+  two_curves,          ///< distance of two curves minus radii, both coordinates searched
+  curve_and_torus,     ///< the curve's coordinate searched in the torus's field
+  two_circles,         ///< one angle searched, the other in closed form
+  circle_and_surface,  ///< one angle searched in the field of a revolved ellipse
+  two_surfaces         ///< two angles of one surface searched in the field of the other
+};
+
 /// How the pairs of two kinds of primitives are treated.
 struct PairPlan {
-  std::string kinds;     ///< "circle_tube / revolved_ellipse"
-  std::string distance;  ///< the reduction used, in words
-  int pairs = 0;         ///< pairs of bodies (with images) within reach at rest
+  std::array<PrimitiveKind, 2> kinds;  ///< in the order of their names
+  Reduction reduction;
+  int pairs = 0;  ///< pairs of bodies (with images) within reach at rest
+};
+
+/// Sizes of the meshes that stand for primitives.
+struct MeshPlan {
+  std::size_t least_triangles = 0, most_triangles = 0, most_edges = 0;
 };
 
 /// A close pair at rest, file units.
@@ -25,17 +43,22 @@ struct TightPair {
 struct Plan {
   double length = 0.0;  ///< characteristic length, file units
   int elements = 0, primitives = 0;
-  int unknowns = 0;  ///< macro + coordinates + rotations
-  int inert = 0;     ///< spins about a common axis of all of an element's primitives
-  std::string linear_solver;
+  int unknowns = 0;     ///< macro + coordinates + rotations
+  int inert = 0;        ///< spins about a common axis of all of an element's primitives
+  bool sparse = false;  ///< Hessians are (Model::sparse)
+  bool height_fixed = false, circles_only = false;
+  ContactChoice contact = ContactChoice::automatic;
+  Schedule schedule;
+  std::vector<PlannedStage> stages;  ///< of barriers; none of `constrained`
+  std::optional<MeshPlan> mesh;      ///< of contact `mesh`
+  std::size_t neighbours = 0;        ///< limits beside those asked for, which only teach
+  double neighbour_degrees = 0.0;
   std::vector<PairPlan> pairs;
   int image_pairs = 0;     ///< element pairs within reach at rest
   Image farthest_image{};  ///< largest image indices among them
   std::vector<int> links_per_element;
-  std::vector<TightPair> tightest;     ///< up to ten, nearest first
-  std::vector<std::string> decisions;  ///< sentences: what was left out, and why it is exact
-  std::vector<std::pair<LimitTask, std::string>>
-      bounded;  ///< per task: "attained", "unbounded", "not attained"
+  std::vector<TightPair> tightest;                         ///< up to ten, nearest first
+  std::vector<std::pair<LimitTask, Boundedness>> bounded;  ///< per task, by links alone
 };
 
 Plan make_plan(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings);

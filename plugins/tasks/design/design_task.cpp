@@ -77,12 +77,12 @@ class DesignTask final : public TaskRun {
     const std::size_t per = spec_.quantity == DesignQuantity::eta ? 2 : 1;
     for (std::size_t k = 0; k < per * spec_.targets.size(); ++k) {
       const auto& [task, bounded] = plan.bounded[k];
-      if (bounded == "attained") continue;
+      if (bounded == Boundedness::attained) continue;
       const std::string name =
           limit_name(experiment_.load_case->sense_name(task.direction, task.sense), task.direction);
       diagnostics.problems.add(
           nearest_node(experiment_.resolved, fmt::format("/design/targets/{}", k / per)),
-          fmt::format("{} is {}: links set no limit that a design could change", name, bounded));
+          fmt::format("{} is {}: links set no limit that a design could change", name, to_string(bounded)));
     }
   }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks the layout of every source file (clang-format) and runs clang-tidy under .clang-tidy over every file of
 # the compile database of build/release, or of the build folder named by HAUBERK_BUILD. Arguments are patterns:
-# share/lint.sh kernel/src/contact runs clang-tidy on the files whose path contains that. Exit code 0: nothing found.
+# share/lint.sh kernel/contact runs clang-tidy on the files whose path contains that. Exit code 0: nothing found.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build="${HAUBERK_BUILD:-build/release}"

@@ -7,7 +7,9 @@
 #include <boost/json/array.hpp>
 #include <boost/json/value_from.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 namespace hauberk {
@@ -212,7 +214,45 @@ json::object plan_json(const Prepared& prepared, const Plan& plan)
   return out;
 }
 
-std::string plan_text(const Prepared& prepared, const Plan& plan)
+namespace {
+
+std::string value_text(const json::value& value)
+{
+  if (const json::string* text = value.if_string()) return std::string(*text);
+  if (value.is_double()) return fmt::format("{:g}", value.as_double());
+  if (value.is_number()) return fmt::format("{}", value.to_number<std::int64_t>());
+  std::vector<std::string> parts;
+  if (const json::array* list = value.if_array()) {
+    for (const json::value& item : *list) parts.push_back(value_text(item));
+    return fmt::format("{}", fmt::join(parts, ", "));
+  }
+  for (const auto& [key, item] : value.as_object())
+    parts.push_back(fmt::format("{} {}", std::string_view(key), value_text(item)));
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+/// A line per entry; of lists of objects a line per object.
+std::string task_text(const std::string& task, const json::object& entries)
+{
+  if (entries.empty()) return {};
+  std::string text = fmt::format("\nTask {}\n", task);
+  for (const auto& [key, value] : entries) {
+    std::string name(key);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const json::array* list = value.if_array();
+    if (list == nullptr || list->empty() || !list->front().is_object()) {
+      text += fmt::format("  {}: {}\n", name, value_text(value));
+      continue;
+    }
+    text += fmt::format("  {}:\n", name);
+    for (const json::value& item : *list) text += fmt::format("    {}\n", value_text(item));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string plan_text(const Prepared& prepared, const Plan& plan, const json::object& task)
 {
   const Plan& p = plan;
   const std::string& unit = prepared.experiment.length_unit;
@@ -226,6 +266,7 @@ std::string plan_text(const Prepared& prepared, const Plan& plan)
   for (const PairPlan& k : p.pairs)
     text += fmt::format("  {} pairs {}: {}\n", k.pairs, kinds_of(k), words(k.reduction));
   for (const std::string& d : decisions(p)) text += fmt::format("  {}\n", d);
+  text += task_text(prepared.experiment.task, task);
   text += "\nLimits, as far as links decide\n" + bounded_text(prepared, plan);
 
   text += "\nRest state\n";

@@ -10,10 +10,13 @@
 
 namespace hauberk {
 
+/// What links say of a limit: "attained", "unbounded", "not attained".
+std::string to_string(Boundedness bounded);
+
 /// As in results.json, share/doc/results.md.
 boost::json::object plan_json(const Prepared& prepared, const Plan& plan);
 
-/// Several lines, ended by a line break.
-std::string plan_text(const Prepared& prepared, const Plan& plan);
+/// Several lines, ended by a line break. `task`: what the task itself plans (TaskRun::plan), by name.
+std::string plan_text(const Prepared& prepared, const Plan& plan, const boost::json::object& task);
 
 }  // namespace hauberk

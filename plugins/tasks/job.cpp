@@ -24,11 +24,18 @@ Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource
   return job;
 }
 
+boost::json::object plan_document(const Job& job)
+{
+  boost::json::object plan = plan_json(*job.prepared, job.plan);
+  plan["task"] = job.task->plan();
+  return plan;
+}
+
 boost::json::object blank_document(const Job& job, const Provenance& provenance)
 {
   const Prepared& prepared = *job.prepared;
-  return document_without_results(write_json(prepared.experiment.resolved), provenance,
-                                  plan_json(prepared, job.plan), prepared.scene);
+  return document_without_results(write_json(prepared.experiment.resolved), provenance, plan_document(job),
+                                  prepared.scene);
 }
 
 std::vector<NamedContent> result_content(const Job& job, const std::filesystem::path& folder,

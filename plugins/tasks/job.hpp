@@ -18,6 +18,9 @@ struct Job {
 /// Throws ReportedProblems with a line per problem, InputError when a file cannot be read.
 Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource& source);
 
+/// The plan of results.json.
+boost::json::object plan_document(const Job& job);
+
 /// The document of results.json without results: what does not change while the task runs.
 boost::json::object blank_document(const Job& job, const Provenance& provenance);
 

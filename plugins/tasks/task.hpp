@@ -40,6 +40,9 @@ class TaskRun {
   virtual void check_plan(const Plan& /*plan*/, Diagnostics& /*diagnostics*/) const {}
   /// What `check` says of an experiment without problems: "19 elements, 4 limits".
   virtual std::string check_line(const Plan& plan) const = 0;
+  /// What it is going to do beyond one solve of `limit_tasks`: counts and settings by name, for `hauberk
+  /// plan` and results. Numbers, words, and lists or objects of them.
+  virtual boost::json::object plan() const { return {}; }
   /// Whether times are results, so that two machines must not be mixed.
   virtual bool measures_time() const { return false; }
 

@@ -2,6 +2,7 @@
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
 #include "run/plan_text.hpp"
+#include "tasks/job.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +17,8 @@ int plan_command(const std::vector<std::string>& words)
   options.add_experiment_options();
   options.parse(words);
   const Job job = open_job(options);
-  fmt::print("{}", options.has("json") ? write_json(boost::json::value(plan_json(*job.prepared, job.plan)))
-                                       : plan_text(*job.prepared, job.plan));
+  fmt::print("{}", options.has("json") ? write_json(boost::json::value(plan_document(job)))
+                                       : plan_text(*job.prepared, job.plan, job.task->plan()));
   return exit_done;
 }
 

@@ -45,6 +45,17 @@ class ChartTask final : public TaskRun {
                        chart().repeats);
   }
 
+  json::object plan() const override
+  {
+    const auto references = std::count_if(chart_.scenes.begin(), chart_.scenes.end(),
+                                          [](const PrecisionScene& scene) { return scene.has_reference; });
+    return {{"scenes", chart_.scenes.size()},
+            {"methods", chart_.methods.size()},
+            {"references", references},
+            {"points", chart_.points.size()},
+            {"runs_per_point", chart_.repeats}};
+  }
+
   bool measures_time() const override { return true; }
 
   bool resume(const json::value& results) override

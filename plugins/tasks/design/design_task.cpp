@@ -92,6 +92,23 @@ class DesignTask final : public TaskRun {
                        spec_.variables.size());
   }
 
+  boost::json::object plan() const override
+  {
+    boost::json::array variables;
+    for (const DesignVariable& v : spec_.variables)
+      variables.push_back({{"name", v.name}, {"from", v.lower}, {"to", v.upper}});
+    const auto search = [this](double last) {
+      Schedule schedule = spec_.schedule;
+      schedule.last = std::max(schedule.last, last);
+      const std::vector<PlannedStage> stages = planned_stages(prepared_.settings.contact, schedule);
+      return boost::json::object{{"stages", stages.size()}, {"last", stages.back().g_hat}};
+    };
+    const std::size_t searched = (spec_.quantity == DesignQuantity::eta ? 2 : 1) * spec_.targets.size();
+    return {{"variables", variables},      {"limits_per_evaluation", searched},
+            {"starts", spec_.starts},      {"first_search", search(spec_.coarse_last)},
+            {"final_search", search(0.0)}, {"limits_before_and_after", 2 * tasks_.size()}};
+  }
+
   bool resume(const boost::json::value& results) override
   {
     const boost::json::value& design = results.at("design");

@@ -62,6 +62,14 @@ class StabilityTask final : public TaskRun {
                        stability().methods.size(), items_.size());
   }
 
+  json::object plan() const override
+  {
+    return {{"families", map_.families.size()},
+            {"methods", map_.methods.size()},
+            {"scenes", items_.size()},
+            {"cases", map_.cases.size()}};
+  }
+
   /// The experiment is the same, so its cases are the same and in the same order.
   bool resume(const json::value& results) override
   {

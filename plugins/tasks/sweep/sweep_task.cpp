@@ -33,6 +33,18 @@ class SweepTask final : public TaskRun {
                        refused > 0 ? fmt::format(" ({} refused as input)", refused) : "");
   }
 
+  boost::json::object plan() const override
+  {
+    boost::json::array axes;
+    for (const SweepTable::Axis& axis : table_.axes) axes.emplace_back(axis.name);
+    const auto refused = std::count_if(readings_.begin(), readings_.end(),
+                                       [](const VariantReading& row) { return !row.experiment; });
+    return {{"axes", axes},
+            {"rows", readings_.size()},
+            {"refused_as_input", refused},
+            {"limits_per_row", limit_tasks().size()}};
+  }
+
   /// Rows of the same experiment are the same and in the same order.
   bool resume(const boost::json::value& results) override
   {

@@ -63,68 +63,72 @@ class Path {
     return barrier_stage(m_, size_, choice_, schedule_, plan);
   }
 
+  /// Goes to the end of a stage; false where the path ends in it.
   bool stage(PlannedStage plan)
   {
     const State before = out_.state;
     if (arc_to_the_end_) plan.formulation = Formulation::arc;
-    PlannedStage arc = plan;
-    arc.formulation = Formulation::arc;
     StageResult r = attempt(before, plan);
-    if (choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest &&
-        (r.status == StageStatus::merging || r.status == StageStatus::stalled ||
-         r.status == StageStatus::iteration_limit)) {
-      arc_to_the_end_ = r.status != StageStatus::merging;
-      plan = arc;
-      r = attempt(before, plan);
-    }
-    if (choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest && plan.last &&
-        r.status == StageStatus::minimum && r.residual > unbalanced) {
-      // Contacts that merge can leave forces on points that do not balance; spread forces do.
-      const State points = out_.state;
-      const std::vector<State> path = path_;
-      const StageResult spread = attempt(before, arc);
-      if (spread.status == StageStatus::interrupted ||
-          (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
-        plan = arc;
-        r = spread;
-      } else {
-        out_.state = points;
-        path_ = path;
-      }
-    }
+    if (may_change(plan)) repeat_with_arc(before, plan, r);
     if (schedule_.keep_path) out_.path.insert(out_.path.end(), path_.begin(), path_.end());
-    switch (r.status) {
-      case StageStatus::minimum:
-        break;
-      case StageStatus::interrupted:
-        out_.status = LockStatus::interrupted;
-        break;
-      case StageStatus::unbounded:
-        out_.status = LockStatus::unbounded;
-        break;
-      case StageStatus::not_a_sheet:
-        out_.status = LockStatus::not_a_sheet;
-        break;
-      default:
-        out_.status = LockStatus::stalled;
-    }
     if (r.status != StageStatus::minimum) {
+      out_.status = end_of_path(r.status);
       out_.message = r.message;
       return false;
     }
     out_.stage = make_stage(plan);
-    StageRecord record;
-    record.g_hat = plan.g_hat;
-    record.value = load_.dot(out_.state.macro);
-    record.formulation = plan.formulation;
-    record.iterations = r.iterations;
-    record.residual = r.residual;
-    record.escapes = r.escapes;
-    out_.stages.push_back(record);
+    out_.stages.push_back(
+        {plan.g_hat, load_.dot(out_.state.macro), plan.formulation, r.iterations, r.residual, r.escapes});
     out_.trail.push_back(out_.state);
     previous_ = before_valid_ ? std::optional<State>(before) : std::nullopt;
     before_valid_ = true;
     return true;
+  }
+
+  bool may_change(const PlannedStage& plan) const
+  {
+    return choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest;
+  }
+
+  /// Runs a stage of `nearest` again with `arc`, where it gave up or its forces do not balance.
+  void repeat_with_arc(const State& before, PlannedStage& plan, StageResult& r)
+  {
+    PlannedStage arc = plan;
+    arc.formulation = Formulation::arc;
+    if (r.status == StageStatus::merging || r.status == StageStatus::stalled ||
+        r.status == StageStatus::iteration_limit) {
+      arc_to_the_end_ = r.status != StageStatus::merging;
+      plan = arc;
+      r = attempt(before, plan);
+      return;
+    }
+    if (!plan.last || r.status != StageStatus::minimum || !(r.residual > unbalanced)) return;
+    // Contacts that merge can leave forces on points that do not balance; spread forces do.
+    const State points = out_.state;
+    const std::vector<State> path = path_;
+    const StageResult spread = attempt(before, arc);
+    if (spread.status == StageStatus::interrupted ||
+        (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
+      plan = arc;
+      r = spread;
+    } else {
+      out_.state = points;
+      path_ = path;
+    }
+  }
+
+  static LockStatus end_of_path(StageStatus status)
+  {
+    switch (status) {
+      case StageStatus::interrupted:
+        return LockStatus::interrupted;
+      case StageStatus::unbounded:
+        return LockStatus::unbounded;
+      case StageStatus::not_a_sheet:
+        return LockStatus::not_a_sheet;
+      default:
+        return LockStatus::stalled;
+    }
   }
 
   /// A force is as exact as its gap: rounding of coordinates over g. Where many contacts share the load along

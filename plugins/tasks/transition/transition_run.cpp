@@ -185,18 +185,11 @@ std::vector<std::pair<std::size_t, std::string>> transition_problems(const Trans
   return out;
 }
 
-TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
-                                const TransitionObserver& observer, const KeepGoing& keep_going)
-{
-  const Model& m = *spec.model;
-  TransitionResult out;
-  out.length = m.length;
-  out.length_unit = spec.length_unit;
-  out.activation_distance = spec.g_hat * m.length;
-  out.range = spec.range * m.length;
-  out.clearance = m.clearance * m.length;
-  out.eigenvalue_threshold = published::lambda_bar * out.activation_distance * out.activation_distance;
+namespace {
 
+/// A curve for every path and formulation asked for; what is the same as an earlier one is computed once.
+std::vector<CurveItem> curve_items(const TransitionSpec& spec)
+{
   std::vector<CurveItem> items;
   for (std::size_t p = 0; p < spec.paths.size(); ++p) {
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
@@ -205,7 +198,7 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
       item.curve = c;
       item.pair = pair_of(spec, p);
       item.settings = {formulation_at(contact_named(spec.contacts[c]), spec.g_hat, spec.schedule), spec.g_hat,
-                       m.clearance};
+                       spec.model->clearance};
       item.result.contact = spec.contacts[c];
       item.result.formulation = name_of(item.settings.formulation);
       item.same_as = items.size();
@@ -219,57 +212,97 @@ TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
       items.push_back(std::move(item));
     }
   }
-  const std::size_t paths = spec.paths.size(), total = paths + items.size();
-  std::vector<TransitionPath> sampled(paths);
-  std::vector<char> done(total, 0);
+  return items;
+}
+
+/// Paths and curves as far as they were computed.
+struct Computed {
+  std::vector<TransitionPath> paths;
+  std::vector<CurveItem> items;
+  std::vector<char> done;             ///< paths, then items
+  std::vector<std::string> failures;  ///< of the same
+};
+
+void compute(const TransitionSpec& spec, unsigned threads, const TransitionObserver& observer,
+             const KeepGoing& keep_going, Computed& out)
+{
+  const std::size_t paths = out.paths.size(), total = out.done.size();
   std::mutex mutex;  // guards the observer and its count
   std::size_t finished = 0;
-  std::vector<std::string> failures(total);
   parallel_for(total, threads, [&](std::size_t i) {
     if (!keep_going()) return;
     try {
       if (i < paths) {
-        sampled[i] = sampled_path(spec, i);
-      } else {
-        CurveItem& item = items[i - paths];
-        if (item.same_as == i - paths) {
-          compute_curve(spec, item, keep_going);
-        }
+        out.paths[i] = sampled_path(spec, i);
+      } else if (CurveItem& item = out.items[i - paths]; item.same_as == i - paths) {
+        compute_curve(spec, item, keep_going);
       }
     } catch (const Stopped&) {
       return;
     } catch (const ComputationError& error) {
-      failures[i] =
-          fmt::format("path {}: {}", spec.paths[i < paths ? i : items[i - paths].path].name, error.what());
+      const std::size_t path = i < paths ? i : out.items[i - paths].path;
+      out.failures[i] = fmt::format("path {}: {}", spec.paths[path].name, error.what());
       return;
     }
-    done[i] = 1;
+    out.done[i] = 1;
     const std::lock_guard lock(mutex);
     observer(++finished, total);
   });
-  for (const std::string& failure : failures)
-    if (out.message.empty()) out.message = failure;
-  for (std::size_t p = 0; p < paths; ++p) {
-    // Rows and pictures have the same curves on every path: one that lacks some is left out.
-    bool whole = done[p] != 0;
-    for (const CurveItem& item : items) whole = whole && (item.path != p || done[paths + item.same_as] != 0);
-    if (!whole) continue;
-    TransitionPath& path = sampled[p];
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const std::size_t same = items[i].same_as;
-      if (items[i].path != p) continue;
-      if (same != i) {
-        const std::string contact = items[i].result.contact;
-        items[i].points = items[same].points;
-        items[i].result = items[same].result;
-        items[i].result.contact = contact;
-      }
-      path.curves.push_back(items[i].result);
-      for (std::size_t k = 0; k < path.samples.size(); ++k)
-        path.samples[k].forces.push_back(in_file_units(items[i].points[k], m.length));
+}
+
+/// Rows and pictures have the same curves on every path: one that lacks some is left out.
+bool is_whole(const Computed& computed, std::size_t path)
+{
+  const std::size_t paths = computed.paths.size();
+  return computed.done[path] != 0 &&
+         std::all_of(computed.items.begin(), computed.items.end(), [&](const CurveItem& item) {
+           return item.path != path || computed.done[paths + item.same_as] != 0;
+         });
+}
+
+/// The path with its curves.
+TransitionPath with_curves(const TransitionSpec& spec, Computed& computed, std::size_t index)
+{
+  TransitionPath& path = computed.paths[index];
+  for (CurveItem& item : computed.items) {
+    if (item.path != index) continue;
+    if (const CurveItem& same = computed.items[item.same_as]; &same != &item) {
+      const std::string contact = item.result.contact;
+      item.points = same.points;
+      item.result = same.result;
+      item.result.contact = contact;
     }
-    out.paths.push_back(std::move(path));
+    path.curves.push_back(item.result);
+    for (std::size_t k = 0; k < path.samples.size(); ++k)
+      path.samples[k].forces.push_back(in_file_units(item.points[k], spec.model->length));
   }
+  return std::move(path);
+}
+
+}  // namespace
+
+TransitionResult run_transition(const TransitionSpec& spec, unsigned threads,
+                                const TransitionObserver& observer, const KeepGoing& keep_going)
+{
+  const Model& m = *spec.model;
+  TransitionResult out;
+  out.length = m.length;
+  out.length_unit = spec.length_unit;
+  out.activation_distance = spec.g_hat * m.length;
+  out.range = spec.range * m.length;
+  out.clearance = m.clearance * m.length;
+  out.eigenvalue_threshold = published::lambda_bar * out.activation_distance * out.activation_distance;
+
+  Computed computed;
+  computed.items = curve_items(spec);
+  computed.paths.resize(spec.paths.size());
+  computed.done.resize(computed.paths.size() + computed.items.size());
+  computed.failures.resize(computed.done.size());
+  compute(spec, threads, observer, keep_going, computed);
+  for (const std::string& failure : computed.failures)
+    if (out.message.empty()) out.message = failure;
+  for (std::size_t p = 0; p < computed.paths.size(); ++p)
+    if (is_whole(computed, p)) out.paths.push_back(with_curves(spec, computed, p));
   return out;
 }
 

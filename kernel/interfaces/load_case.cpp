@@ -1,6 +1,7 @@
 #include <hauberk/error.hpp>
 #include <hauberk/load_case.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
@@ -94,14 +95,15 @@ void LoadCase::position(std::span<const double> macro, std::span<const double> e
   const auto macros = static_cast<std::size_t>(macro_count());
   const auto coordinates = static_cast<std::size_t>(coordinate_count());
   if (macros > max_macro || coordinates > max_coordinates) {
-    throw PluginError("load case: declares " + std::to_string(macros) + " macroscopic unknowns (at most " +
-                      std::to_string(max_macro) + ") and " + std::to_string(coordinates) +
-                      " coordinates of an element (at most " + std::to_string(max_coordinates) + ")");
+    throw PluginError(
+        fmt::format("load case: declares {} macroscopic unknowns (at most {}) and {} coordinates of "
+                    "an element (at most {})",
+                    macros, max_macro, coordinates, max_coordinates));
   }
   if (macro.size() != macros || e.size() != coordinates) {
-    throw PluginError("load case: expected " + std::to_string(macros) + " macroscopic unknowns and " +
-                      std::to_string(coordinates) + " coordinates, found " + std::to_string(macro.size()) +
-                      " and " + std::to_string(e.size()));
+    throw PluginError(
+        fmt::format("load case: expected {} macroscopic unknowns and {} coordinates, found {} and {}", macros,
+                    coordinates, macro.size(), e.size()));
   }
   // H is large and only read when curved: whoever sets `curved` fills it.
   out.x.setZero();
@@ -118,8 +120,8 @@ void LoadCase::load(const Direction& direction, std::span<double> t) const
   if (direction.is_angle()) return do_load(direction.theta(), t);
   const std::span<const double> d = direction.components();
   if (d.size() != t.size() || t.size() != static_cast<std::size_t>(macro_count())) {
-    throw PluginError("load case: expected a direction of " + std::to_string(macro_count()) +
-                      " components, found " + std::to_string(d.size()));
+    throw PluginError(
+        fmt::format("load case: expected a direction of {} components, found {}", macro_count(), d.size()));
   }
   std::array<double, max_macro> metric{};
   do_metric({metric.data(), d.size()});
@@ -147,8 +149,8 @@ bool LoadCase::transform(const Mat3& O, std::span<const double> macro, std::span
 {
   const auto macros = static_cast<std::size_t>(macro_count());
   if (macro.size() != macros || out.size() != macros) {
-    throw PluginError("load case: expected " + std::to_string(macros) + " macroscopic unknowns, found " +
-                      std::to_string(macro.size()) + " and " + std::to_string(out.size()));
+    throw PluginError(fmt::format("load case: expected {} macroscopic unknowns, found {} and {}", macros,
+                                  macro.size(), out.size()));
   }
   if (O == Mat3::Identity()) {
     std::copy(macro.begin(), macro.end(), out.begin());

@@ -1,6 +1,8 @@
 #include <hauberk/error.hpp>
 #include <hauberk/optimizer.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,14 +17,13 @@ constexpr std::array<std::string_view, 6> known_status = {"converged", "small_st
 void check_start(std::span<const double> lower, std::span<const double> upper, std::span<const double> start)
 {
   if (lower.size() != upper.size() || start.size() != lower.size()) {
-    throw InputError("optimizer: start has " + std::to_string(start.size()) + " variables, bounds have " +
-                     std::to_string(lower.size()) + " and " + std::to_string(upper.size()));
+    throw InputError(fmt::format("optimizer: start has {} variables, bounds have {} and {}", start.size(),
+                                 lower.size(), upper.size()));
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
     if (!(start[i] >= lower[i] && start[i] <= upper[i]) || !std::isfinite(start[i])) {
-      throw InputError("optimizer: variable " + std::to_string(i) + " starts at " + std::to_string(start[i]) +
-                       ", outside its bounds [" + std::to_string(lower[i]) + ", " + std::to_string(upper[i]) +
-                       "]");
+      throw InputError(fmt::format("optimizer: variable {} starts at {:g}, outside its bounds [{:g}, {:g}]",
+                                   i, start[i], lower[i], upper[i]));
     }
   }
 }
@@ -33,17 +34,16 @@ void check_result(std::span<const double> lower, std::span<const double> upper, 
     throw PluginError("optimizer: unknown status '" + result.status + "'");
   }
   if (result.x.size() != lower.size()) {
-    throw PluginError("optimizer: returned " + std::to_string(result.x.size()) + " variables, expected " +
-                      std::to_string(lower.size()));
+    throw PluginError(
+        fmt::format("optimizer: returned {} variables, expected {}", result.x.size(), lower.size()));
   }
   for (std::size_t i = 0; i < result.x.size(); ++i) {
     if (!std::isfinite(result.x[i])) {
-      throw PluginError("optimizer: variable " + std::to_string(i) + " is not finite");
+      throw PluginError(fmt::format("optimizer: variable {} is not finite", i));
     }
     if (result.x[i] < lower[i] || result.x[i] > upper[i]) {
-      throw PluginError("optimizer: variable " + std::to_string(i) + " = " + std::to_string(result.x[i]) +
-                        " is outside its bounds [" + std::to_string(lower[i]) + ", " +
-                        std::to_string(upper[i]) + "]");
+      throw PluginError(fmt::format("optimizer: variable {} = {:g} is outside its bounds [{:g}, {:g}]", i,
+                                    result.x[i], lower[i], upper[i]));
     }
   }
   // A run whose start could not be evaluated has no value to give.

@@ -4,10 +4,10 @@
 #include <hauberk/shape.hpp>
 #include <hauberk/triangle_surface.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include <cmath>
-#include <sstream>
 
 namespace hauberk {
 namespace {
@@ -18,16 +18,13 @@ constexpr double rotation_tolerance = 1e-9;
 void check_parameters(const std::vector<ParameterInfo>& infos, std::span<const double> p)
 {
   if (p.size() != infos.size()) {
-    throw PluginError("shape: expected " + std::to_string(infos.size()) + " parameters, found " +
-                      std::to_string(p.size()));
+    throw PluginError(fmt::format("shape: expected {} parameters, found {}", infos.size(), p.size()));
   }
   for (std::size_t k = 0; k < p.size(); ++k) {
     const ParameterInfo& info = infos[k];
     if (p[k] >= info.lower && p[k] <= info.upper) continue;  // false for not-a-number as well
-    std::ostringstream message;
-    message << "parameter '" << info.name << "' = " << p[k] << " is outside [" << info.lower << ", "
-            << info.upper << "]";
-    throw InputError(message.str());
+    throw InputError(fmt::format("parameter '{}' = {:g} is outside [{:g}, {:g}]", info.name, p[k], info.lower,
+                                 info.upper));
   }
 }
 
@@ -41,17 +38,13 @@ std::string curve_defect(const Primitive& primitive)
   }
   if (primitive.r0() != primitive.r1()) return "is a curve tube with two radii";
   if (!(primitive.r0() >= thinnest * primitive.R())) {
-    std::ostringstream message;
-    message << "is a tube of radius " << primitive.r0() << ", too thin for its curve, which takes "
-            << thinnest * primitive.R() << " and more";
-    return message.str();
+    return fmt::format("is a tube of radius {:g}, too thin for its curve, which takes {:g} and more",
+                       primitive.r0(), thinnest * primitive.R());
   }
   const double bend = ClosedCurve(primitive.curve, 1.0).tightest_bend();
   if (!(bend > primitive.r0())) {
-    std::ostringstream message;
-    message << "is a tube of radius " << primitive.r0() << " around a curve that bends with a radius of "
-            << bend;
-    return message.str();
+    return fmt::format("is a tube of radius {:g} around a curve that bends with a radius of {:g}",
+                       primitive.r0(), bend);
   }
   return {};
 }
@@ -108,15 +101,14 @@ std::vector<PrimitiveJacobian> Shape::jacobians(std::span<const double> p) const
   if (out.empty()) throw PluginError("shape: no Jacobians returned");
   const std::vector<Primitive> shapes = primitives(p);
   if (out.size() != shapes.size()) {
-    throw PluginError("shape: " + std::to_string(out.size()) + " Jacobians returned for " +
-                      std::to_string(shapes.size()) + " primitives");
+    throw PluginError(
+        fmt::format("shape: {} Jacobians returned for {} primitives", out.size(), shapes.size()));
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::size_t expected = static_cast<std::size_t>(geometric_dofs(shapes[i])) * p.size();
-    const std::string which = "shape: Jacobian of primitive " + std::to_string(i);
+    const std::string which = fmt::format("shape: Jacobian of primitive {}", i);
     if (out[i].size() != expected) {
-      throw PluginError(which + " has " + std::to_string(out[i].size()) + " entries, expected " +
-                        std::to_string(expected));
+      throw PluginError(fmt::format("{} has {} entries, expected {}", which, out[i].size(), expected));
     }
     for (const double v : out[i]) {
       if (!std::isfinite(v)) throw PluginError(which + " is not finite");

@@ -2,11 +2,12 @@
 
 #include <hauberk/error.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
 namespace hauberk {
@@ -84,18 +85,15 @@ void ClosedTube::do_primitives(std::span<const double> p, std::vector<Primitive>
   double squares = 0.0;
   for (const Harmonic& h : tube.curve) squares += h.c.squaredNorm() + h.s.squaredNorm();
   if (const double least = thinnest * std::sqrt(0.5 * squares); r < least) {
-    std::ostringstream message;
-    message << "parameter '" << parameters_.back().name << "' = " << r
-            << " is too thin for its curve: at least " << least << " is needed";
-    throw InputError(message.str());
+    throw InputError(fmt::format("parameter '{}' = {:g} is too thin for its curve: at least {:g} is needed",
+                                 parameters_.back().name, r, least));
   }
   const Thickest most = thickest_tube(tube.curve, r);
   if (!(r < most.bend) || !(r < most.pass)) {
-    std::ostringstream message;
-    message << "parameter '" << parameters_.back().name << "' = " << r << " is too thick: the curve "
-            << (r < most.bend ? "comes back to itself at twice " : "bends with a radius of ")
-            << (r < most.bend ? most.pass : most.bend);
-    throw InputError(message.str());
+    throw InputError(fmt::format("parameter '{}' = {:g} is too thick: the curve {} {:g}",
+                                 parameters_.back().name, r,
+                                 r < most.bend ? "comes back to itself at twice" : "bends with a radius of",
+                                 r < most.bend ? most.pass : most.bend));
   }
   out.assign(1, std::move(tube));
 }

@@ -2,8 +2,9 @@
 
 #include <hauberk/error.hpp>
 
+#include <fmt/format.h>
+
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace hauberk {
@@ -40,11 +41,9 @@ void TorusUnion::do_primitives(std::span<const double> p, std::vector<Primitive>
     const double r0 = p[first + 1];
     const double r1 = p[first + 2];
     if (r0 >= R) {
-      std::ostringstream message;
-      message << "parameter '" << parameters_[first + 1].name << "' = " << r0 << " must be smaller than '"
-              << parameters_[first].name << "' = " << R << ": it closes the hole of torus '" << torus.name
-              << "'";
-      throw InputError(message.str());
+      throw InputError(fmt::format(
+          "parameter '{}' = {:g} must be smaller than '{}' = {:g}: it closes the hole of torus '{}'",
+          parameters_[first + 1].name, r0, parameters_[first].name, R, torus.name));
     }
     Primitive primitive;
     primitive.name = torus.name;

@@ -3,11 +3,13 @@
 #include "design/design_problem.hpp"
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
+#include "equilibrium/rest.hpp"
 #include "results/designed_experiment.hpp"
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/limits_run.hpp"
 #include "run/nearest_node.hpp"
+#include "run/plan_text.hpp"
 #include "run/presets.hpp"
 #include "run/run_folder.hpp"
 #include "tasks/design/design_section.hpp"
@@ -57,8 +59,8 @@ class DesignTask final : public TaskRun {
       diagnostics.problems.add(nearest_node(experiment_.resolved, problem.pointer), problem.message);
     if (!diagnostics.empty()) return;
     try {
-      DesignProblem problem(prepared.scene, *experiment_.load_case, experiment_.solver.clearance,
-                            prepared.settings, spec_, 1, [] { return true; });
+      DesignProblem problem({prepared.scene, *experiment_.load_case, experiment_.solver.clearance,
+                             prepared.settings, spec_, 1, [] { return true; }});
       if (const std::string impossible = problem.impossible_hole(); !impossible.empty())
         diagnostics.problems.add(nearest_node(experiment_.resolved, "/design/hole_clearance"), impossible);
       initial_scene_ = with_rest(problem.current().spec, problem.current().model, problem.current().rest);

@@ -220,7 +220,7 @@ TEST(OptimizerChecks, Start)
   EXPECT_EQ(start({0.5}), "(nothing thrown)");
   EXPECT_EQ(start({0.5, 0.5}), "optimizer: start has 2 variables, bounds have 1 and 1");
   EXPECT_EQ(start({2.0}),
-            "optimizer: variable 0 starts at 2.000000, outside its bounds [0.000000, 1.000000]");
+            "optimizer: variable 0 starts at 2, outside its bounds [0, 1]");
   EXPECT_NE(start({std::nan("")}), "(nothing thrown)");
 }
 
@@ -237,7 +237,7 @@ TEST(OptimizerChecks, Result)
   EXPECT_EQ(with([](OptimizerResult& r) { r.x.clear(); }), "optimizer: returned 0 variables, expected 1");
   EXPECT_EQ(with([](OptimizerResult& r) { r.x[0] = infinity; }), "optimizer: variable 0 is not finite");
   EXPECT_EQ(with([](OptimizerResult& r) { r.x[0] = -1.0; }),
-            "optimizer: variable 0 = -1.000000 is outside its bounds [0.000000, 1.000000]");
+            "optimizer: variable 0 = -1 is outside its bounds [0, 1]");
   EXPECT_EQ(with([](OptimizerResult& r) { r.value = std::nan(""); }), "optimizer: the value is not finite");
   EXPECT_EQ(with([](OptimizerResult& r) {
               r.status = "failed";

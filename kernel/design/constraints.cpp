@@ -16,7 +16,8 @@ enum BodySize { size_R = 3, size_r0 = 4, size_r1 = 5 };
 
 }  // namespace
 
-DesignConstraints::DesignConstraints(const DesignScene& scene, const DesignPoint& start) : scene_(scene)
+DesignConstraints::DesignConstraints(std::shared_ptr<const DesignScene> scene, const DesignPoint& start)
+    : scene_(std::move(scene))
 {
   const Model& m = start.model;
   for (const Link& l : m.links) {
@@ -50,7 +51,7 @@ double DesignConstraints::hole_room(const Model& model, const Hole& hole) const
   const Body& ring = model.bodies[static_cast<std::size_t>(hole.ring)];
   const Body& thread = model.bodies[static_cast<std::size_t>(hole.thread)];
   return ring.R - ring.r0 - (hole.size_index == size_r0 ? thread.r0 : thread.r1) -
-         scene_.design.hole_clearance / model.length;
+         scene_->design.hole_clearance / model.length;
 }
 
 void DesignConstraints::add_hole_derivatives(const Model& model, const Hole& hole,
@@ -59,7 +60,7 @@ void DesignConstraints::add_hole_derivatives(const Model& model, const Hole& hol
   const auto add = [&](int body, int quantity, double factor) {
     const int element = model.bodies[static_cast<std::size_t>(body)].element;
     for (std::size_t v = 0; v < row.size(); ++v) {
-      for (const auto& [el, parameter] : scene_.design.variables[v].entries) {
+      for (const auto& [el, parameter] : scene_->design.variables[v].entries) {
         if (el != element) continue;
         row[v] += factor * model.size_derivative(static_cast<std::size_t>(body), quantity, parameter);
       }
@@ -73,7 +74,7 @@ void DesignConstraints::add_hole_derivatives(const Model& model, const Hole& hol
 void DesignConstraints::evaluate(const DesignPoint& point, const Model& otherwise, std::span<double> c,
                                  std::span<double> jacobian) const
 {
-  const std::vector<DesignVariable>& variables = scene_.design.variables;
+  const std::vector<DesignVariable>& variables = scene_->design.variables;
   const std::size_t nv = variables.size();
   const auto row_of = [&](std::size_t row) { return jacobian.subspan(row * nv, nv); };
   std::fill(jacobian.begin(), jacobian.end(), 0.0);
@@ -88,7 +89,7 @@ void DesignConstraints::evaluate(const DesignPoint& point, const Model& otherwis
     for (; row < c.size(); ++row) c[row] = -1.0;
     return;
   }
-  const double target = scene_.rest_target(m);
+  const double target = scene_->rest_target(m);
   const Matrix response = jacobian.empty() ? Matrix() : rest_response(point, variables);
   for (const Pair& pair : pairs_) {
     c[row] = response_range;  // farther than that: not binding, no gradient
@@ -117,7 +118,7 @@ bool DesignConstraints::satisfied(const DesignPoint& point, const Model& otherwi
 
 std::string DesignConstraints::impossible_hole(const DesignPoint& point) const
 {
-  const std::vector<DesignVariable>& variables = scene_.design.variables;
+  const std::vector<DesignVariable>& variables = scene_->design.variables;
   const std::size_t nv = variables.size();
   std::vector<double> c(static_cast<std::size_t>(count())), jacobian(c.size() * nv);
   evaluate(point, point.model, c, jacobian);
@@ -129,7 +130,8 @@ std::string DesignConstraints::impossible_hole(const DesignPoint& point) const
       const double slope = jacobian[row * nv + v];
       if (slope != 0.0) x[v] = slope > 0.0 ? variables[v].upper : variables[v].lower;
     }
-    const Model most = make_model(with_variables(scene_.scene, variables, x), scene_.load, scene_.clearance);
+    const Model most =
+        make_model(with_variables(scene_->scene, variables, x), scene_->load, scene_->clearance);
     const double room = hole_room(most, holes_[row]);
     if (room >= least) continue;
     least = room;
@@ -137,8 +139,8 @@ std::string DesignConstraints::impossible_hole(const DesignPoint& point) const
     text = fmt::format(
         "{0:.6g} {1} is more than the bounds of the variables allow: at most {2:.6g} {1} are left in the "
         "hole of the first of {3}; widen the bounds, or lower it",
-        scene_.design.hole_clearance, scene_.scene.length_unit,
-        room * most.length + scene_.design.hole_clearance, pair_name(scene_.scene, most, pair));
+        scene_->design.hole_clearance, scene_->scene.length_unit,
+        room * most.length + scene_->design.hole_clearance, pair_name(scene_->scene, most, pair));
   }
   return text;
 }

@@ -4,8 +4,10 @@
 #include "design/design_point.hpp"
 #include "design/design_scene.hpp"
 
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hauberk {
@@ -20,7 +22,7 @@ inline constexpr double constrained_range = 0.3;
 /// rest distance of close pairs. Which they are is decided at the start. Immutable; thread safe.
 class DesignConstraints {
  public:
-  DesignConstraints(const DesignScene& scene, const DesignPoint& start);
+  DesignConstraints(std::shared_ptr<const DesignScene> scene, const DesignPoint& start);
 
   int count() const { return static_cast<int>(holes_.size() + pairs_.size()); }
   /// Values at a design and their Jacobian, row-major count x variables (empty: not wanted). Of a design
@@ -50,7 +52,7 @@ class DesignConstraints {
   double hole_room(const Model& model, const Hole& hole) const;
   void add_hole_derivatives(const Model& model, const Hole& hole, std::span<double> row) const;
 
-  const DesignScene& scene_;
+  std::shared_ptr<const DesignScene> scene_;
   std::vector<Hole> holes_;
   std::vector<Pair> pairs_;
 };

@@ -22,26 +22,30 @@ std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()
 }  // namespace
 
 DesignProblem::DesignProblem(DesignScene scene)
-    : scene_(std::move(scene)), journal_(scene_), rest_path_(scene_), current_(start_point()), last_(current_)
+    : scene_(std::make_shared<const DesignScene>(std::move(scene))),
+      journal_(scene_),
+      rest_path_(scene_),
+      current_(start_point()),
+      last_(current_)
 {
-  for (const DesignVariable& v : scene_.design.variables) {
+  for (const DesignVariable& v : scene_->design.variables) {
     lower_.push_back(v.lower);
     upper_.push_back(v.upper);
   }
-  constraints_ = std::make_unique<const DesignConstraints>(scene_, *current_);
+  constraints_ = std::make_shared<const DesignConstraints>(scene_, *current_);
 }
 
 std::shared_ptr<DesignPoint> DesignProblem::start_point() const
 {
   auto p = std::make_shared<DesignPoint>();
   p->x = scene_variables();
-  p->spec = scene_.scene;
-  p->model = make_model(scene_.scene, scene_.load, scene_.clearance);
-  const double target = scene_.rest_target(p->model);
+  p->spec = scene_->scene;
+  p->model = make_model(scene_->scene, scene_->load, scene_->clearance);
+  const double target = scene_->rest_target(p->model);
   const Relaxed r = relax(p->model, rest_state(p->model), target);
   if (!r.problem.empty())
     throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem +
-                     tightest_pair(scene_.scene, p->model, r.state));
+                     tightest_pair(scene_->scene, p->model, r.state));
   p->rest = r.state;
   p->rest_gaps = find_gaps(p->model, p->rest, target + response_range, true);
   p->warm.resize(journal_.task_count());
@@ -59,10 +63,10 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
   }
   auto p = std::make_shared<DesignPoint>();
   p->x = copy(x);
-  p->spec = with_variables(scene_.scene, scene_.design.variables, x);
+  p->spec = with_variables(scene_->scene, scene_->design.variables, x);
   last_ = p;
   try {
-    p->model = make_model(p->spec, scene_.load, scene_.clearance);
+    p->model = make_model(p->spec, scene_->load, scene_->clearance);
   } catch (const InputError& e) {
     p->why = e.what();
     return p;
@@ -74,7 +78,7 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
     return p;
   }
   p->rest = way.rest;
-  p->rest_gaps = find_gaps(p->model, p->rest, scene_.rest_target(p->model) + response_range, true);
+  p->rest_gaps = find_gaps(p->model, p->rest, scene_->rest_target(p->model) + response_range, true);
   return p;
 }
 
@@ -99,8 +103,8 @@ bool DesignProblem::residuals(std::span<const double> x, std::span<double> r, st
   const std::shared_ptr<DesignPoint> p = make_point(x);
   if (!p->evaluated) return false;
   std::size_t entry = 0;
-  for (std::size_t i = 0; i < scene_.design.targets.size(); ++i) {
-    const DesignTarget& t = scene_.design.targets[i];
+  for (std::size_t i = 0; i < scene_->design.targets.size(); ++i) {
+    const DesignTarget& t = scene_->design.targets[i];
     const double w = std::sqrt(t.weight);
     r[i] = w * (p->values[i] - t.value);
     for (std::size_t v = 0; v < x.size(); ++v)
@@ -123,9 +127,9 @@ double DesignProblem::largest_safe_step(std::span<const double> x, std::span<con
   while (share > smallest_share) {
     end.x = copy(x);
     for (std::size_t k = 0; k < d.size(); ++k) end.x[k] += share * d[k];
-    end.spec = with_variables(scene_.scene, scene_.design.variables, end.x);
+    end.spec = with_variables(scene_->scene, scene_->design.variables, end.x);
     try {
-      end.model = make_model(end.spec, scene_.load, scene_.clearance);
+      end.model = make_model(end.spec, scene_->load, scene_->clearance);
       return share * rest_path_.follow(current_, end).share;
     } catch (const InputError&) {
       share *= 0.5;
@@ -156,7 +160,7 @@ std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
   for (int move = 0; move < most_start_moves; ++move) {
     constraints(current_->x, c, jacobian);
     const std::vector<double> x0 = current_->x;
-    const std::vector<double> x = project(c, jacobian, x0, goal, scene_.design.variables);
+    const std::vector<double> x = project(c, jacobian, x0, goal, scene_->design.variables);
     bool moved = false;
     double share = 1.0;
     for (int k = 0; k < most_halvings && !moved; ++k, share *= 0.5) {
@@ -182,7 +186,7 @@ void DesignProblem::accept(std::span<const double> x)
                                                                         ? "did not evaluate from its iterate"
                                                                         : "could not evaluate: " + p->why));
   // What ends a search has to be what its limits are recomputed as.
-  const bool at_the_goal = meets_targets(scene_.design, p->values);
+  const bool at_the_goal = meets_targets(scene_->design, p->values);
   p->thorough = at_the_goal;
   take(p, p->unchecked >= most_unchecked || at_the_goal);
 }

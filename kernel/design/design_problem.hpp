@@ -27,7 +27,7 @@ class DesignProblem final : public OptimizationProblem {
   std::span<const double> upper() const override { return upper_; }
   int constraint_count() const override { return constraints_->count(); }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override;
-  int residual_count() const override { return static_cast<int>(scene_.design.targets.size()); }
+  int residual_count() const override { return static_cast<int>(scene_->design.targets.size()); }
   bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override;
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override;
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
@@ -46,7 +46,7 @@ class DesignProblem final : public OptimizationProblem {
   /// The last accepted design.
   const DesignPoint& current() const { return *current_; }
   /// Variables of the scene as given.
-  std::vector<double> scene_variables() const { return scene_.variables(); }
+  std::vector<double> scene_variables() const { return scene_->variables(); }
   /// Moves the start along d as far as nothing collides and every constraint holds; returns the design.
   std::vector<double> feasible_towards(std::span<const double> d);
   long evaluations() const { return journal_.evaluations(); }
@@ -62,12 +62,12 @@ class DesignProblem final : public OptimizationProblem {
   /// Makes p the iterate; on request after a check.
   void take(const std::shared_ptr<DesignPoint>& p, bool look_from_rest);
 
-  DesignScene scene_;
+  std::shared_ptr<const DesignScene> scene_;
   std::vector<double> lower_, upper_;
   DesignJournal journal_;
   RestPath rest_path_;
   std::shared_ptr<DesignPoint> current_, last_;
-  std::unique_ptr<const DesignConstraints> constraints_;
+  std::shared_ptr<const DesignConstraints> constraints_;
   /// Evaluated from the iterate: an optimizer may try several before it accepts one.
   std::vector<std::shared_ptr<DesignPoint>> tried_;
   /// Iterates: an optimizer may go back to its best one, which is not always on the way from the last.

@@ -7,7 +7,7 @@
 
 namespace hauberk {
 
-/// Outlives the parts, which keep references to it. `load` outlives it.
+/// The parts share it; nothing of it changes. `load` outlives it.
 struct DesignScene {
   SceneSpec scene;
   const LoadCase& load;

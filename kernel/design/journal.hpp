@@ -4,12 +4,15 @@
 #include "design/evaluation_memory.hpp"
 #include "design/target_search.hpp"
 
+#include <memory>
+#include <utility>
+
 namespace hauberk {
 
 /// Not thread safe.
 class DesignJournal {
  public:
-  explicit DesignJournal(const DesignScene& scene) : search_(scene) {}
+  explicit DesignJournal(std::shared_ptr<const DesignScene> scene) : search_(std::move(scene)) {}
 
   /// Evaluations are recalled from `memory` as far as it knows them, and recorded there; null: neither. It
   /// must outlive this.

@@ -31,7 +31,7 @@ const RestPath::End& RestPath::follow(const std::shared_ptr<DesignPoint>& from, 
 
 RestPath::End RestPath::end_of_way(const DesignPoint& from, const DesignPoint& to) const
 {
-  const std::vector<DesignVariable>& variables = scene_.design.variables;
+  const std::vector<DesignVariable>& variables = scene_->design.variables;
   DesignPoint at;
   at.model = from.model;
   at.rest = from.rest;
@@ -57,14 +57,14 @@ RestPath::End RestPath::end_of_way(const DesignPoint& from, const DesignPoint& t
     const State predicted = advanced(at.model, at.rest, dy, 1.0);
     longest = 2.0 * part;
     way.share = end;
-    const Relaxed r = way.share < 1.0 ? relax(*next, predicted, scene_.rest_target(*next) + rest_room,
+    const Relaxed r = way.share < 1.0 ? relax(*next, predicted, scene_->rest_target(*next) + rest_room,
                                               Cell::fixed, rest_iterations)
-                                      : relax(*next, predicted, scene_.rest_target(*next));
+                                      : relax(*next, predicted, scene_->rest_target(*next));
     const Vector back = difference(*next, predicted, r.state);
     const bool passes = r.moved && largest_safe_step(*next, predicted, back, 0.02).alpha < 1.0;
     at.rest = passes ? predicted : r.state;
     at.model = std::move(*next);
-    at.rest_gaps = find_gaps(at.model, at.rest, scene_.rest_target(at.model) + response_range, true);
+    at.rest_gaps = find_gaps(at.model, at.rest, scene_->rest_target(at.model) + response_range, true);
     way.rest = at.rest;
   }
   return way;

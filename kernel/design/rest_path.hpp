@@ -5,6 +5,7 @@
 #include "design/design_scene.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace hauberk {
@@ -16,7 +17,7 @@ inline constexpr double response_range = 0.03;
 /// tried. Not thread safe.
 class RestPath {
  public:
-  explicit RestPath(const DesignScene& scene) : scene_(scene) {}
+  explicit RestPath(std::shared_ptr<const DesignScene> scene) : scene_(std::move(scene)) {}
 
   /// How far the rest state can be followed, and where it is there.
   struct End {
@@ -28,7 +29,7 @@ class RestPath {
  private:
   End end_of_way(const DesignPoint& from, const DesignPoint& to) const;
 
-  const DesignScene& scene_;
+  std::shared_ptr<const DesignScene> scene_;
   End end_;
   std::shared_ptr<DesignPoint> from_;
   std::vector<double> to_;

@@ -74,7 +74,7 @@ Value value_of(const Model& model, const Locked& l, const MacroLoad& load, Desig
 Locked TargetSearch::search(const DesignPoint& p, const State& start, const MacroLoad& load,
                             const Schedule& schedule, LockedTarget& counted) const
 {
-  Locked l = lock(p.model, start, load, scene_.limits.contact, schedule, scene_.keep_going);
+  Locked l = lock(p.model, start, load, scene_->limits.contact, schedule, scene_->keep_going);
   counted.evaluations += l.evaluations;
   return l;
 }
@@ -82,8 +82,8 @@ Locked TargetSearch::search(const DesignPoint& p, const State& start, const Macr
 Locked TargetSearch::search_from_rest(const DesignPoint& p, const MacroLoad& load, int attempt,
                                       LockedTarget& counted) const
 {
-  const std::uint64_t seed = scene_.limits.seed + static_cast<std::uint64_t>(attempt);
-  const State start = perturbed(p.model, p.rest, scene_.limits.perturbation, seed, Copies::apart);
+  const std::uint64_t seed = scene_->limits.seed + static_cast<std::uint64_t>(attempt);
+  const State start = perturbed(p.model, p.rest, scene_->limits.perturbation, seed, Copies::apart);
   return search(p, start, load, schedule_, counted);
 }
 
@@ -113,7 +113,7 @@ bool TargetSearch::lock_from_rest(const DesignPoint& p, const MacroLoad& load,
 bool TargetSearch::lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                                      const std::vector<WarmStart>& warm, LockedTarget& out) const
 {
-  const std::vector<DesignVariable>& variables = scene_.design.variables;
+  const std::vector<DesignVariable>& variables = scene_->design.variables;
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
     const std::optional<State> start = followed(from, warm[j], p, variables, load.held);
@@ -148,7 +148,7 @@ TargetSearch::LockedTarget TargetSearch::lock_target(const DesignPoint& p, const
   // The state has no continuation that could be found.
   Locked found;
   if (!warm.empty()) {
-    const std::optional<State> start = followed(from, warm.front(), p, scene_.design.variables, load.held);
+    const std::optional<State> start = followed(from, warm.front(), p, scene_->design.variables, load.held);
     if (start) found = search(p, *start, load, schedule_, out);
     out.followed = true;
     out.changed = !start || found.status != LockStatus::locked;
@@ -162,7 +162,7 @@ TargetSearch::LockedTarget TargetSearch::lock_target(const DesignPoint& p, const
 
 std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoint& p, long& evaluations) const
 {
-  LimitSettings settings = scene_.limits;
+  LimitSettings settings = scene_->limits;
   settings.start = p.rest;
   settings.schedule = schedule_;
   settings.neighbours = 0.0;  // targets are neighbours of each other; others would be most of the cost
@@ -173,7 +173,7 @@ std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoin
     for (const LimitResult& limit : limits) evaluations += limit.evaluations;
   };
   observer.on_unreported = count;
-  count(compute_limits(p.model, p.spec, tasks_, settings, scene_.threads, observer));
+  count(compute_limits(p.model, p.spec, tasks_, settings, scene_->threads, observer));
   return states;
 }
 
@@ -193,11 +193,11 @@ void TargetSearch::learn(const DesignPoint& p, const std::vector<MacroLoad>& loa
     const std::vector<Lesson> lessons = rounds.next(own, given);
     if (lessons.empty()) return;
     std::vector<Locked> found(lessons.size());
-    parallel_for(lessons.size(), scene_.threads, [&](std::size_t i) {
+    parallel_for(lessons.size(), scene_->threads, [&](std::size_t i) {
       const auto [k, donor] = lessons[i];
       try {
-        found[i] = lock(p.model, targets[donor].locked.state, loads[k], scene_.limits.contact,
-                        without_widest(schedule_), scene_.keep_going);
+        found[i] = lock(p.model, targets[donor].locked.state, loads[k], scene_->limits.contact,
+                        without_widest(schedule_), scene_->keep_going);
       } catch (const ComputationError&) {
         // What cannot be computed teaches nothing: the learner keeps its own state.
       }
@@ -221,10 +221,10 @@ TargetSearch::Estimate TargetSearch::estimate(const DesignPoint& p, std::size_t 
                                               LockedTarget& target) const
 {
   const double sign = tasks_[task].sense == Sense::positive ? 1.0 : -1.0;
-  const double scale = sign * std::pow(p.model.length, scene_.load.value_length_power());
-  const Value v = value_of(p.model, target.locked, load, scene_.design.value);
+  const double scale = sign * std::pow(p.model.length, scene_->load.value_length_power());
+  const Value v = value_of(p.model, target.locked, load, scene_->design.value);
   target.evaluations += v.evaluations;
-  const std::vector<DesignVariable>& variables = scene_.design.variables;
+  const std::vector<DesignVariable>& variables = scene_->design.variables;
   Estimate out{scale * v.value, Vector::Zero(static_cast<int>(variables.size()))};
   for (std::size_t i = 0; i < variables.size(); ++i) {
     for (const auto& [element, parameter] : variables[i].entries)
@@ -245,7 +245,7 @@ long TargetSearch::solve(DesignPoint& p, const DesignPoint& from) const
   std::vector<MacroLoad> loads;
   for (const LimitTask& task : tasks_) loads.push_back(macro_load(p.model, task.direction, task.sense));
   const auto each = [&](const auto& compute) {
-    parallel_for(n, scene_.threads, [&](std::size_t k) {
+    parallel_for(n, scene_->threads, [&](std::size_t k) {
       try {
         compute(k);
       } catch (const ComputationError& e) {  // of this design, which is one of many
@@ -281,7 +281,7 @@ long TargetSearch::solve(DesignPoint& p, const DesignPoint& from) const
 
 void TargetSearch::enter_objective(DesignPoint& p, const std::vector<Estimate>& estimates) const
 {
-  const DesignSpec& design = scene_.design;
+  const DesignSpec& design = scene_->design;
   const auto nv = static_cast<int>(design.variables.size());
   const auto nt = static_cast<int>(design.targets.size());
   p.value_gradients = Matrix::Zero(nt, nv);

@@ -4,8 +4,10 @@
 #include "design/design_point.hpp"
 #include "design/design_scene.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hauberk {
@@ -14,8 +16,8 @@ namespace hauberk {
 /// thread safe itself.
 class TargetSearch {
  public:
-  explicit TargetSearch(const DesignScene& scene)
-      : scene_(scene), schedule_(scene.design.schedule), tasks_(target_tasks(scene.design))
+  explicit TargetSearch(std::shared_ptr<const DesignScene> scene)
+      : scene_(std::move(scene)), schedule_(scene_->design.schedule), tasks_(target_tasks(scene_->design))
   {
   }
 
@@ -68,7 +70,7 @@ class TargetSearch {
   /// Values of the targets, objective and gradient from the estimates of the tasks.
   void enter_objective(DesignPoint& p, const std::vector<Estimate>& estimates) const;
 
-  const DesignScene& scene_;
+  std::shared_ptr<const DesignScene> scene_;
   Schedule schedule_;
   std::vector<LimitTask> tasks_;
 };

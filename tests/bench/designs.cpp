@@ -15,9 +15,8 @@ constexpr double step_size = 0.01;
 DesignProblem design_problem(const Scene& scene)
 {
   const Prepared& p = scene.prepared();
-  return {
-      p.scene, *p.experiment.load_case, p.experiment.solver.clearance, p.settings, design_spec(p.experiment),
-      1,       [] { return true; }};
+  return DesignProblem({p.scene, *p.experiment.load_case, p.experiment.solver.clearance, p.settings,
+                        design_spec(p.experiment), 1, [] { return true; }});
 }
 
 /// Throws if the design cannot be evaluated.

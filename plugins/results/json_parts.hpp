@@ -1,5 +1,5 @@
 #pragma once
-/// Pieces of the results document; lengths and units as in hauberk/results.hpp.
+/// Pieces of the results document; lengths and units as in limits/results.hpp.
 
 #include "limits/results.hpp"
 

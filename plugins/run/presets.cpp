@@ -14,7 +14,7 @@ constexpr double last_of_tubes = 0.25;
 constexpr double least_last = 1e-11;
 
 /// Activation distance of the paper, sqrt(d_hat) with d_hat = 1e-8 m^2: absolute. Its other thresholds have
-/// fixed proportions to d_hat (hauberk/contact/published.hpp).
+/// fixed proportions to d_hat (contact/published.hpp).
 constexpr double paper_activation = 1e-4;  // metres
 /// A larger activation distance than this (L) is no contact any more.
 constexpr double largest_activation = 0.1;

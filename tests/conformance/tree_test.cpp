@@ -20,6 +20,16 @@ HAUBERK_CONFORMANCE_TESTS(TorusUnionThreefold, folder + "torus_union.so", R"({
 HAUBERK_CONFORMANCE_TESTS(Mesh, folder + "mesh.so",
                           R"({ "shape": "mesh", "file": ")" HAUBERK_SOURCE_DIR
                           R"(/shapes/mesh/frame.obj" })");
+HAUBERK_CONFORMANCE_TESTS(ClosedTubeOval, folder + "closed_tube.so",
+                          R"({ "shape": "closed_tube", "curve": "oval" })");
+HAUBERK_CONFORMANCE_TESTS(ClosedTubeRacetrack, folder + "closed_tube.so",
+                          R"({ "shape": "closed_tube", "curve": "racetrack" })");
+HAUBERK_CONFORMANCE_TESTS(ClosedTubePolygon, folder + "closed_tube.so",
+                          R"({ "shape": "closed_tube", "curve": "polygon" })");
+HAUBERK_CONFORMANCE_TESTS(ClosedTubeKnot, folder + "closed_tube.so",
+                          R"({ "shape": "closed_tube", "curve": "knot" })");
+HAUBERK_CONFORMANCE_TESTS(ClosedTubeFourier, folder + "closed_tube.so",
+                          R"({ "shape": "closed_tube", "curve": "fourier" })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicEquation12, folder + "in_plane_periodic.so",
                           R"({ "measure": "equation_12", "hold": [] })");
@@ -27,6 +37,7 @@ HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicLayer, folder + "in_plane_periodic.so",
                           R"({ "out_of_plane": 0.3 })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicFree, folder + "in_plane_periodic.so",
                           R"({ "out_of_plane": "free" })");
+HAUBERK_CONFORMANCE_TESTS(VolumetricPeriodic, folder + "volumetric_periodic.so");
 HAUBERK_CONFORMANCE_TESTS(ParaboloidBending, folder + "paraboloid_bending.so");
 HAUBERK_CONFORMANCE_TESTS(ParaboloidBendingPlaces, folder + "paraboloid_bending.so",
                           R"({ "hold": ["places", "twist"] })");

@@ -173,7 +173,7 @@ TEST(Nlopt, ResultIsFeasibleAlsoWhereTheMethodComesFromOutside)
   EXPECT_NEAR(r.value, -5.0, 1e-5);
 }
 
-/// Walls all around the start: mma and ccsaq used to ask for such points for ever.
+/// Walls all around the start: mma and ccsaq can ask for such points for ever.
 TEST(NloptOptimizer, EndsWhereNothingCanBeReached)
 {
   for (const NloptAlgorithm algorithm : {NloptAlgorithm::slsqp, NloptAlgorithm::mma, NloptAlgorithm::ccsaq,

@@ -1,4 +1,4 @@
-/// Special arrangements in which the certified distance once failed; random ones are in tests/accuracy.
+/// Special arrangements that are hard for a certified distance; random ones are in tests/accuracy.
 
 #include "geometry/separation.hpp"
 

@@ -1,0 +1,249 @@
+#include "equilibrium/barrier_path.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hauberk {
+namespace {
+
+/// Forces of the last stage that miss the load by more than this part of it are worth a second attempt.
+constexpr double unbalanced = 5e-5;
+/// Rounding of coordinates, L, and the smallest gap under load that a stage leaves, as part of g_hat.
+constexpr double rounding = 1e-15, smallest_gap_of_stage = 0.01;
+constexpr double steady_order =
+    0.3;  ///< relative change of the convergence ratio that still counts as steady
+
+/// Distance to the value at g_hat = 0 from the last three stages of one formulation, when the differences
+/// shrink in proportion to g_hat.
+std::optional<double> estimate_error(const std::vector<StageRecord>& s)
+{
+  const std::size_t n = s.size();
+  if (n < 3) return std::nullopt;
+  const double ratio = s[n - 1].g_hat / s[n - 2].g_hat;
+  if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation)
+    return std::nullopt;
+  const double d1 = s[n - 2].value - s[n - 3].value, d2 = s[n - 1].value - s[n - 2].value;
+  if (d2 == 0.0) return 0.0;
+  const double order = d2 / d1;  // about `ratio` for first order
+  if (!(order > 0.0 && std::abs(order / ratio - 1.0) < steady_order)) return std::nullopt;
+  return std::abs(d2) * order / (1.0 - order);
+}
+
+class Path {
+ public:
+  Path(const Model& m, const State& start, const Vector& load, ContactChoice choice, const Schedule& schedule,
+       const KeepGoing& keep_going)
+      : m_(m),
+        load_(load),
+        choice_(choice),
+        schedule_(schedule),
+        keep_going_(keep_going),
+        size_(load_size(m, load))
+  {
+    out_.state = start;
+    if (schedule.keep_path) out_.path.push_back(start);
+    arc_to_the_end_ = choice == ContactChoice::arc;
+  }
+
+  Locked run()
+  {
+    for (const PlannedStage& planned : planned_stages(choice_, schedule_))
+      if (!stage(planned)) return std::move(out_);
+    out_.status = LockStatus::locked;
+    balance();
+    if (out_.status != LockStatus::locked) return std::move(out_);
+    out_.error_estimate = estimate_error(out_.stages);
+    return std::move(out_);
+  }
+
+ private:
+  Stage make_stage(const PlannedStage& plan) const
+  {
+    return barrier_stage(m_, size_, choice_, schedule_, plan);
+  }
+
+  /// Goes to the end of a stage; false where the path ends in it.
+  bool stage(PlannedStage plan)
+  {
+    const State before = out_.state;
+    if (arc_to_the_end_) plan.formulation = Formulation::arc;
+    StageResult r = attempt(before, plan);
+    if (may_change(plan)) repeat_with_arc(before, plan, r);
+    if (schedule_.keep_path) out_.path.insert(out_.path.end(), path_.begin(), path_.end());
+    if (r.status != StageStatus::minimum) {
+      out_.status = end_of_path(r.status);
+      out_.message = r.message;
+      return false;
+    }
+    out_.stage = make_stage(plan);
+    out_.stages.push_back(
+        {plan.g_hat, load_.dot(out_.state.macro), plan.formulation, r.iterations, r.residual, r.escapes});
+    out_.trail.push_back(out_.state);
+    previous_ = before_valid_ ? std::optional<State>(before) : std::nullopt;
+    before_valid_ = true;
+    return true;
+  }
+
+  bool may_change(const PlannedStage& plan) const
+  {
+    return choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest;
+  }
+
+  /// Runs a stage of `nearest` again with `arc`, where it gave up or its forces do not balance.
+  void repeat_with_arc(const State& before, PlannedStage& plan, StageResult& r)
+  {
+    PlannedStage arc = plan;
+    arc.formulation = Formulation::arc;
+    if (r.status == StageStatus::merging || r.status == StageStatus::stalled ||
+        r.status == StageStatus::iteration_limit) {
+      arc_to_the_end_ = r.status != StageStatus::merging;
+      plan = arc;
+      r = attempt(before, plan);
+      return;
+    }
+    if (!plan.last || r.status != StageStatus::minimum || !(r.residual > unbalanced)) return;
+    // Contacts that merge can leave forces on points that do not balance; spread forces do.
+    const State points = out_.state;
+    const std::vector<State> path = path_;
+    const StageResult spread = attempt(before, arc);
+    if (spread.status == StageStatus::interrupted ||
+        (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
+      plan = arc;
+      r = spread;
+    } else {
+      out_.state = points;
+      path_ = path;
+    }
+  }
+
+  static LockStatus end_of_path(StageStatus status)
+  {
+    switch (status) {
+      case StageStatus::interrupted:
+        return LockStatus::interrupted;
+      case StageStatus::unbounded:
+        return LockStatus::unbounded;
+      case StageStatus::not_a_sheet:
+        return LockStatus::not_a_sheet;
+      default:
+        return LockStatus::stalled;
+    }
+  }
+
+  /// A force is as exact as its gap: rounding of coordinates over g. Where many contacts share the load along
+  /// surfaces that conform, the last stage's gaps can be too small for their forces to balance. Then the last
+  /// stage is a wider one, as little as it takes. The value is then off by a multiple of that g_hat, and as
+  /// a rule without an error estimate, since the last widths are not in the ratio of the others. Where none
+  /// balances the best of them stays, and its forces tell.
+  void balance()
+  {
+    const bool rounding_matters = rounding > 0.1 * unbalanced * smallest_gap_of_stage * schedule_.last;
+    if (!rounding_matters || !(out_.stages.back().residual > unbalanced)) return;
+    const Locked narrowest = out_;
+    Locked best = out_;
+    for (const double wider : {3.0, 10.0, 30.0}) {
+      const double g_hat = wider * schedule_.last;
+      out_.stages = narrowest.stages;
+      out_.trail = narrowest.trail;
+      while (out_.stages.size() > 1 && out_.stages.back().g_hat < 2.0 * g_hat) {
+        out_.stages.pop_back();
+        out_.trail.pop_back();
+      }
+      if (out_.stages.back().g_hat < 2.0 * g_hat) break;
+      out_.state = out_.trail.back();
+      out_.status = narrowest.status;  // what an attempt before this one said does not count
+      out_.message = narrowest.message;
+      previous_.reset();
+      if (!stage(planned_stage(choice_, schedule_, g_hat, true))) {
+        if (out_.status == LockStatus::interrupted) return;
+        continue;
+      }
+      if (out_.stages.back().residual < best.stages.back().residual) best = out_;
+      if (best.stages.back().residual <= unbalanced) break;
+    }
+    best.iterations = out_.iterations;
+    best.evaluations = out_.evaluations;
+    out_ = std::move(best);
+  }
+
+  StageResult attempt(const State& before, const PlannedStage& plan)
+  {
+    State s = before;
+    extrapolate(s, plan);
+    const State from = schedule_.keep_path ? s : State();
+    StageResult r = solve_stage(m_, s, load_, make_stage(plan), keep_going_, &bounds_);
+    out_.iterations += r.iterations;
+    out_.evaluations += r.evaluations;
+    if (schedule_.keep_path) {
+      path_.assign(1, from);
+      path_.insert(path_.end(), r.path.begin(), r.path.end());
+    }
+    out_.state = std::move(s);
+    return r;
+  }
+
+  /// y(g_hat) is asymptotically linear: continue the line through the last two stages' ends. Barriers push
+  /// alike (barrier.hpp), so it goes on where the formulation changes.
+  void extrapolate(State& s, PlannedStage plan)
+  {
+    const std::size_t n = out_.stages.size();
+    if (n < 2 || !previous_) return;
+    const double a = out_.stages[n - 2].g_hat, b = out_.stages[n - 1].g_hat;
+    const Vector dy = ((plan.g_hat - b) / (b - a)) * difference(m_, *previous_, s);
+    plan.last = false;
+    const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(plan), &bounds_);
+    out_.evaluations += safe.evaluations;
+    const State next = advanced(m_, s, dy, safe.alpha);
+    if (m_.load->admissible({next.macro.data(), static_cast<std::size_t>(m_.macro_count)})) s = next;
+  }
+
+  const Model& m_;
+  const Vector& load_;
+  ContactChoice choice_;
+  const Schedule& schedule_;
+  const KeepGoing& keep_going_;
+  double size_;
+  GapBounds bounds_;
+  bool arc_to_the_end_ = false;
+  bool before_valid_ = false;
+  std::vector<State> path_;        ///< of the last attempt, from where its stage began
+  std::optional<State> previous_;  ///< end of the stage before the last finished one
+  Locked out_;
+};
+
+}  // namespace
+
+double load_size(const Model& m, const Vector& load)
+{
+  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
+}
+
+Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Schedule& schedule,
+                    const PlannedStage& plan)
+{
+  const auto& [g_hat, f, quadrature, sides, last] = plan;
+  Stage s;
+  s.contact = {f, g_hat, m.clearance, schedule.search};
+  s.contact.quadrature = quadrature;
+  s.contact.sides = sides;
+  s.contact.threads = schedule.threads;
+  s.ccd = schedule.ccd;
+  s.target = schedule.target;
+  s.mu = schedule.stiffness * g_hat * size;
+  s.keep_path = schedule.keep_path;
+  s.balance = last;
+  s.tolerance = last ? schedule.last_tolerance : schedule.tolerance;
+  s.most_iterations = schedule.most_iterations;
+  if (choice == ContactChoice::automatic && f == Formulation::nearest)
+    s.least_curvature = least_regular_curvature(g_hat);
+  return s;
+}
+
+Locked barrier_lock(const Model& model, const State& start, const Vector& load, ContactChoice choice,
+                    const Schedule& schedule, const KeepGoing& keep_going)
+{
+  return Path(model, start, load, choice, schedule, keep_going).run();
+}
+
+}  // namespace hauberk

@@ -1,5 +1,6 @@
 #pragma once
-/// Clamped barriers, one per dimension of the set they are summed or integrated over.
+/// Clamped barriers, one per dimension of the set they are summed or integrated over. (The published contact
+/// has its own, of squared gaps: published.hpp.)
 
 #include <cmath>
 

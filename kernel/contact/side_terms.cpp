@@ -55,36 +55,36 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
   if (frame.P->curve) {
     add_harmonics(*frame.P->curve, q.u, w1 * Vec3(f.n.dot(frame.e1), f.n.dot(frame.e2), f.n.dot(frame.e3)),
                   curve_P);
-    dP[4] -= w1;  // r1 is r0
+    dP[quantity_r0] -= w1;  // r1 is r0
     if (frame.difference != nullptr) {
       add_harmonics(*frame.difference, q.v, -w1 * f.n, curve_F);
-      dF[4] -= w1;
+      dF[quantity_r0] -= w1;
       return;
     }
     add_field_size(f, w1);
     return;
   }
   const double nr = f.n.dot(q.radial), nz = f.n.dot(frame.e3);
-  dP[3] += w1 * nr;
+  dP[quantity_R] += w1 * nr;
   if constexpr (dim == 1) {
     // The tube's surface point faces F: its profile normal is -(nr, nz). A change of r0 (r1) moves it by
     // cos^2 (sin^2) of its profile angle; both together by 1.
     const double m = std::max(nr * nr + nz * nz, 1e-300);
-    dP[4] -= w1 * nr * nr / m;
-    dP[5] -= w1 * nz * nz / m;
+    dP[quantity_r0] -= w1 * nr * nr / m;
+    dP[quantity_r1] -= w1 * nz * nz / m;
   } else {
-    dP[4] += w1 * nr * q.cv;
-    dP[5] += w1 * nz * q.sv;
+    dP[quantity_r0] += w1 * nr * q.cv;
+    dP[quantity_r1] += w1 * nz * q.sv;
   }
   add_field_size(f, w1);
 }
 
 void SideTerms::add_field_size(const FieldValue& f, double w1)
 {
-  dF[3] -= w1 * f.m.nr;
+  dF[quantity_R] -= w1 * f.m.nr;
   // At the closest profile point (R + r0 c, r1 s) of F.
-  dF[4] -= w1 * f.m.nr * f.m.c;
-  dF[5] -= w1 * f.m.nz * f.m.s;
+  dF[quantity_r0] -= w1 * f.m.nr * f.m.c;
+  dF[quantity_r1] -= w1 * f.m.nz * f.m.s;
 }
 
 std::vector<double> SideTerms::geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,

@@ -11,9 +11,6 @@ namespace {
 
 constexpr int projection_sweeps = 200;
 
-/// Quantities of a body, as Model::size_derivative numbers them.
-enum BodySize { size_R = 3, size_r0 = 4, size_r1 = 5 };
-
 }  // namespace
 
 DesignConstraints::DesignConstraints(std::shared_ptr<const DesignScene> scene, const DesignPoint& start)
@@ -38,7 +35,7 @@ void DesignConstraints::add_hole(const Model& model, int ring, int thread)
 {
   // Nor how wide the hole of a tube around a curve is; links and rest gaps hold it open.
   if (model.bodies[static_cast<std::size_t>(ring)].curve) return;
-  for (const int k : {size_r0, size_r1}) {
+  for (const int k : {quantity_r0, quantity_r1}) {
     const bool known = std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) {
       return h.ring == ring && h.thread == thread && h.size_index == k;
     });
@@ -50,7 +47,7 @@ double DesignConstraints::hole_room(const Model& model, const Hole& hole) const
 {
   const Body& ring = model.bodies[static_cast<std::size_t>(hole.ring)];
   const Body& thread = model.bodies[static_cast<std::size_t>(hole.thread)];
-  return ring.R - ring.r0 - (hole.size_index == size_r0 ? thread.r0 : thread.r1) -
+  return ring.R - ring.r0 - (hole.size_index == quantity_r0 ? thread.r0 : thread.r1) -
          scene_->design.hole_clearance / model.length;
 }
 
@@ -66,8 +63,8 @@ void DesignConstraints::add_hole_derivatives(const Model& model, const Hole& hol
       }
     }
   };
-  add(hole.ring, size_R, 1.0);
-  add(hole.ring, size_r0, -1.0);
+  add(hole.ring, quantity_R, 1.0);
+  add(hole.ring, quantity_r0, -1.0);
   add(hole.thread, hole.size_index, -1.0);
 }
 

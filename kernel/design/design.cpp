@@ -1,6 +1,7 @@
 #include "design/design.hpp"
 
 #include "design/design_problem.hpp"
+#include "model/links.hpp"
 
 #include <hauberk/error.hpp>
 

@@ -3,6 +3,7 @@
 #include "geometry/closed_curve.hpp"
 #include "geometry/separation.hpp"
 #include "model/held_model.hpp"
+#include "model/links.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/triangle_surface.hpp>

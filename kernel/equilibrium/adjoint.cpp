@@ -1,6 +1,7 @@
 #include "equilibrium/adjoint.hpp"
 
 #include "equilibrium/curvature.hpp"
+#include "model/near_pairs.hpp"
 
 #include <hauberk/error.hpp>
 

@@ -1,6 +1,7 @@
 #include "equilibrium/constrained.hpp"
 
 #include "equilibrium/gaps.hpp"
+#include "model/links.hpp"
 #include "numerics/damped_bfgs.hpp"
 #include "numerics/quadratic_program.hpp"
 

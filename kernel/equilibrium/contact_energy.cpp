@@ -2,6 +2,7 @@
 
 #include "contact/barrier.hpp"
 #include "contact/body_pair.hpp"
+#include "model/near_pairs.hpp"
 #include "numerics/parallel.hpp"
 
 namespace hauberk {

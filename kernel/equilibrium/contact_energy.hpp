@@ -3,6 +3,7 @@
 
 #include "contact/formulation.hpp"
 #include "model/model.hpp"
+#include "model/near_pairs.hpp"
 #include "motion/gap_bounds.hpp"
 
 #include <Eigen/SparseCore>

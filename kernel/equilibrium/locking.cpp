@@ -1,6 +1,8 @@
 #include "equilibrium/barrier_path.hpp"
 #include "equilibrium/constrained.hpp"
 
+#include <hauberk/error.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -111,11 +113,14 @@ Locked lock(const Model& model, const State& start, const MacroLoad& load, Conta
 
 ContactChoice contact_named(std::string_view name)
 {
+  if (name == "auto") return ContactChoice::automatic;
   if (name == "nearest") return ContactChoice::nearest;
   if (name == "arc") return ContactChoice::arc;
+  if (name == "published") return ContactChoice::published;
   if (name == "mesh") return ContactChoice::mesh;
   if (name == "constrained") return ContactChoice::constrained;
-  return name == "published" ? ContactChoice::published : ContactChoice::automatic;
+  throw InputError(fmt::format(
+      "contact '{}' is unknown; there are auto, nearest, arc, published, mesh and constrained", name));
 }
 
 std::vector<double> activation_distances(const Schedule& s)

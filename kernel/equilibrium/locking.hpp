@@ -21,8 +21,8 @@ enum class ContactChoice {
                ///< margin
 };
 
-/// The choice of that name in experiments: nearest, arc, published, mesh, constrained; automatic for any
-/// other.
+/// The choice of that name in experiments: auto, nearest, arc, published, mesh or constrained. Throws
+/// InputError for any other.
 ContactChoice contact_named(std::string_view name);
 
 /// Stages of activation distances from `first` to `last` (L), falling by equal factors that are not smaller

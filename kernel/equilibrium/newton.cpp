@@ -2,6 +2,7 @@
 
 #include "contact/published.hpp"
 #include "equilibrium/curvature.hpp"
+#include "model/near_pairs.hpp"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 /// without passing through anything.
 
 #include "equilibrium/contact_energy.hpp"
+#include "model/near_pairs.hpp"
 #include "motion/advancement.hpp"
 
 #include <functional>

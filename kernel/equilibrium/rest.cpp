@@ -5,6 +5,7 @@
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
 #include "model/hulls.hpp"
+#include "model/near_pairs.hpp"
 
 #include <hauberk/error.hpp>
 

@@ -1,6 +1,7 @@
 #include "limits/body_images.hpp"
 
 #include "geometry/closed_curve.hpp"
+#include "model/near_pairs.hpp"
 
 #include <hauberk/triangle_surface.hpp>
 

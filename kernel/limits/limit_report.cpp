@@ -2,9 +2,10 @@
 
 #include "equilibrium/gaps.hpp"
 #include "limits/kinks.hpp"
+#include "model/links.hpp"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "equilibrium/gaps.hpp"
 #include "limits/confidence.hpp"
 #include "limits/limit_report.hpp"
+#include "model/links.hpp"
 
 #include <algorithm>
 

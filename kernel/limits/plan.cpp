@@ -3,6 +3,7 @@
 #include "equilibrium/gaps.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
+#include "model/links.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "limits/room.hpp"
 
+#include "model/links.hpp"
 #include "numerics/parallel.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "limits/limit_report.hpp"
+#include "model/links.hpp"
 #include "motion/advancement.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "model/hulls.hpp"
 
 #include "geometry/closed_curve.hpp"
+#include "model/near_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+#include "model/links.hpp"
+
 #include "geometry/separation.hpp"
 #include "model/model.hpp"
 

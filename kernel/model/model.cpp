@@ -2,12 +2,13 @@
 
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
+#include "model/links.hpp"
 
 #include <hauberk/error.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

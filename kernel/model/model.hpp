@@ -13,8 +13,7 @@ namespace hauberk {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-/// Integer combination of the two lattice vectors.
-/// The third index is 0 where there are two lattice vectors.
+/// Integer combination of lattice vectors; the third index is 0 where there are two of them.
 using Image = std::array<int, 3>;
 
 /// A pair of linked cycles: A of the cell, B of the cell's image `image`.
@@ -118,45 +117,7 @@ double step_norm(const Model& model, const Vector& dy);
 /// part.
 double largest_motion(const Model& model, const Vector& dy);
 
-/// Pair of elements that may come into contact: i of the cell, j of image.
-struct ElementPair {
-  int i = 0, j = 0;
-  Image image{};
-};
-
-/// All element pairs whose bounding spheres are closer than `margin` in this state, in a fixed order.
-/// Images are found by reach: every lattice translation that the strained cell can bring that near is
-/// visited.
-std::vector<ElementPair> near_pairs(const Model& model, const State& state, double margin);
-
-/// Links of the model in a state (all pairs of cycles within reach), in a fixed order: every body's core and
-/// every loop of a spine with all of another element's. A cycle of primitives that each have a link has one,
-/// too, if it runs along them.
-std::vector<Link> find_links(const Model& model, const State& state);
-
-/// Element that a cycle of a Link belongs to.
-int element_of_cycle(const Model& model, int cycle);
-
-/// Indices (within their element) of the primitives that a cycle of a Link follows.
-std::vector<int> primitives_of_cycle(const Model& model, int cycle);
-
-/// What links two elements: so many pairs of their primitives, and so many more independent loops (rank of
-/// the matrix of linking numbers beyond that of its primitives' part), which no choice of cycles changes.
-struct ElementLink {
-  ElementPair pair;
-  int primitives = 0, together = 0;
-};
-
-/// Those of the model's links, in the order of their first links.
-std::vector<ElementLink> element_links(const Model& model);
-
-/// True if the links in `state` are those at rest.
-bool links_kept(const Model& model, const State& state);
-
 /// Why a state is no sheet on the scale of its elements (LoadCase::not_a_sheet); empty where it is one.
 std::string not_a_sheet(const Model& model, const State& state);
-
-/// Translations (at rest) of independent cycles of the link graph.
-std::vector<Vec3> cycle_translations(const Model& model);
 
 }  // namespace hauberk

@@ -1,9 +1,11 @@
+#include "model/near_pairs.hpp"
+
 #include "model/model.hpp"
 
 #include <hauberk/error.hpp>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "motion/track.hpp"
 
+#include "model/near_pairs.hpp"
+
 #include <algorithm>
 #include <limits>
 

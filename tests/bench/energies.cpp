@@ -1,6 +1,7 @@
 #include "benchmarks.hpp"
 #include "equilibrium/newton.hpp"
 #include "measure.hpp"
+#include "model/near_pairs.hpp"
 
 #include <hauberk/error.hpp>
 

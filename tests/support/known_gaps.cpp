@@ -1,6 +1,7 @@
 #include "known_gaps.hpp"
 
 #include "geometry/panel_field.hpp"
+#include "model/near_pairs.hpp"
 
 #include <fmt/format.h>
 

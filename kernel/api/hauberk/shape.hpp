@@ -80,6 +80,8 @@ struct Primitive {
 
 /// Number of geometric quantities that every primitive has: position (3), then size (3).
 inline constexpr int primitive_dofs = 6;
+/// Places of the sizes among them.
+enum SizeQuantity : int { quantity_R = 3, quantity_r0 = 4, quantity_r1 = 5 };
 /// Number of those of a harmonic of its curve: c (3), then s (3).
 inline constexpr int harmonic_dofs = 6;
 

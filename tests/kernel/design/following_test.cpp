@@ -1,6 +1,7 @@
 /// States of a design that are followed to another: locked ones, and the one at rest.
 
 #include "model/held_model.hpp"
+#include "model/links.hpp"
 #include "uneven_chainmail.hpp"
 
 #include <Eigen/QR>

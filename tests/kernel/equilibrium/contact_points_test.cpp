@@ -2,6 +2,7 @@
 /// gradient of the energy, also where a zone of contact bends around a tube.
 
 #include "equilibrium/contact_energy.hpp"
+#include "model/near_pairs.hpp"
 #include "scenes.hpp"
 
 #include <Eigen/Geometry>

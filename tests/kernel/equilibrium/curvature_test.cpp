@@ -2,6 +2,7 @@
 
 #include "equilibrium/curvature.hpp"
 
+#include "model/near_pairs.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

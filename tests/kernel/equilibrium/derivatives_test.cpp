@@ -3,6 +3,7 @@
 
 #include "contact/body_pair.hpp"
 #include "equilibrium/newton.hpp"
+#include "model/near_pairs.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 /// Limits that hold conditions on the macroscopic strain: the axial limit and what it is measured against.
 
 #include "limits/limits.hpp"
+#include "model/links.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

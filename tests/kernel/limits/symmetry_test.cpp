@@ -6,6 +6,7 @@
 #include "loadcases/in_plane_periodic/in_plane_periodic.hpp"
 #include "loadcases/paraboloid_bending/paraboloid_bending.hpp"
 #include "loadcases/volumetric_periodic/volumetric_periodic.hpp"
+#include "model/links.hpp"
 #include "symmetric_scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 /// Pairs of elements that are near, against a look at every element and image.
 
+#include "model/near_pairs.hpp"
+
 #include "model/model.hpp"
 #include "scenes.hpp"
 

@@ -3,6 +3,7 @@
 #include "curve_pairs.hpp"
 #include "geometry/separation.hpp"
 #include <known_gaps.hpp>
+#include "model/near_pairs.hpp"
 #include "motion/advancement.hpp"
 #include <scenes.hpp>
 

@@ -2,6 +2,7 @@
 
 #include "contact/mesh.hpp"
 #include "geometry/facets.hpp"
+#include "model/links.hpp"
 #include "motion/advancement.hpp"
 #include <scenes.hpp>
 

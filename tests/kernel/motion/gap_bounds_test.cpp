@@ -7,6 +7,7 @@
 #include "equilibrium/newton.hpp"
 #include "geometry/panel_field.hpp"
 #include "known_gaps.hpp"
+#include "model/near_pairs.hpp"
 #include "scenes.hpp"
 
 #include <Eigen/Geometry>

@@ -3,6 +3,7 @@
 #include <boost/json/parse.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <stdexcept>
@@ -60,8 +61,7 @@ TEST_P(GridEngine, EveryRowIsSolvedOrSaysWhyNotAndIsSaved)
 {
   Progress progress(Progress::Mode::quiet);
   int saved = 0;
-  RunContext context{.threads = GetParam(), .progress = progress};
-  context.save_sometimes = [&saved] { ++saved; };
+  RunContext context{GetParam(), progress, {}, false, {}, [&saved] { ++saved; }, {}, {}};
   Squares rows(40);
   std::vector<std::size_t> order(40);
   std::iota(order.rbegin(), order.rend(), 0);
@@ -77,7 +77,9 @@ TEST_P(GridEngine, EveryRowIsSolvedOrSaysWhyNotAndIsSaved)
   EXPECT_EQ(rows.order.size(), 39U);
   EXPECT_EQ(saved, 39);
   // One at a time they come in the order that was asked for.
-  if (GetParam() == 1) EXPECT_TRUE(std::is_sorted(rows.order.rbegin(), rows.order.rend()));
+  if (GetParam() == 1) {
+    EXPECT_TRUE(std::is_sorted(rows.order.rbegin(), rows.order.rend()));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, GridEngine, ::testing::Values(1U, 3U));

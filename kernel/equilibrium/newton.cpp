@@ -18,12 +18,13 @@ namespace {
 
 constexpr double first_radius = 0.1;    ///< L: trust radius at the start of a stage
 constexpr double largest_radius = 0.5;  ///< L, of few elements
-/// Of more the norm of a step grows with the root of their number, where each moves as far.
+/// The norm of a step in which every element moves equally far grows with the root of their number; beyond
+/// this number the largest radius does, too.
 constexpr double few_elements = 32.0;
-constexpr double smallest_radius = 1e-13;
-constexpr double smallest_escape = 1e-6;  ///< L: shorter steps along negative curvature are not tried
-constexpr double keep_gap = 0.1;          ///< a step may use up this much less than all of any gap
-constexpr int most_slides = 50;           ///< times `most_iterations`: the most steps of a stage
+constexpr double smallest_radius = 1e-13;  ///< L: a hundred times the rounding of coordinates
+constexpr double smallest_escape = 1e-6;   ///< L: shorter steps along negative curvature are not tried
+constexpr double keep_gap = 0.1;           ///< a step may use up this much less than all of any gap
+constexpr int most_slides = 50;            ///< times `most_iterations`: the most steps of a stage
 /// The published fade makes valleys along which rings roll on towards ever smaller eigenvalues, downhill by
 /// next to nothing: so many escapes without a noticeable decrease are enough there.
 constexpr int most_idle_escapes = 20;
@@ -177,7 +178,7 @@ class Newton {
     if (t.alpha > 0.0) {
       t.predicted = -(t.alpha * slope + 0.5 * t.alpha * t.alpha * step.dy.dot(curvature_->times(step.dy)));
     }
-    t.actual = now_.energy - t.energy.energy;
+    if (t.alpha > 0.0) t.actual = now_.energy - t.energy.energy;
     t.tiny = std::abs(t.predicted) < 50.0 * energy_rounding();
     return t;
   }
@@ -216,6 +217,11 @@ class Newton {
     if (!(radius_ < smallest_radius)) return {};
     // Nothing above rounding is gained at any length: the balance of forces judges what this is.
     if (t.tiny && t.energy.admissible) return End{StageStatus::minimum, ""};
+    if (!(t.alpha > 0.0)) {
+      return End{StageStatus::stalled,
+                 fmt::format("no part of a step is certified free of collisions, smallest gap {:.1e} L",
+                             now_.contact.min_gap)};
+    }
     return End{StageStatus::stalled,
                fmt::format("no step lowers the energy: predicted {:.1e}, found {:.1e}, smallest gap {:.1e} L",
                            t.predicted, t.actual, now_.contact.min_gap)};
@@ -321,7 +327,6 @@ class Newton {
   {
     Vector d;
     const double lowest = curvature_->lowest(s.lambda, d);
-    result_.lowest_curvature = lowest;
     if (lowest > -std::max(saddle_curvature * load_norm_, 10.0 * rounding_shift * curvature_->scale()))
       return false;
     const double slope = e.gradient.dot(d);

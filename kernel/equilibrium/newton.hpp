@@ -40,10 +40,9 @@ struct StageResult {
   int iterations = 0;
   long evaluations = 0;
   double energy = 0.0;
-  double residual = 0.0;        ///< norm of dE/dy over the norm of the load, in the dual of the step norm
-  double lowest_curvature = 0;  ///< smallest eigenvalue of the Hessian in the step norm, when it was needed
-  int escapes = 0;              ///< saddles left along a direction of negative curvature
-  std::vector<State> path;      ///< where kept: the states after each step; steps between them are checked
+  double residual = 0.0;    ///< norm of dE/dy over the norm of the load, in the dual of the step norm
+  int escapes = 0;          ///< saddles left along a direction of negative curvature
+  std::vector<State> path;  ///< where kept: the states after each step; steps between them are checked
 };
 
 /// Called between iterations; returns false to interrupt. Must be thread safe.

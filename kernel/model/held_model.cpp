@@ -2,8 +2,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <fmt/format.h>
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>

@@ -4,8 +4,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 #include "elf.hpp"
 
+#include <elf.h>
+#include <link.h>
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <elf.h>
 #include <fstream>
-#include <link.h>
 #include <optional>
 
 namespace hauberk {

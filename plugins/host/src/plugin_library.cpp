@@ -6,16 +6,16 @@
 #include <hauberk/host/handshake.hpp>
 #include <hauberk/host/plugin_library.hpp>
 
-#include <boost/dll/shared_library.hpp>
 #include <fmt/format.h>
+#include <boost/dll/shared_library.hpp>
 
-#include <algorithm>
-#include <cerrno>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 
 namespace hauberk {
 namespace {
@@ -31,12 +31,16 @@ template <class... Args>
 
 void check_is_file(const fs::path& file)
 {
-  std::error_code ignored;
+  std::error_code error, ignored;
   const fs::file_status link = fs::symlink_status(file, ignored);
-  const fs::file_status status = fs::status(file, ignored);
-  if (fs::is_symlink(link) && !fs::exists(status)) {
+  const fs::file_status status = fs::status(file, error);
+  if (fs::is_symlink(link) && status.type() == fs::file_type::not_found) {
     fail("plugin '{}' is a link to '{}', which does not exist; remove or mend it", file.native(),
          fs::read_symlink(file, ignored).native());
+  }
+  if (status.type() == fs::file_type::none) {
+    fail("plugin '{}' cannot be looked at: {}; mend links and the permissions of its folders", file.native(),
+         error.message());
   }
   if (!fs::exists(status)) fail("plugin '{}' does not exist", file.native());
   if (fs::is_directory(status)) fail("plugin '{}' is a folder; expected a shared library", file.native());
@@ -70,13 +74,13 @@ ElfSummary check_contents(const fs::path& file)
         "HAUBERK_EXPORT",
         file.native(), entry_name);
   }
-  Handshake expected = program_handshake();
-  if (std::string_view(expected.sanitizers) != "none") return elf;
+  // As far as the file shows it: a program with a sanitizer brings its runtime along.
+  Handshake found = program_handshake();
   for (const std::string& library : elf.needed) {
-    if (library.starts_with("libasan.")) expected.sanitizers = "address";
-    if (library.starts_with("libtsan.")) expected.sanitizers = "thread";
+    if (library.starts_with("libasan.")) found.sanitizers = "address";
+    if (library.starts_with("libtsan.")) found.sanitizers = "thread";
   }
-  check_handshake(expected, file);
+  check_handshake(found, file);
   return elf;
 }
 
@@ -107,18 +111,22 @@ const void* load_entry(const fs::path& file)
 /// libraries that have any besides the compiler's own are loaded by a child process first.
 void try_constructors(const fs::path& file, const ElfSummary& elf)
 {
-  constexpr double seconds = 5.0;
+  constexpr double seconds = 5.0;  // loading takes milliseconds; a busy machine is a hundred times slower
   if (elf.tables && elf.constructors <= 1) return;
-  const Child child = in_child(
-      [&]() -> std::string {
-        try {
-          load_entry(file);
-        } catch (const PluginError&) {
-          return "refused";  // it will be again, with the reason
-        }
-        return "loaded";
-      },
-      seconds);
+  const auto load = [&]() -> std::string {
+    try {
+      load_entry(file);
+    } catch (const PluginError&) {
+      return "refused";  // it will be again, with the reason
+    }
+    return "loaded";
+  };
+  Child child;
+  try {
+    child = in_child(load, seconds);
+  } catch (const ComputationError& error) {
+    fail("plugin '{}' cannot be tried: {}", file.native(), error.what());
+  }
   if (!child.returned) {
     fail("plugin '{}' cannot be loaded: its static constructors {}; a plugin must not have any with effects",
          file.native(), child.ending);

@@ -72,6 +72,9 @@ const Registry::Loaded& Registry::load(const fs::path& file) const
       it->second.table = &PluginLibrary::load(file).table();
     } catch (const PluginError& error) {
       it->second.problem = error.what();
+    } catch (...) {
+      loaded_.erase(it);  // nothing is known of it, so that the next one who asks tries again
+      throw;
     }
   }
   return it->second;

@@ -1,8 +1,8 @@
 #include <hauberk/error.hpp>
 #include <hauberk/host/search_path.hpp>
 
-#include <boost/dll/runtime_symbol_info.hpp>
 #include <fmt/format.h>
+#include <boost/dll/runtime_symbol_info.hpp>
 
 #include <algorithm>
 #include <cstdlib>

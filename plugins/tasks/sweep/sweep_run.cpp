@@ -109,6 +109,7 @@ class SweepLimits final : public GridRows {
     for (LimitResult& limit : run.limits) limit.load_case = e.load_case_plugin;
     SweepRow out = rows_.table().rows[row];
     enter_result(rows_.table(), out, run, write_json(e.resolved), macro_names_);
+    if (out.status == RowStatus::interrupted) return {};
     return rows_.enter(row, std::move(out));
   }
 
@@ -167,8 +168,9 @@ void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& rea
   const std::size_t n = table.rows.size();
   std::vector<bool> left(n);
   for (std::size_t k = 0; k < n; ++k) left[k] = table.rows[k].status == RowStatus::interrupted;
-  Grid grid(context, "sweep", static_cast<std::size_t>(std::count(left.begin(), left.end(), true)));
-  if (std::none_of(left.begin(), left.end(), [](bool is_left) { return is_left; })) return;
+  const auto rows_left = static_cast<std::size_t>(std::count(left.begin(), left.end(), true));
+  if (rows_left == 0) return;
+  Grid grid(context, "sweep", rows_left);
 
   // Scenes first: they say which row learns from which. A row that is done already and teaches is solved
   // again.

@@ -3,6 +3,7 @@
 #include "numerics/parallel.hpp"
 #include "run/interrupt.hpp"
 
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <utility>
@@ -25,22 +26,28 @@ EnterRow outcome_of(GridRows& rows, std::size_t row)
 
 }  // namespace
 
-Grid::Grid(RunContext& context, std::string name, std::size_t left)
-    : context_(context), name_(std::move(name)), left_(left)
+Grid::Grid(RunContext& context, std::string name, std::size_t total)
+    : context_(context), name_(std::move(name)), total_(total)
 {
-  context_.progress.limits(name_, 0, left_);
+  context_.progress.limits(name_, 0, total_);
 }
 
 void Grid::run(GridRows& rows, std::span<const std::size_t> order, unsigned threads)
 {
   std::mutex mutex;  // guards results, display and files
+  std::atomic<bool> broken = false;
   parallel_for(order.size(), threads, [&](std::size_t k) {
-    if (interrupted()) return;
+    if (broken || interrupted()) return;
     const EnterRow enter = outcome_of(rows, order[k]);
     if (!enter) return;
     const std::lock_guard lock(mutex);
-    done_ += enter();
-    context_.progress.limits(name_, done_, left_);
+    try {
+      done_ += enter();
+    } catch (...) {
+      broken = true;
+      throw;
+    }
+    context_.progress.limits(name_, done_, total_);
     context_.save_sometimes();
   });
 }

@@ -30,7 +30,8 @@ class GridRows {
   virtual ~GridRows() = default;
   /// The variant that a row solves, or why there is none.
   virtual const VariantReading& variant(std::size_t row) const = 0;
-  /// Solves a row. What it throws is the row's outcome: InputError refuses it, anything else fails it.
+  /// Solves a row. What it throws is the row's outcome: InputError refuses it, any other std::exception fails
+  /// it. Of a row that a signal stopped it returns nothing to enter.
   virtual EnterRow solve(std::size_t row, const Experiment& experiment) = 0;
   /// The outcome of a row without an answer.
   virtual EnterRow refuse(std::size_t row, RowStatus status, const std::string& message) = 0;
@@ -39,23 +40,24 @@ class GridRows {
 /// One walk through the rows of a task, which the display calls `name`.
 class Grid {
  public:
-  /// `left`: what the entries of all rows to come add up to.
-  Grid(RunContext& context, std::string name, std::size_t left);
+  /// `total`: what the entries of all rows to come add up to.
+  Grid(RunContext& context, std::string name, std::size_t total);
 
   /// Works through rows in this order, `threads` (0: all processors) at a time. Results do not depend on
   /// `threads` where those of the rows do not. Rows that a signal stops, or keeps from being begun, are left.
-  /// Throws what an entry throws.
+  /// Throws what an entry throws; then no other row is begun.
   void run(GridRows& rows, std::span<const std::size_t> order, unsigned threads);
 
  private:
   RunContext& context_;
   std::string name_;
-  std::size_t done_ = 0, left_;
+  std::size_t done_ = 0, total_;
 };
 
 /// Takes over what partial results of the same experiment hold: `take(entry, row)` enters an entry, or says
 /// false when it is of another row. Throws InputError ("its rows are not complete") when they are not the
-/// same in number and order, and what Boost.JSON throws for entries that lack something.
+/// same in number and order, and what Boost.JSON throws for entries that lack something; rows are of no use
+/// then.
 template <class Row, class Take>
 void take_rows(const boost::json::array& entries, std::vector<Row>& rows, const char* what, const Take& take)
 {

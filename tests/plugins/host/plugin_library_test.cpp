@@ -5,10 +5,10 @@
 #include <hauberk/host/handshake.hpp>
 #include <hauberk/host/plugin_library.hpp>
 
-#include <cstdlib>
-#include <cstring>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cstdlib>
+#include <cstring>
 
 namespace hauberk::test {
 namespace {
@@ -209,6 +209,22 @@ TEST(PluginLibrary, UnreadableFile)
   fs::permissions(file, fs::perms::none);
   const AsSomebodyElse somebody;
   EXPECT_EQ(error_of(file), quote(file) + " cannot be read: Permission denied; mend its permissions");
+}
+
+TEST(PluginLibrary, WhatCannotBeLookedAtIsNotSaidToBeMissing)
+{
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+  const fs::path closed = folder.folder("closed"), loop = folder / "loop.so";
+  std::ofstream(closed / "a.so") << "";
+  fs::permissions(closed, fs::perms::none);
+  fs::create_symlink(loop, loop);
+  const std::string way_out = "; mend links and the permissions of its folders";
+  EXPECT_EQ(error_of(loop),
+            quote(loop) + " cannot be looked at: Too many levels of symbolic links" + way_out);
+  const AsSomebodyElse somebody;
+  EXPECT_EQ(error_of(closed / "a.so"),
+            quote(closed / "a.so") + " cannot be looked at: Permission denied" + way_out);
 }
 
 TEST(PluginLibrary, FastMathIsNoticedAndUndone)

@@ -3,8 +3,8 @@
 #include "document/json_text.hpp"
 #include "tasks/chart/chart_results.hpp"
 
-#include <boost/json/array.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/array.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -2,8 +2,8 @@
 
 #include "tasks/transition/transition_results.hpp"
 
-#include <boost/json/value.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/value.hpp>
 
 namespace hauberk {
 namespace {

@@ -1,7 +1,7 @@
 #include "tasks/variants/grid.hpp"
 
-#include <boost/json/parse.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/parse.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -83,6 +83,33 @@ TEST_P(GridEngine, EveryRowIsSolvedOrSaysWhyNotAndIsSaved)
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, GridEngine, ::testing::Values(1U, 3U));
+
+/// Its entries throw.
+class Unwritable final : public GridRows {
+ public:
+  const VariantReading& variant(std::size_t) const override { return variant_; }
+  EnterRow solve(std::size_t, const Experiment&) override
+  {
+    ++solved;
+    return []() -> std::size_t { throw std::runtime_error("disk full"); };
+  }
+  EnterRow refuse(std::size_t, RowStatus, const std::string&) override { return {}; }
+
+  std::atomic<int> solved = 0;
+
+ private:
+  VariantReading variant_{Experiment(), ""};
+};
+
+TEST(Grid, AnEntryThatThrowsEndsTheWalk)
+{
+  Progress progress(Progress::Mode::quiet);
+  RunContext context{1, progress, {}, false, {}, [] {}, {}, {}};
+  Unwritable rows;
+  const std::vector<std::size_t> order(20);
+  EXPECT_THROW(Grid(context, "rows", order.size()).run(rows, order, 1), std::runtime_error);
+  EXPECT_EQ(rows.solved, 1);
+}
 
 TEST(TakeRows, AreTheSameInNumberAndOrder)
 {

@@ -27,11 +27,11 @@ struct ResultFile {
 
 /// One experiment's task, ready to run. What it was prepared from outlives it. Not thread safe.
 ///
-/// Calls come in this order: `limit_tasks`, of which the plan is made; `check_plan`; then `check_line` or
-/// `plan` where nothing is run, else `resume` if there are partial results, `run`, `enter`, `files`,
-/// `summary`, `failed`. `enter` and `files` are called from within `run`, too, whenever the context saves:
-/// they give what there is. A task has to have the pure ones; the defaults of the others are those of a task
-/// that solves the limits of its experiment.
+/// Calls come in this order: `limit_tasks`, of which the scene's plan is made; `check_plan`; `check_line` for
+/// `check`, `plan` for `plan` and for results; and to compute `resume` if there are partial results, `run`,
+/// `enter`, `files`, `summary`, `failed`. `enter` and `files` are called from within `run`, too, whenever the
+/// context saves: they give what there is. A task has to have the pure ones; the defaults of the others are
+/// those of a task that solves the limits of its experiment.
 class TaskRun {
  public:
   explicit TaskRun(const Prepared& prepared) : prepared_(prepared) {}

@@ -3,9 +3,9 @@
 #include "document/json_text.hpp"
 #include "program.hpp"
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 namespace hauberk::test {
 namespace {
@@ -30,6 +30,7 @@ TEST(CommandLine, WrongCommands)
   expect_usage({"plugins", "remove"}, "plugins: expected list, describe, conform or new, found 'remove'",
                "Usage: hauberk plugins ");
   expect_usage({"plugins", "describe"}, "describe: expected the id of one plugin", "Usage: hauberk plugins ");
+  expect_usage({"plugins new"}, "unknown command 'plugins new'", "Usage:\n  hauberk run ");
 }
 
 TEST(CommandLine, WrongOptions)
@@ -42,17 +43,59 @@ TEST(CommandLine, WrongOptions)
   expect_usage({"run", "a", "--threads", "0"}, "--threads: expected a number from 1 to 4096, found 0",
                "Usage: hauberk run ");
   expect_usage({"verify"}, "RESULTS.json is missing", "Usage: hauberk verify ");
+  expect_usage({"plugins", "new"}, "NAME DIR is missing", "Usage: hauberk plugins new ");
+  expect_usage({"plugins", "new", "a"}, "expected NAME and DIR", "Usage: hauberk plugins new ");
+  expect_usage({"plugins", "new", "a", "b", "c"}, "expected NAME and DIR", "Usage: hauberk plugins new ");
 }
 
 TEST(CommandLine, HelpAndVersion)
 {
-  for (const char* command : {"run", "check", "plan", "verify", "report", "plugins"}) {
+  for (const char* command : {"run", "check", "plan", "room", "verify", "report", "plugins"}) {
     const Outcome o = run_program({command, "--help"});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.out.find(std::string("Usage: hauberk ") + command), 0U) << o.out;
   }
   EXPECT_NE(run_program({"--help"}).out.find("Exit codes: 0 done; 1 "), std::string::npos);
   EXPECT_EQ(run_program({"--version"}).out.find("hauberk 0."), 0U);
+}
+
+/// The whole text: it is part of the reference, and scripts of completion are made from the same table.
+TEST(CommandLine, Help)
+{
+  EXPECT_EQ(
+      run_program({"--help"}).out,
+      R"(Deformation limits of discrete interlocking materials: how far a fabric of linked rigid elements
+stretches and compresses before contact locks it, and element shapes that have the limits you want.
+
+Usage:
+  hauberk run EXPERIMENT.json [-o DIR] [--force] [--threads N] [--set path=value ...]
+      compute what the experiment asks for
+  hauberk check EXPERIMENT.json
+      every problem in the file at once, with its place
+  hauberk plan EXPERIMENT.json
+      what will be modelled, and why; the rest state
+  hauberk room EXPERIMENT.json [--starts N] [-o FILE]
+      the thickest rings that leave a rest state
+  hauberk verify RESULTS.json
+      recheck a result from its file alone
+  hauberk report RESULT... -o DIR [--force] [--recheck FOLDER]
+      a table and a page of plots of many results
+  hauberk plugins [list | describe ID | conform FILE.so | new NAME DIR]
+      shapes, load cases and optimizers that are found
+  hauberk --version
+  hauberk --help; hauberk COMMAND --help for the options of a command
+
+Exit codes: 0 done; 1 the computation failed, what was computed is on disk; 2 bad input, nothing
+written; 130 interrupted, partial results are on disk.
+)");
+  EXPECT_EQ(run_program({"plugins", "new", "--help"}).out,
+            R"(Usage: hauberk plugins new --kind shape|load_case|optimizer NAME DIR
+Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it is.
+
+Options:
+  -h [ --help ]         show this and exit
+  --kind KIND           shape, load_case or optimizer
+)");
 }
 
 /// The answers of commands as documents: exit codes and what they say are those of the text.

@@ -2,9 +2,9 @@
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 namespace hauberk::command {
 namespace {
@@ -32,12 +32,20 @@ int check_as_json(const Options& options)
 
 }  // namespace
 
+Description check_description()
+{
+  return {.name = "check",
+          .form = "EXPERIMENT.json",
+          .line = "every problem in the file at once, with its place",
+          .synopsis = "check EXPERIMENT.json [options]",
+          .summary = "Says everything that is wrong with an experiment.",
+          .arguments = {experiment_argument()},
+          .options = joined({json_option()}, experiment_options())};
+}
+
 int check_command(const std::vector<std::string>& words)
 {
-  Options options("check EXPERIMENT.json [options]", "Says everything that is wrong with an experiment.",
-                  "EXPERIMENT.json");
-  options.add_json_option();
-  options.add_experiment_options();
+  Options options(check_description());
   options.parse(words);
   if (options.has("json")) return check_as_json(options);
   const Job job = open_job(options);

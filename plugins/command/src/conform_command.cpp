@@ -3,28 +3,44 @@
 
 #include <hauberk/conformance/isolated.hpp>
 
-#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace hauberk::command {
 
+Description conform_description()
+{
+  return {
+      .name = "plugins conform",
+      .line = "check that a plugin does what plugins must do",
+      .synopsis = "plugins conform FILE.so [options]",
+      .summary =
+          "Checks that a plugin does what plugins must do, each check in a process of its own. "
+          "Exits with 1 when anything fails. The plugin is run: do not check what you would not "
+          "run.",
+      .arguments = {{.name = "FILE.so", .offer = Offer::libraries}},
+      .options = {{.name = "filter",
+                   .takes = Takes::text,
+                   .value = "REGEX",
+                   .help = "only checks whose name matches"},
+                  {.name = "section",
+                   .takes = Takes::text,
+                   .value = "JSON",
+                   .help = "section of an experiment to make it with, for instance "
+                           "'{\"parameters\": {\"ring.R\": 5}}'"},
+                  {.name = "seed", .takes = Takes::natural, .value = "N", .help = "what is drawn; default 1"},
+                  {.name = "seconds",
+                   .takes = Takes::real,
+                   .value = "LIMIT",
+                   .help = "longest time of a check; default 60"},
+                  {.name = "in-process", .help = "in this process, without a time limit: for debuggers"},
+                  {.name = "json", .help = "the report as JSON"}}};
+}
+
 int conform_command(const std::vector<std::string>& words)
 {
-  namespace po = boost::program_options;
-  Options options(
-      "plugins conform FILE.so [options]",
-      "Checks that a plugin does what plugins must do, each check in a process of its own. Exits with 1 "
-      "when anything fails. The plugin is run: do not check what you would not run.",
-      "FILE.so");
-  options.add().add_options()("filter", po::value<std::string>()->value_name("REGEX"),
-                              "only checks whose name matches")(
-      "section", po::value<std::string>()->value_name("JSON"),
-      "section of an experiment to make it with, for instance '{\"parameters\": {\"ring.R\": 5}}'")(
-      "seed", po::value<std::uint64_t>()->value_name("N"), "what is drawn; default 1")(
-      "seconds", po::value<double>()->value_name("LIMIT"), "longest time of a check; default 60")(
-      "in-process", "in this process, without a time limit: for debuggers")("json", "the report as JSON");
+  Options options(conform_description());
   options.parse(words);
   conformance::Conditions conditions;
   conditions.in_process = options.has("in-process");

@@ -1,6 +1,8 @@
 #pragma once
 /// From the words of a command line to an exit code.
 
+#include "description.hpp"
+
 #include <string>
 #include <vector>
 
@@ -12,18 +14,39 @@ inline constexpr int exit_failed = 1;         ///< the computation failed; what 
 inline constexpr int exit_bad_input = 2;      ///< bad input; nothing was written
 inline constexpr int exit_interrupted = 130;  ///< interrupted; partial results are on disk
 
-/// Runs the sub-command that `words` (without the program's name) ask for and returns the exit code. Writes
+/// Runs the command that `words` (without the program's name) ask for and returns the exit code. Writes
 /// to stdout and stderr. Never throws.
 int dispatch(const std::vector<std::string>& words) noexcept;
 
-// The sub-commands; `words` are what follows their name. They throw InputError for bad input.
+// The commands: what they are called and take, and what they do. `words` are what follows their name. They
+// throw InputError for bad input. commands.hpp has the table of them.
+Description run_description();
 int run_command(const std::vector<std::string>& words);
+
+Description check_description();
 int check_command(const std::vector<std::string>& words);
+
+Description plan_description();
 int plan_command(const std::vector<std::string>& words);
+
+Description room_description();
 int room_command(const std::vector<std::string>& words);
+
+Description verify_description();
 int verify_command(const std::vector<std::string>& words);
+
+Description report_description();
 int report_command(const std::vector<std::string>& words);
+
+Description plugins_description();  ///< plugins, plugins list, plugins describe
 int plugins_command(const std::vector<std::string>& words);
-int conform_command(const std::vector<std::string>& words);  ///< plugins conform
+
+Description conform_description();  ///< plugins conform
+int conform_command(const std::vector<std::string>& words);
+
+/// plugins new: writes a project of a plugin from the installed template, all of its files or none. Throws
+/// InputError for a name that is none, and where a file exists already.
+Description new_description();
+int new_command(const std::vector<std::string>& words);
 
 }  // namespace hauberk::command

@@ -1,5 +1,3 @@
-#include "new_command.hpp"
-
 #include "dispatch.hpp"
 #include "document/atomic_file.hpp"
 #include "experiment_options.hpp"
@@ -8,7 +6,6 @@
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/search_path.hpp>
 
-#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -123,18 +120,30 @@ std::string prefix_option()
 
 }  // namespace
 
+Description new_description()
+{
+  return {.name = "plugins new",
+          .line = "write a project to begin a plugin with",
+          .synopsis = "plugins new --kind shape|load_case|optimizer NAME DIR",
+          .summary =
+              "Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it "
+              "is.",
+          .more =
+              "NAME is made of small letters, digits and single `_`, and is not that of a plugin that is "
+              "found. Files that exist are refused, and all files are written or none.",
+          .arguments = {{.name = "NAME"}, {.name = "DIR", .offer = Offer::folders}},
+          .options = {{.name = "kind",
+                       .takes = Takes::text,
+                       .value = "KIND",
+                       .help = "shape, load_case or optimizer",
+                       .offer = Offer::words,
+                       .choices = {kinds.begin(), kinds.end()}}}};
+}
+
 int new_command(const std::vector<std::string>& words)
 {
-  namespace po = boost::program_options;
-  Options options(
-      "plugins new --kind shape|load_case|optimizer NAME DIR",
-      "Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it is.",
-      "NAME DIR");
-  options.take_several();
-  options.add().add_options()("kind", po::value<std::string>()->value_name("KIND"),
-                              "shape, load_case or optimizer");
+  Options options(new_description());
   options.parse(words);
-  if (options.positionals().size() != 2) throw UsageError("expected NAME and DIR", options.usage());
   const std::string kind = options.has("kind") ? options.get<std::string>("kind") : "";
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     throw UsageError(kind.empty()

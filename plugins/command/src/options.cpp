@@ -1,11 +1,13 @@
 #include "options.hpp"
 
+#include <fmt/format.h>
 #include <boost/program_options/errors.hpp>
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/positional_options.hpp>
 #include <boost/program_options/value_semantic.hpp>
-#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <sstream>
 
 namespace hauberk::command {
@@ -16,25 +18,65 @@ namespace {
 
 constexpr unsigned help_width = 110;
 
-}  // namespace
-
-Options::Options(std::string synopsis, std::string summary, std::string positional)
-    : synopsis_(std::move(synopsis)),
-      summary_(std::move(summary)),
-      name_(std::move(positional)),
-      shown_("Options", help_width)
+/// The parser of an option's value. Boost takes it over.
+const po::value_semantic* semantic(const Option& option)
 {
-  shown_.add_options()("help,h", "show this and exit");
+  const char* name = option.value.c_str();
+  switch (option.takes) {
+    case Takes::nothing:
+      return new po::untyped_value(true);
+    case Takes::text:
+      return po::value<std::string>()->value_name(name);
+    case Takes::texts:
+      return po::value<std::vector<std::string>>()->composing()->value_name(name);
+    case Takes::integer:
+      return po::value<int>()->value_name(name);
+    case Takes::natural:
+      return po::value<std::uint64_t>()->value_name(name);
+    case Takes::real:
+      return po::value<double>()->value_name(name);
+  }
+  return nullptr;
 }
 
-void Options::add_json_option() { shown_.add_options()("json", "as JSON, for programs"); }
-
-void Options::add_experiment_options()
+void add(po::options_description& shown, const Option& option)
 {
-  shown_.add_options()("set", po::value<std::vector<std::string>>()->composing()->value_name("path=value"),
-                       "replace a value of the file, e.g. /solver/tolerance=1e-3; may be repeated");
-  shown_.add_options()("plugin-path", po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
-                       "folder that is searched for plugins first; may be repeated");
+  const std::string name =
+      option.letter != 0 ? fmt::format("{},{}", option.name, option.letter) : option.name;
+  shown.add_options()(name.c_str(), semantic(option), option.help.c_str());
+}
+
+/// "NAME and DIR"
+std::string names(const std::vector<Argument>& arguments, const char* between)
+{
+  std::string text;
+  for (const Argument& argument : arguments) text += (text.empty() ? "" : between) + argument.name;
+  return text;
+}
+
+/// Throws UsageError for arguments that are missing, or too many.
+void check_count(const std::vector<Argument>& arguments, const std::vector<std::string>& given,
+                 const std::string& usage)
+{
+  if (arguments.empty()) {
+    if (!given.empty()) throw UsageError(fmt::format("expected options only, found '{}'", given[0]), usage);
+    return;
+  }
+  if (std::all_of(arguments.begin(), arguments.end(), [](const Argument& a) { return a.optional; })) return;
+  if (given.empty()) throw UsageError(fmt::format("{} is missing", names(arguments, " ")), usage);
+  if (arguments.size() > 1 && given.size() != arguments.size())
+    throw UsageError(fmt::format("expected {}", names(arguments, " and ")), usage);
+  if (given.size() > arguments.size() && !arguments.back().several)
+    throw UsageError(fmt::format("one {} expected, found also '{}'", arguments.back().name, given[1]), usage);
+}
+
+}  // namespace
+
+Options::Options(Description description)
+    : description_(std::move(description)), shown_("Options", help_width)
+{
+  add(shown_, help_option());
+  for (const Option& option : description_.options) add(shown_, option);
 }
 
 void Options::parse(const std::vector<std::string>& words)
@@ -52,12 +94,8 @@ void Options::parse(const std::vector<std::string>& words)
     throw UsageError(error.what(), usage());
   }
   if (has("help")) throw ShowHelp(usage());
-  if (name_.empty()) return;
-  const std::vector<std::string> given = list("positional");
-  if (given.empty()) throw UsageError(fmt::format("{} is missing", name_), usage());
-  if (given.size() > 1 && !several_)
-    throw UsageError(fmt::format("one {} expected, found also '{}'", name_, given[1]), usage());
-  given_ = given;
+  given_ = list("positional");
+  check_count(description_.arguments, given_, usage());
 }
 
 std::vector<std::string> Options::list(const char* name) const
@@ -68,7 +106,7 @@ std::vector<std::string> Options::list(const char* name) const
 std::string Options::usage() const
 {
   std::ostringstream text;
-  text << "Usage: hauberk " << synopsis_ << "\n" << summary_ << "\n\n" << shown_;
+  text << "Usage: hauberk " << description_.synopsis << "\n" << description_.summary << "\n\n" << shown_;
   return text.str();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
-/// Options of a sub-command: declared, parsed and explained in one place.
+/// Words of a command line, parsed as the description of their command says.
+
+#include "description.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -31,25 +33,13 @@ class ShowHelp {
   std::string text_;
 };
 
-/// Parser of one sub-command's words: positional arguments, usually one, and options.
+/// Parser of one command's words: positional arguments, usually one, and options.
 class Options {
  public:
-  /// `positional` is its name in messages ("EXPERIMENT.json"), `synopsis` follows "Usage: hauberk ".
-  Options(std::string synopsis, std::string summary, std::string positional);
+  explicit Options(Description description);
 
-  /// Options are added to this.
-  boost::program_options::options_description& add() { return shown_; }
-
-  /// --json: the answer as a JSON document on standard output.
-  void add_json_option();
-
-  /// --plugin-path, --set: for every command that reads experiments.
-  void add_experiment_options();
-
-  /// The positional argument may be given several times.
-  void take_several() { several_ = true; }
-
-  /// Throws UsageError, or ShowHelp.
+  /// Counts the arguments, unless all of them are optional: then the command looks at them itself. Throws
+  /// UsageError, or ShowHelp.
   void parse(const std::vector<std::string>& words);
 
   const std::string& positional() const { return given_.front(); }
@@ -65,8 +55,7 @@ class Options {
   std::string usage() const;
 
  private:
-  std::string synopsis_, summary_, name_;
-  bool several_ = false;
+  Description description_;
   std::vector<std::string> given_;
   boost::program_options::options_description shown_;
   boost::program_options::variables_map values_;

@@ -8,13 +8,21 @@
 
 namespace hauberk::command {
 
+Description plan_description()
+{
+  return {.name = "plan",
+          .form = "EXPERIMENT.json",
+          .line = "what will be modelled, and why; the rest state",
+          .synopsis = "plan EXPERIMENT.json [options]",
+          .summary = "Says what will be modelled and why, and describes the rest state. Computes no limit.",
+          .more = "With `--json` it is the `plan` of results.json.",
+          .arguments = {experiment_argument()},
+          .options = joined({json_option()}, experiment_options())};
+}
+
 int plan_command(const std::vector<std::string>& words)
 {
-  Options options("plan EXPERIMENT.json [options]",
-                  "Says what will be modelled and why, and describes the rest state. Computes no limit.",
-                  "EXPERIMENT.json");
-  options.add_json_option();
-  options.add_experiment_options();
+  Options options(plan_description());
   options.parse(words);
   const Job job = open_job(options);
   fmt::print("{}", options.has("json") ? write_json(boost::json::value(plan_document(job)))

@@ -2,16 +2,14 @@
 #include "document/check.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
-#include "new_command.hpp"
 
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/suggestion.hpp>
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <boost/program_options/value_semantic.hpp>
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -129,22 +127,27 @@ int describe(const Registry& registry, const std::string& id)
 
 }  // namespace
 
+Description plugins_description()
+{
+  return {.name = "plugins",
+          .form = "[list | describe ID | conform FILE.so | new NAME DIR]",
+          .line = "shapes, load cases and optimizers that are found",
+          .synopsis = "plugins [list | describe ID | conform FILE.so | new NAME DIR] [--plugin-path DIR]",
+          .summary =
+              "Lists the plugins that are found, or explains one with all its fields. conform checks "
+              "one that was built elsewhere, new writes a project to begin with; both have their own "
+              "--help.",
+          .arguments =
+              {{.name = "WHAT", .offer = Offer::words, .choices = {"list", "describe"}, .optional = true},
+               {.name = "ID", .offer = Offer::plugins, .after = "describe", .optional = true}},
+          .options = {plugin_path_option(), json_option()}};
+}
+
 int plugins_command(const std::vector<std::string>& words)
 {
-  if (!words.empty() && words.front() == "conform") return conform_command({words.begin() + 1, words.end()});
-  if (!words.empty() && words.front() == "new") return new_command({words.begin() + 1, words.end()});
-  namespace po = boost::program_options;
-  Options options(
-      "plugins [list | describe ID | conform FILE.so | new NAME DIR] [--plugin-path DIR]",
-      "Lists the plugins that are found, or explains one with all its fields. conform checks one that "
-      "was built elsewhere, new writes a project to begin with; both have their own --help.",
-      "");
-  options.add().add_options()("plugin-path",
-                              po::value<std::vector<std::string>>()->composing()->value_name("DIR"),
-                              "folder that is searched for plugins first; may be repeated");
-  options.add_json_option();
+  Options options(plugins_description());
   options.parse(words);
-  const std::vector<std::string> what = options.list("positional");
+  const std::vector<std::string> what = options.positionals();
   const auto registry = open_registry(options);
   if (what.empty() || (what.size() == 1 && what[0] == "list"))
     return options.has("json") ? list_as_json(*registry) : list(*registry);

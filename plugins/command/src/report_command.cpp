@@ -5,7 +5,6 @@
 #include "results/designed_experiment.hpp"
 #include "results/document.hpp"
 
-#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -15,25 +14,6 @@ namespace hauberk::command {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
-
-Options report_options()
-{
-  Options options(
-      "report RESULT... -o DIR [options]",
-      "Writes report.md, report.csv and report.svg from results of designs and limits: how far designs are "
-      "from their targets, what they cost, every direction, and a page of polar plots. A folder "
-      "stands for the results.json in it.",
-      "RESULT");
-  options.take_several();
-  auto add = options.add().add_options();
-  add("output,o", po::value<std::string>()->value_name("DIR"), "folder for the report");
-  add("force", "replace a report that the folder holds");
-  add("recheck", po::value<std::string>()->value_name("FOLDER"),
-      "in the folder of each design's results, a folder with limits of its designed.json computed apart; "
-      "designs without it are shown without");
-  return options;
-}
 
 /// A folder stands for the results in it.
 fs::path file_of(const std::string& result)
@@ -70,9 +50,34 @@ std::string required_folder(const Options& options, const char* name)
 
 }  // namespace
 
+Description report_description()
+{
+  return {.name = "report",
+          .form = "RESULT... -o DIR [--force] [--recheck FOLDER]",
+          .line = "a table and a page of plots of many results",
+          .synopsis = "report RESULT... -o DIR [options]",
+          .summary =
+              "Writes report.md, report.csv and report.svg from results of designs and limits: how far "
+              "designs are from their targets, what they cost, every direction, and a page of polar "
+              "plots. A folder stands for the results.json in it.",
+          .arguments = {{.name = "RESULT", .offer = Offer::results, .several = true}},
+          .options = {{.name = "output",
+                       .letter = 'o',
+                       .takes = Takes::text,
+                       .value = "DIR",
+                       .help = "folder for the report",
+                       .offer = Offer::folders},
+                      {.name = "force", .help = "replace a report that the folder holds"},
+                      {.name = "recheck",
+                       .takes = Takes::text,
+                       .value = "FOLDER",
+                       .help = "in the folder of each design's results, a folder with limits of its "
+                               "designed.json computed apart; designs without it are shown without"}}};
+}
+
 int report_command(const std::vector<std::string>& words)
 {
-  Options options = report_options();
+  Options options(report_description());
   options.parse(words);
   const fs::path folder = required_folder(options, "output");
   std::vector<ReportEntry> entries;

@@ -8,10 +8,9 @@
 
 #include <hauberk/error.hpp>
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <boost/program_options/value_semantic.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,27 +21,7 @@
 namespace hauberk::command {
 namespace {
 
-namespace po = boost::program_options;
-
 constexpr int most_starts = 100000;
-
-Options room_options()
-{
-  Options options(
-      "room EXPERIMENT.json [options]",
-      "Finds the rest state in which the linked elements are farthest apart, and the thickest rings "
-      "of which the fabric can be built: inner diameter over wire diameter. A local search from the "
-      "rest state and from perturbed ones; the strain is searched with the poses (a patch stays unbent).",
-      "EXPERIMENT.json");
-  auto add = options.add().add_options()("starts", po::value<int>()->value_name("N"),
-                                         "starts, the rest state first; default 8");
-  add("fixed-cell", "keep the cell: poses only");
-  add("output,o", po::value<std::string>()->value_name("FILE"),
-      "write the rest state found as an experiment, to a file that must not exist");
-  options.add_json_option();
-  options.add_experiment_options();
-  return options;
-}
 
 /// The scene in the state that was found: the strain goes into the cell.
 SceneSpec scene_in(const Prepared& prepared, const Model& m, const State& state)
@@ -111,10 +90,39 @@ boost::json::object as_json(const Prepared& prepared, const Room& room, const st
 
 }  // namespace
 
+Description room_description()
+{
+  return {.name = "room",
+          .form = "EXPERIMENT.json [--starts N] [-o FILE]",
+          .line = "the thickest rings that leave a rest state",
+          .synopsis = "room EXPERIMENT.json [options]",
+          .summary =
+              "Finds the rest state in which the linked elements are farthest apart, and the thickest rings "
+              "of which the fabric can be built: inner diameter over wire diameter. A local search from the "
+              "rest state and from perturbed ones; the strain is searched with the poses (a patch stays "
+              "unbent).",
+          .arguments = {experiment_argument()},
+          .options = joined({{.name = "starts",
+                              .takes = Takes::integer,
+                              .value = "N",
+                              .help = "starts, the rest state first; default 8"},
+                             {.name = "fixed-cell", .help = "keep the cell: poses only"},
+                             {.name = "output",
+                              .letter = 'o',
+                              .takes = Takes::text,
+                              .value = "FILE",
+                              .help = "write the rest state found as an experiment, to a file that must not "
+                                      "exist",
+                              .more = "Without it the numbers are only printed.",
+                              .offer = Offer::files},
+                             json_option()},
+                            experiment_options())};
+}
+
 int room_command(const std::vector<std::string>& words)
 {
   catch_interrupts();
-  Options options = room_options();
+  Options options(room_description());
   options.parse(words);
   RoomSettings settings;
   settings.starts = options.has("starts") ? options.get<int>("starts") : 8;

@@ -10,7 +10,6 @@
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/expect.hpp>
 
-#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,24 +20,7 @@
 namespace hauberk::command {
 namespace {
 
-namespace po = boost::program_options;
-
 constexpr int most_threads = 4096;
-
-Options run_options()
-{
-  Options options("run EXPERIMENT.json [options]",
-                  "Computes what the experiment asks for and writes it to a folder.", "EXPERIMENT.json");
-  auto add = options.add().add_options();
-  add("output,o", po::value<std::string>()->value_name("DIR"),
-      "folder for the results; default: out/NAME-OF-THE-FILE");
-  add("force", "replace results that the folder holds");
-  add("resume", "go on from the partial results of the same experiment in the folder");
-  add("threads", po::value<int>()->value_name("N"), "threads to use; default: all of the machine");
-  add("quiet", "show no progress");
-  options.add_experiment_options();
-  return options;
-}
 
 unsigned thread_count(const Options& options)
 {
@@ -171,11 +153,42 @@ int conclude(const Job& job, RunFolder& output, const boost::json::object& docum
 
 }  // namespace
 
+Description run_description()
+{
+  return {.name = "run",
+          .form = "EXPERIMENT.json [-o DIR] [--force] [--threads N] [--set path=value ...]",
+          .line = "compute what the experiment asks for",
+          .synopsis = "run EXPERIMENT.json [options]",
+          .summary = "Computes what the experiment asks for and writes it to a folder.",
+          .arguments = {experiment_argument()},
+          .options = joined(
+              {{.name = "output",
+                .letter = 'o',
+                .takes = Takes::text,
+                .value = "DIR",
+                .help = "folder for the results; default: out/NAME-OF-THE-FILE",
+                .offer = Offer::folders},
+               {.name = "force",
+                .help = "replace results that the folder holds",
+                .more = "Without it they are refused. They stay in its folder `.hauberk-previous` until the "
+                        "new run is done."},
+               {.name = "resume",
+                .help = "go on from the partial results of the same experiment in the folder",
+                .more = "Where nothing is left to do it says so; where there are no results it starts anew."},
+               {.name = "threads",
+                .takes = Takes::integer,
+                .value = "N",
+                .help = "threads to use; default: all of the machine",
+                .more = "Results do not depend on it."},
+               {.name = "quiet", .help = "show no progress"}},
+              experiment_options())};
+}
+
 int run_command(const std::vector<std::string>& words)
 {
   catch_interrupts();
   const auto begin = std::chrono::steady_clock::now();
-  Options options = run_options();
+  Options options(run_description());
   options.parse(words);
   const unsigned threads = thread_count(options);
   const std::filesystem::path folder = output_folder(options);

@@ -5,9 +5,9 @@
 
 #include <hauberk/verify/verify.hpp>
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -40,14 +40,22 @@ json::object as_json(const VerifyReport& report)
 
 }  // namespace
 
+Description verify_description()
+{
+  return {.name = "verify",
+          .form = "RESULTS.json",
+          .line = "recheck a result from its file alone",
+          .synopsis = "verify RESULTS.json",
+          .summary =
+              "Rechecks a result from its file alone: gaps, links, force balance, values. A line per "
+              "limit; exits with 1 when anything fails. A folder stands for the results.json in it.",
+          .arguments = {{.name = "RESULTS.json", .offer = Offer::results}},
+          .options = {json_option()}};
+}
+
 int verify_command(const std::vector<std::string>& words)
 {
-  Options options(
-      "verify RESULTS.json",
-      "Rechecks a result from its file alone: gaps, links, force balance, values. A line per limit; exits "
-      "with 1 when anything fails. A folder stands for the results.json in it.",
-      "RESULTS.json");
-  options.add_json_option();
+  Options options(verify_description());
   options.parse(words);
   std::filesystem::path file = options.positional();
   std::error_code unknown;  // then reading tells

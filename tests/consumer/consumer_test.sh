@@ -13,6 +13,10 @@ quietly() { "$@" >"$work/log.txt" 2>&1 || { cat "$work/log.txt" >&2; fail "faile
 
 quietly cmake --install "$build" --prefix "$work/prefix"
 prefix=$work/prefix
+for page in man/man1/hauberk.1 bash-completion/completions/hauberk zsh/site-functions/_hauberk \
+  zsh/vendor-completions/_hauberk fish/vendor_completions.d/hauberk.fish; do
+  grep -q 'hauberk' "$prefix/share/$page" || fail "$page is not installed"
+done
 launcher=()
 if command -v ccache >/dev/null; then launcher=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 

@@ -31,6 +31,9 @@ TEST(CommandLine, WrongCommands)
                "Usage: hauberk plugins ");
   expect_usage({"plugins", "describe"}, "describe: expected the id of one plugin", "Usage: hauberk plugins ");
   expect_usage({"plugins new"}, "unknown command 'plugins new'", "Usage:\n  hauberk run ");
+  expect_usage({"completion", "tcsh"}, "completion: expected bash, zsh or fish, found 'tcsh'",
+               "Usage: hauberk completion ");
+  expect_usage({"man", "run"}, "expected options only, found 'run'", "Usage: hauberk man\n");
 }
 
 TEST(CommandLine, WrongOptions)
@@ -50,7 +53,8 @@ TEST(CommandLine, WrongOptions)
 
 TEST(CommandLine, HelpAndVersion)
 {
-  for (const char* command : {"run", "check", "plan", "room", "verify", "report", "plugins"}) {
+  for (const char* command :
+       {"run", "check", "plan", "room", "verify", "report", "plugins", "completion", "man"}) {
     const Outcome o = run_program({command, "--help"});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.out.find(std::string("Usage: hauberk ") + command), 0U) << o.out;
@@ -82,6 +86,10 @@ Usage:
       a table and a page of plots of many results
   hauberk plugins [list | describe ID | conform FILE.so | new NAME DIR]
       shapes, load cases and optimizers that are found
+  hauberk completion bash|zsh|fish
+      a script that lets a shell complete commands, options and files
+  hauberk man
+      the manual page, as roff: hauberk man | man -l -
   hauberk --version
   hauberk --help; hauberk COMMAND --help for the options of a command
 

@@ -31,7 +31,8 @@ const std::vector<Command>& commands()
       {plan_description(), plan_command},       {room_description(), room_command},
       {verify_description(), verify_command},   {report_description(), report_command},
       {plugins_description(), plugins_command}, {conform_description(), conform_command},
-      {new_description(), new_command},
+      {new_description(), new_command},         {completion_description(), completion_command},
+      {man_description(), man_command},
   };
   return table;
 }

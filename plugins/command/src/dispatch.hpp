@@ -49,4 +49,10 @@ int conform_command(const std::vector<std::string>& words);
 Description new_description();
 int new_command(const std::vector<std::string>& words);
 
+Description completion_description();
+int completion_command(const std::vector<std::string>& words);
+
+Description man_description();
+int man_command(const std::vector<std::string>& words);
+
 }  // namespace hauberk::command

@@ -4,8 +4,8 @@
 #include <hauberk/error.hpp>
 #include <hauberk/triangle_surface.hpp>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include <hauberk/error.hpp>
 #include <hauberk/load_case.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <hauberk/shape.hpp>
 #include <hauberk/triangle_surface.hpp>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <cmath>
 

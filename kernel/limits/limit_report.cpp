@@ -4,8 +4,8 @@
 #include "limits/kinks.hpp"
 #include "model/links.hpp"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>

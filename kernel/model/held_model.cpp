@@ -2,8 +2,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <stdexcept>

@@ -6,9 +6,9 @@
 
 #include <hauberk/error.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

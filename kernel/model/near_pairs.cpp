@@ -4,8 +4,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "numerics/dense_product.hpp"
 
-#include <algorithm>
 #include <cholmod.h>
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <new>

@@ -2,9 +2,9 @@
 #include "report/report.hpp"
 #include "results/document.hpp"
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -19,8 +19,9 @@ std::vector<LimitTask> profile_tasks(const Experiment& experiment)
 
 std::string limits_check_line(const Plan& plan, std::size_t limits)
 {
-  const auto unbounded = std::count_if(plan.bounded.begin(), plan.bounded.end(),
-                                       [](const auto& task) { return task.second == Boundedness::unbounded; });
+  const auto unbounded = std::count_if(plan.bounded.begin(), plan.bounded.end(), [](const auto& task) {
+    return task.second == Boundedness::unbounded;
+  });
   const std::string free =
       fmt::format(" ({} not held by links: only a try shows whether they are unbounded)", unbounded);
   return fmt::format("{} elements, {} limits{}", plan.elements, limits, unbounded > 0 ? free : "");

@@ -2,10 +2,10 @@
 
 #include "results/direction_json.hpp"
 
-#include <boost/json/array.hpp>
-#include <boost/json/value_from.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/json/array.hpp>
+#include <boost/json/value_from.hpp>
 
 #include <algorithm>
 #include <cmath>

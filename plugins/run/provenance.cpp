@@ -8,12 +8,12 @@
 #include <hauberk/error.hpp>
 #include <hauberk/version.hpp>
 
+#include <fmt/format.h>
 #include <boost/json/serialize.hpp>
 #include <boost/version.hpp>
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <cholmod.h>
+#include <algorithm>
 
 namespace hauberk {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 /// Short hands for limits of test scenes.
 
-#include "limits/limits.hpp"
 #include <scenes.hpp>
+#include "limits/limits.hpp"
 
 namespace hauberk::brute {
 

@@ -1,11 +1,11 @@
 // Certified steps of motions and of parameter changes against small steps with brute-force distances.
 
+#include <scenes.hpp>
 #include "contact/published.hpp"
 #include "counts.hpp"
 #include "design/design_point.hpp"
 #include "motion/advancement.hpp"
 #include "moving_scene.hpp"
-#include <scenes.hpp>
 #include "statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "moving_scene.hpp"
 
+#include <scenes.hpp>
 #include "nearest_pair.hpp"
 #include "random_pairs.hpp"
-#include <scenes.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include "random_pairs.hpp"
 #include "statistics.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 namespace hauberk::brute {
 namespace {

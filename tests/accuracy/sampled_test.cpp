@@ -1,13 +1,13 @@
 // The published searches by samples, which guarantee nothing: how often they miss, and that what they find is
 // real.
 
+#include <scenes.hpp>
 #include "contact/formulation.hpp"
 #include "contact/published.hpp"
 #include "counts.hpp"
 #include "motion/advancement.hpp"
 #include "moving_scene.hpp"
 #include "random_pairs.hpp"
-#include <scenes.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

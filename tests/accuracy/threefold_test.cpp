@@ -4,9 +4,9 @@
 #include "limit_cases.hpp"
 #include "motion/advancement.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 namespace hauberk::brute {
 namespace {

@@ -96,7 +96,7 @@ long minima(const Pair& pair, double threshold)
   const PairFrame frame = swapped ? PairFrame(pair.b, pair.pose_b, pair.a, pair.pose_a)
                                   : PairFrame(pair.a, pair.pose_a, pair.b, pair.pose_b);
   const auto found = frame.P->is_circle_tube() ? local_minima<1>(frame, threshold, evaluations)
-                                        : local_minima<2>(frame, threshold, evaluations);
+                                               : local_minima<2>(frame, threshold, evaluations);
   if (found.empty()) throw ComputationError("there is no local minimum");
   return evaluations;
 }

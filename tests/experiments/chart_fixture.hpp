@@ -3,9 +3,9 @@
 
 #include "program.hpp"
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/value.hpp>
-#include <gtest/gtest.h>
 
 #include <memory>
 #include <string>

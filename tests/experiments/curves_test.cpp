@@ -4,9 +4,9 @@
 #include "document/json_text.hpp"
 #include "program.hpp"
 
-#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <boost/json/object.hpp>
 
 #include <array>
 #include <cmath>

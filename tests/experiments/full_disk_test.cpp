@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <sys/resource.h>
 #include <thread>
-#include <unistd.h>
 
 namespace hauberk::test {
 namespace {

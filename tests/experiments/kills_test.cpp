@@ -3,8 +3,8 @@
 #include "document/json_text.hpp"
 #include "result_files.hpp"
 
-#include <boost/json/value.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/value.hpp>
 
 #include <algorithm>
 #include <chrono>

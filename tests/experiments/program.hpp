@@ -3,9 +3,9 @@
 
 #include <boost/json/value.hpp>
 
+#include <sys/types.h>
 #include <filesystem>
 #include <string>
-#include <sys/types.h>
 #include <vector>
 
 namespace hauberk::test {

@@ -4,9 +4,9 @@
 #include "program.hpp"
 #include "result_files.hpp"
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>

@@ -2,8 +2,8 @@
 
 #include "document/json_text.hpp"
 
-#include <boost/json/object.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/object.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -3,9 +3,9 @@
 #include "document/json_text.hpp"
 #include "program.hpp"
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>

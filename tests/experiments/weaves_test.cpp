@@ -4,10 +4,10 @@
 #include "document/json_text.hpp"
 #include "program.hpp"
 
-#include <boost/json/array.hpp>
-#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 
 #include <cmath>
 #include <cstdlib>

@@ -2,13 +2,13 @@
 /// with nothing, in bounded work. What is compared with is sampled by code of the tests' own
 /// (accuracy/torus.hpp).
 
+#include <scenes.hpp>
 #include "contact/formulation.hpp"
 #include "contact/published.hpp"
 #include "geometry/separation.hpp"
 #include "harness.hpp"
 #include "motion/advancement.hpp"
 #include "pair_input.hpp"
-#include <scenes.hpp>
 
 #include <hauberk/error.hpp>
 

@@ -3,9 +3,9 @@
 #include "../sqp.hpp"
 #include "numerics/damped_bfgs.hpp"
 
+#include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 #include <common/subproblem.hpp>
-#include <gtest/gtest.h>
 
 #include <random>
 

@@ -3,8 +3,8 @@
 #include "checks.hpp"
 #include "differences.hpp"
 
-#include <Eigen/QR>
 #include <fmt/ranges.h>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "checks.hpp"
 #include "read.hpp"
 
-#include <boost/json/array.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/json/array.hpp>
 
 #include <cmath>
 #include <map>

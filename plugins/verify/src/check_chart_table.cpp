@@ -1,9 +1,9 @@
 #include "chart_points.hpp"
 #include "read.hpp"
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

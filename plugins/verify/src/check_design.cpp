@@ -2,10 +2,10 @@
 #include "layout.hpp"
 #include "read.hpp"
 
-#include <boost/json/array.hpp>
-#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 
 #include <cmath>
 #include <set>

@@ -4,11 +4,11 @@
 #include "neighbours.hpp"
 #include "read.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Geometry>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 

@@ -7,10 +7,10 @@
 #include "surface.hpp"
 #include "touching.hpp"
 
+#include <fmt/format.h>
 #include <Eigen/QR>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
 #include "checks.hpp"
 #include "read.hpp"
 
+#include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

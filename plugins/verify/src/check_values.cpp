@@ -2,8 +2,8 @@
 #include "checks.hpp"
 #include "kinematics.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 
 #include "neighbours.hpp"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "neighbours.hpp"
 #include "surface.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "separation.hpp"
 #include "surface.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 
 #include <hauberk/verify/verify.hpp>
 
-#include <boost/json/array.hpp>
-#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 
 #include <exception>
 

@@ -6,8 +6,8 @@
 #include "separation.hpp"
 #include "surface.hpp"
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 /// Contact energies of tubes around curves: the same as of circles where they are circles; derivatives in
 /// poses and in all geometric quantities, by central differences that converge with second order.
 
+#include <scenes.hpp>
 #include "contact/body_pair.hpp"
 #include "curve_pairs.hpp"
-#include <scenes.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 /// Contact energy of meshes: derivatives by differences, also of nearly parallel edges, and invariances.
 
+#include <scenes.hpp>
 #include "contact/body_pair.hpp"
 #include "contact/mesh.hpp"
 #include "geometry/facets.hpp"
-#include <scenes.hpp>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include "model/near_pairs.hpp"
 #include "scenes.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace hauberk::test {
 namespace {

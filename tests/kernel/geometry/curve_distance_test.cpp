@@ -1,9 +1,9 @@
 /// Distances, nearest points and links of tubes around curves, against circles and against brute force.
 
+#include <scenes.hpp>
 #include "contact/formulation.hpp"
 #include "curve_pairs.hpp"
 #include "geometry/separation.hpp"
-#include <scenes.hpp>
 
 #include <gtest/gtest.h>
 

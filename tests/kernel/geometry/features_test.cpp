@@ -1,11 +1,11 @@
 /// Nearest points of features against the distance of convex hulls, and the search for near ones against all
 /// of them.
 
-#include "geometry/facets.hpp"
 #include <scenes.hpp>
+#include "geometry/facets.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <set>
 

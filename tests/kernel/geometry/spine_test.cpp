@@ -5,8 +5,8 @@
 #include "geometry/closed_curve.hpp"
 #include "geometry/separation.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>

@@ -219,8 +219,7 @@ TEST(OptimizerChecks, Start)
   };
   EXPECT_EQ(start({0.5}), "(nothing thrown)");
   EXPECT_EQ(start({0.5, 0.5}), "optimizer: start has 2 variables, bounds have 1 and 1");
-  EXPECT_EQ(start({2.0}),
-            "optimizer: variable 0 starts at 2, outside its bounds [0, 1]");
+  EXPECT_EQ(start({2.0}), "optimizer: variable 0 starts at 2, outside its bounds [0, 1]");
   EXPECT_NE(start({std::nan("")}), "(nothing thrown)");
 }
 

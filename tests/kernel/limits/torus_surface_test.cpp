@@ -1,20 +1,20 @@
 /// Triangle meshes as elements: tori given as surfaces must be what contact mesh makes of tori, links, and
 /// exact limits with their derivatives.
 
+#include <scenes.hpp>
 #include "contact/body_pair.hpp"
 #include "equilibrium/gaps.hpp"
 #include "equilibrium/rest.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
 #include "limits/limits.hpp"
-#include <scenes.hpp>
 #include "surfaces.hpp"
 
 #include <hauberk/error.hpp>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <random>

@@ -1,11 +1,11 @@
 /// Steps of tubes around curves that are called free of collisions, against many small ones.
 
+#include <known_gaps.hpp>
+#include <scenes.hpp>
 #include "curve_pairs.hpp"
 #include "geometry/separation.hpp"
-#include <known_gaps.hpp>
 #include "model/near_pairs.hpp"
 #include "motion/advancement.hpp"
-#include <scenes.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// Steps of meshes that are called free of collisions, against many small ones.
 
+#include <scenes.hpp>
 #include "contact/mesh.hpp"
 #include "geometry/facets.hpp"
 #include "model/links.hpp"
 #include "motion/advancement.hpp"
-#include <scenes.hpp>
 
 #include <gtest/gtest.h>
 

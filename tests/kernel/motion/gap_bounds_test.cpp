@@ -10,8 +10,8 @@
 #include "model/near_pairs.hpp"
 #include "scenes.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

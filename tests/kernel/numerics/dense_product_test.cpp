@@ -2,8 +2,8 @@
 
 #include "numerics/dense_product.hpp"
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <random>
 

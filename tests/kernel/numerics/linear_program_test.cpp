@@ -2,8 +2,8 @@
 
 #include "numerics/linear_program.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <optional>

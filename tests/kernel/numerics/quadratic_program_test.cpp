@@ -1,7 +1,7 @@
 #include "numerics/quadratic_program.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include "numerics/sparse_ldlt.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <array>
 #include <random>

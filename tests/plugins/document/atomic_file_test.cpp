@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
 #include <array>
 #include <csignal>
 #include <fstream>
 #include <sstream>
-#include <sys/resource.h>
 
 namespace hauberk {
 namespace {

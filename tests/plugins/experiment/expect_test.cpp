@@ -2,8 +2,8 @@
 
 #include <hauberk/experiment/expect.hpp>
 
-#include <boost/json/parse.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/parse.hpp>
 
 namespace hauberk {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <hauberk/error.hpp>
 
-#include <boost/json/value.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/value.hpp>
 
 #include <cmath>
 #include <numbers>

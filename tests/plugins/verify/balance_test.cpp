@@ -2,8 +2,8 @@
 
 #include <hauberk/verify/verify.hpp>
 
-#include <boost/json/object.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/object.hpp>
 
 namespace hauberk {
 namespace {

@@ -4,8 +4,8 @@
 #include "separation.hpp"
 #include "surface.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Primitive torus(double R, double r0, double r1, const Vec3& centre = Vec3::Zero(),
-            const Vec3& turn = Vec3::Zero())
+                const Vec3& turn = Vec3::Zero())
 {
   const Mat3 rotation = turn.norm() > 0.0
                             ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()

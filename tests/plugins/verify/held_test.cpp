@@ -4,10 +4,10 @@
 
 #include <hauberk/verify/verify.hpp>
 
+#include <gtest/gtest.h>
 #include <Eigen/Dense>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

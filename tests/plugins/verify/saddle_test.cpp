@@ -7,10 +7,10 @@
 
 #include <hauberk/verify/verify.hpp>
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -77,7 +77,7 @@ TEST(Touching, PerpendicularLinkedRingsTouchOnTheirAxisOfSymmetry)
   // A flat about the origin, B upright about (8, 0, 0): inner sides at x = 4.3 and 3.7 + distance.
   for (const double axial : {0.7, 0.9}) {
     const Primitive a = ring(5.0, 0.7, axial, {0, 0, 0}, {0, 0, 1}),
-                b = ring(5.0, 0.7, axial, {8.4, 0, 0}, {0, 1, 0});
+                    b = ring(5.0, 0.7, axial, {8.4, 0, 0}, {0, 1, 0});
     const Touching t = touching_near(a, b, {4.2, 0.1, 0.05});
     EXPECT_NEAR(t.distance, (5.0 - 0.7) - (8.4 - 4.3), 1e-12);
     EXPECT_LT((t.normal - Vec3(-1, 0, 0)).norm(), 1e-7);
@@ -92,7 +92,7 @@ TEST(Touching, PerpendicularLinkedRingsTouchOnTheirAxisOfSymmetry)
 TEST(Touching, MixedSectionsAgreeEitherWayRound)
 {
   const Primitive tube = ring(5.0, 0.7, 0.7, {0, 0, 0}, {0.1, 0.2, 1}),
-              oval = ring(4.0, 0.5, 0.9, {6, 0.3, 0.2}, {0, 1, 0.3});
+                  oval = ring(4.0, 0.5, 0.9, {6, 0.3, 0.2}, {0, 1, 0.3});
   const std::vector<Touching> one = touchings(tube, oval, 3.0), other = touchings(oval, tube, 3.0);
   ASSERT_FALSE(one.empty());
   ASSERT_EQ(one.size(), other.size());

@@ -2,9 +2,9 @@
 
 #include <hauberk/verify/verify.hpp>
 
+#include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <cmath>
 

@@ -6,10 +6,10 @@
 #include "links.hpp"
 #include "together.hpp"
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
@@ -40,7 +40,8 @@ std::vector<Primitive> square(double side)
 TEST(Together, AsManyLoopsAsTheSolidHasBesideItsTori)
 {
   const std::vector<Primitive> cage{torus(1.0, 0.1, Vec3::Zero(), Vec3::UnitX()),
-                                torus(1.0, 0.1, Vec3::Zero(), Vec3::UnitY()), torus(1.0, 0.1, Vec3::Zero())};
+                                    torus(1.0, 0.1, Vec3::Zero(), Vec3::UnitY()),
+                                    torus(1.0, 0.1, Vec3::Zero())};
   EXPECT_EQ(overlaps(cage[0], cage[1]).size(), 2U);
   EXPECT_EQ(loops_together(cage).size(), 4U);
   EXPECT_EQ(loops_together(square(2.1)).size(), 1U);

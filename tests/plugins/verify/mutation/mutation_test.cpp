@@ -5,10 +5,10 @@
 
 #include <hauberk/verify/verify.hpp>
 
-#include <boost/json/object.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <boost/json/object.hpp>
 
 #include <cstdlib>
 

@@ -102,7 +102,7 @@ complete -F _hauberk hauberk
 std::string quoted_list(const std::vector<std::string>& words)
 {
   std::vector<std::string> list;
-  for (const std::string& word : words) list.push_back(quoted(word));
+  for (const std::string& word : words) list.push_back(shell_quoted(word));
   return fmt::format("{}", fmt::join(list, " "));
 }
 
@@ -138,8 +138,8 @@ std::string options_of(const Description& about)
       if (option.takes != Takes::nothing) valued.push_back(word);
     }
   }
-  return fmt::format("    {}) options=({}) valued={} ;;\n", quoted(about.name), fmt::join(all, " "),
-                     quoted(fmt::format(" {} ", fmt::join(valued, " "))));
+  return fmt::format("    {}) options=({}) valued={} ;;\n", shell_quoted(about.name), fmt::join(all, " "),
+                     shell_quoted(fmt::format(" {} ", fmt::join(valued, " "))));
 }
 
 /// Adds the values of a command's options: what offers them, and the patterns "run --set" that it is for.
@@ -149,7 +149,7 @@ void add_values(const Description& about, std::map<std::string, std::vector<std:
     const std::string call = offer(option.offer, option.choices);
     if (call.empty()) continue;
     for (const std::string& word : spellings(option))
-      patterns[call].push_back(quoted(about.name + " " + word));
+      patterns[call].push_back(shell_quoted(about.name + " " + word));
   }
 }
 
@@ -179,7 +179,7 @@ std::string bash_completion()
   for (const Command& command : commands()) {
     const Description& about = command.about;
     (is_below_another(about) ? two_words : names)
-        .push_back(is_below_another(about) ? quoted(about.name) : about.name);
+        .push_back(is_below_another(about) ? shell_quoted(about.name) : about.name);
     options += options_of(about);
     add_values(about, patterns);
     arguments += arguments_of(about);

@@ -24,7 +24,7 @@ std::vector<std::string> first_words(const Description& about)
   return words;
 }
 
-std::string quoted(std::string_view text)
+std::string shell_quoted(std::string_view text)
 {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -23,7 +23,7 @@ std::vector<std::string> spellings(const Option& option);
 std::vector<std::string> first_words(const Description& about);
 
 /// In single quotes, as all three shells read it.
-std::string quoted(std::string_view text);
+std::string shell_quoted(std::string_view text);
 
 /// The ids in what `hauberk plugins list` prints, as a filter; plugins that cannot be used are left out.
 std::string ids_filter();

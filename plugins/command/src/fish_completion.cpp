@@ -62,7 +62,8 @@ std::string offer(Offer what, const std::vector<std::string>& words)
 /// The beginning of a line that holds for one command.
 std::string line_of(const std::string& name, const std::string& also = "")
 {
-  return fmt::format("complete -c hauberk -n {}", quoted(fmt::format("__hauberk_is \"{}\"{}", name, also)));
+  return fmt::format("complete -c hauberk -n {}",
+                     shell_quoted(fmt::format("__hauberk_is \"{}\"{}", name, also)));
 }
 
 std::string option_line(const Description& about, const Option& option)
@@ -72,15 +73,15 @@ std::string option_line(const Description& about, const Option& option)
   text += " -l " + option.name;
   if (option.takes != Takes::nothing) text += " -x";
   const std::string values = offer(option.offer, option.choices);
-  if (!values.empty()) text += " -a " + quoted(values);
-  return fmt::format("{} -d {}\n", text, quoted(option.help));
+  if (!values.empty()) text += " -a " + shell_quoted(values);
+  return fmt::format("{} -d {}\n", text, shell_quoted(option.help));
 }
 
 std::string lines_of(const Description& about)
 {
   std::string text;
   if (!is_below_another(about))
-    text += fmt::format("{} -a {} -d {}\n", line_of(""), about.name, quoted(about.line));
+    text += fmt::format("{} -a {} -d {}\n", line_of(""), about.name, shell_quoted(about.line));
   for (const Option& option : options_with_help(about)) text += option_line(about, option);
   for (std::size_t k = 0; k < about.arguments.size(); ++k) {
     const Argument& argument = about.arguments[k];
@@ -91,7 +92,8 @@ std::string lines_of(const Description& about)
     if (argument.offer == Offer::words)
       also = fmt::format("; and not __fish_seen_subcommand_from {}", fmt::join(words, " "));
     if (!argument.after.empty()) also = "; and __fish_seen_subcommand_from " + argument.after;
-    if (!offered.empty()) text += fmt::format("{} -k -a {}\n", line_of(about.name, also), quoted(offered));
+    if (!offered.empty())
+      text += fmt::format("{} -k -a {}\n", line_of(about.name, also), shell_quoted(offered));
   }
   return text;
 }
@@ -103,7 +105,7 @@ std::string fish_completion()
   std::vector<std::string> two_words;
   std::string lines;
   for (const Command& command : commands()) {
-    if (is_below_another(command.about)) two_words.push_back(quoted(command.about.name));
+    if (is_below_another(command.about)) two_words.push_back(shell_quoted(command.about.name));
     lines += lines_of(command.about);
   }
   std::string text = with_part(std::string(frame), "@LONG@", fmt::format("{}", fmt::join(two_words, " ")));

@@ -98,23 +98,23 @@ std::string option_spec(const Option& option)
   const std::string before = repeats                 ? "*"
                              : option.name == "help" ? "(- : *)"
                                                      : fmt::format("({})", fmt::join(words, " "));
-  if (option.letter == 0) return quoted(before + names + rest);
-  return fmt::format("{}{{-{}{},{}}}{}", quoted(before), option.letter, valued ? "+" : "", names,
-                     quoted(rest));
+  if (option.letter == 0) return shell_quoted(before + names + rest);
+  return fmt::format("{}{{-{}{},{}}}{}", shell_quoted(before), option.letter, valued ? "+" : "", names,
+                     shell_quoted(rest));
 }
 
 std::string argument_spec(const Description& about, std::size_t k)
 {
   const Argument& argument = about.arguments[k];
   const std::string place = argument.several ? "*" : std::to_string(k + 1);
-  return quoted(
+  return shell_quoted(
       fmt::format("{}:{}:{}", place, marked(argument.name, ":"),
                   action(argument.offer, k == 0 ? first_words(about) : argument.choices, argument.after)));
 }
 
 std::string arguments_of(const Description& about)
 {
-  std::string text = fmt::format("        {})\n          _arguments", quoted(about.name));
+  std::string text = fmt::format("        {})\n          _arguments", shell_quoted(about.name));
   for (const Option& option : options_with_help(about)) text += " \\\n            " + option_spec(option);
   for (std::size_t k = 0; k < about.arguments.size(); ++k)
     text += " \\\n            " + argument_spec(about, k);
@@ -130,9 +130,9 @@ std::string zsh_completion()
   for (const Command& command : commands()) {
     const Description& about = command.about;
     if (is_below_another(about))
-      two_words.push_back(quoted(about.name));
+      two_words.push_back(shell_quoted(about.name));
     else
-      names += fmt::format("    {}\n", quoted(about.name + ":" + marked(about.line, ":")));
+      names += fmt::format("    {}\n", shell_quoted(about.name + ":" + marked(about.line, ":")));
     arguments += arguments_of(about);
   }
   std::string text = with_part(std::string(frame), "@FILTER@", ids_filter());

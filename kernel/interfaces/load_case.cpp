@@ -72,6 +72,7 @@ void LoadCase::do_metric(std::span<double> m) const
 
 bool LoadCase::do_admissible(std::span<const double> macro) const
 {
+  if (!std::all_of(macro.begin(), macro.end(), [](double x) { return std::isfinite(x); })) return false;
   if (!periodic()) return true;
   const Eigen::MatrixXd F = translation_map(*this, macro).topRows(dimensions(*this));
   const Eigen::MatrixXd symmetric = 0.5 * (F + F.transpose());

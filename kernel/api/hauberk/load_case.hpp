@@ -239,7 +239,7 @@ class LoadCase {
     return 0.0;
   }
   /// Of lattices: the symmetric part of F is positive definite, a convex set that holds no state with a
-  /// reflected or flat cell. Of patches: everything.
+  /// reflected or flat cell. Of patches: everything finite.
   virtual bool do_admissible(std::span<const double> macro) const;
   /// Of lattices: the singular values of F. Of patches 1 and 1: a load that nothing stops then ends where
   /// steps run out.

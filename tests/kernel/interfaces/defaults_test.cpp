@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace hauberk::test {
@@ -76,6 +78,8 @@ TEST(LoadCaseDefaults, AreWhatASheetSaysOfItself)
   }
   EXPECT_GT(admissible, 100);
   EXPECT_LT(admissible, 900);
+  EXPECT_FALSE(bare.admissible(std::array{0.0, std::nan(""), 0.0}));
+  EXPECT_FALSE(MixedUnits().admissible(std::array{0.0, std::numeric_limits<double>::infinity()}));
 }
 
 TEST(LoadCaseDefaults, LimitsAreThoseOfTheSheet)

@@ -214,11 +214,6 @@ class Path {
 
 }  // namespace
 
-double load_size(const Model& m, const Vector& load)
-{
-  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
-}
-
 Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Schedule& schedule,
                     const PlannedStage& plan)
 {

@@ -5,9 +5,6 @@
 
 namespace hauberk {
 
-/// Norm of a load in the dual of the step norm.
-double load_size(const Model& model, const Vector& load);
-
 /// A planned stage of a schedule for a load of this size.
 Stage barrier_stage(const Model& model, double load_size, ContactChoice choice, const Schedule& schedule,
                     const PlannedStage& plan);

@@ -4,6 +4,8 @@
 #include "equilibrium/curvature.hpp"
 #include "model/near_pairs.hpp"
 
+#include <hauberk/error.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,7 +68,7 @@ class Newton {
       : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going), bounds_(bounds)
   {
     most_radius_ = largest_radius * std::sqrt(std::max(1.0, m.element_count() / few_elements));
-    load_norm_ = std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
+    load_norm_ = load_size(m, load);
   }
 
   StageResult run()
@@ -303,6 +305,11 @@ class Newton {
       lambda = std::max(next, too_low * 1.5);
       if (lambda > 2.0 * floor) s.shifted = true;
     }
+    if (s.dy.size() == 0) {
+      throw ComputationError(fmt::format(
+          "the curvature of a state with a smallest gap of {:.1e} L cannot be factorised at any shift",
+          e.contact.min_gap));
+    }
     s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(curvature_->times(s.dy)));
     if (s.predicted < 0.0) s.predicted = -0.5 * e.gradient.dot(s.dy);
     return s;
@@ -446,12 +453,22 @@ Matrix macro_stiffness(const Model& m, const Stage& stage)
   return K;
 }
 
+/// With that K.
+Vector driving_load(const Matrix& K, const State& s, const Vector& load)
+{
+  return K.size() > 0 ? Vector(load - K * s.macro) : load;
+}
+
 }  // namespace
+
+double load_size(const Model& m, const Vector& load)
+{
+  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
+}
 
 Vector driving_load(const Model& m, const State& s, const Vector& load, const Stage& stage)
 {
-  const Matrix K = macro_stiffness(m, stage);
-  return K.size() > 0 ? Vector(load - K * s.macro) : load;
+  return driving_load(macro_stiffness(m, stage), s, load);
 }
 
 TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, const Stage& stage,
@@ -463,15 +480,16 @@ TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, con
   t.contact = contact_energy(m, s, pairs, stage.contact, request, bounds);
   t.admissible = t.contact.min_gap > 0.0;
   t.energy = stage.mu * t.contact.energy - load.dot(s.macro);
+  const Matrix K = macro_stiffness(m, stage);
   if (order >= 1) {
     t.gradient = stage.mu * t.contact.gradient;
-    t.gradient.head(m.macro_count) -= driving_load(m, s, load, stage);
+    t.gradient.head(m.macro_count) -= driving_load(K, s, load);
   }
   if (order >= 2) {
     t.hessian = stage.mu * t.contact.hessian;
     t.sparse_hessian = stage.mu * t.contact.sparse_hessian;
   }
-  if (const Matrix K = macro_stiffness(m, stage); K.size() > 0) {
+  if (K.size() > 0) {
     t.energy += 0.5 * s.macro.dot(K * s.macro);
     for (int k = 0; order >= 2 && k < m.macro_count; ++k) {
       for (int l = 0; l < (m.sparse() ? k + 1 : m.macro_count); ++l)

@@ -55,10 +55,14 @@ using KeepGoing = std::function<bool()>;
 /// positive definite. The quadratic model is shifted by lambda * metric until it is positive definite and its
 /// step stays within the trust radius. A stationary point with negative curvature is left along it. Null
 /// directions (spins, rattlers, translations) carry a tiny shift and cost nothing. A state that is no sheet
-/// any more (LoadCase::not_a_sheet) ends it. Thread safe; deterministic. `bounds`: what is known of gaps from
-/// stages before; otherwise nothing is at the beginning.
+/// any more (LoadCase::not_a_sheet) ends it. Throws ComputationError where no shift makes the curvature
+/// definite, which it does not come to while numbers are finite. Thread safe; deterministic. `bounds`: what
+/// is known of gaps from stages before; otherwise nothing is at the beginning.
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going, GapBounds* bounds = nullptr);
+
+/// Norm of a load in the dual of the step norm.
+double load_size(const Model& model, const Vector& load);
 
 /// What drives the macroscopic unknowns in a state: the load, less macro/T where the target is finite, less
 /// what a tether pulls. At an equilibrium the contact forces balance it.

@@ -216,6 +216,14 @@ json::object plan_json(const Prepared& prepared, const Plan& plan)
 
 namespace {
 
+/// A key as people read it.
+std::string words(std::string_view key)
+{
+  std::string text(key);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 std::string value_text(const json::value& value)
 {
   if (const json::string* text = value.if_string()) return std::string(*text);
@@ -226,8 +234,10 @@ std::string value_text(const json::value& value)
     for (const json::value& item : *list) parts.push_back(value_text(item));
     return fmt::format("{}", fmt::join(parts, ", "));
   }
-  for (const auto& [key, item] : value.as_object())
-    parts.push_back(fmt::format("{} {}", std::string_view(key), value_text(item)));
+  for (const auto& [key, item] : value.as_object()) {
+    const std::string text = value_text(item);
+    parts.push_back(key == "name" ? text : fmt::format("{} {}", words(key), text));
+  }
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
@@ -237,8 +247,7 @@ std::string task_text(const std::string& task, const json::object& entries)
   if (entries.empty()) return {};
   std::string text = fmt::format("\nTask {}\n", task);
   for (const auto& [key, value] : entries) {
-    std::string name(key);
-    std::replace(name.begin(), name.end(), '_', ' ');
+    const std::string name = words(key);
     const json::array* list = value.if_array();
     if (list == nullptr || list->empty() || !list->front().is_object()) {
       text += fmt::format("  {}: {}\n", name, value_text(value));

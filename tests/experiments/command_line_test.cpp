@@ -175,6 +175,31 @@ TEST(CommandLine, PlanAsJsonIsThatOfTheResults)
   EXPECT_EQ(parse_json(json.out, "plan"), read_results(folder / "out").at("plan"));
 }
 
+TEST(CommandLine, PlansOfTasksSayWhatTheyTake)
+{
+  // Six ratios, each of a stretch and a compression; stages from 0.03 L, by factors not below a tenth, to the
+  // 0.003 L of the first search and the 1e-4 L of the last.
+  const std::string design = HAUBERK_SOURCE_DIR "/share/experiments/chainmail_c.json";
+  const boost::json::value plan = parse_json(run_program({"plan", design, "--json"}).out, "plan");
+  const boost::json::object& task = plan.at("task").as_object();
+  EXPECT_EQ(task.at("limits_per_evaluation"), 12);
+  EXPECT_EQ(task.at("variables").as_array().size(), 16U);
+  EXPECT_EQ(task.at("first_search").at("stages"), 2);
+  EXPECT_EQ(task.at("final_search").at("stages"), 4);
+  EXPECT_EQ(plan.at("stages").as_array().size(), 9U);
+  const std::string text = run_program({"plan", design}).out;
+  EXPECT_NE(text.find("\nTask design\n  variables:\n    0/ring.R from 4 to 6.5\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  first search: stages 2 last activation distance 0.003\n"), std::string::npos)
+      << text;
+
+  const std::string sweep = HAUBERK_SOURCE_DIR "/share/experiments/ratio_european_4in1.json";
+  const boost::json::value rows = parse_json(run_program({"plan", sweep, "--json"}).out, "plan");
+  EXPECT_EQ(rows.at("task").at("rows"), 11);
+  EXPECT_EQ(rows.at("task").at("limits_per_row"), 4);
+  EXPECT_EQ(rows.at("task").at("refused_as_input"), 0);
+}
+
 TEST(CommandLine, Plugins)
 {
   const Outcome list = run_program({"plugins", "list"});

@@ -31,12 +31,16 @@ void add_places(const Field& field, const std::string& place, std::vector<std::s
   }
 }
 
-std::vector<std::string> places_to_set()
+/// The same for every command, and made once.
+const std::vector<std::string>& places_to_set()
 {
-  std::vector<std::string> places;
-  for (const Field& section : experiment_fields(task_formats()).children)
-    if (!section.name.starts_with('$')) add_places(section, "/" + section.name, places);  // not for editors
-  return places;
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> places;
+    for (const Field& section : experiment_fields(task_formats()).children)
+      if (!section.name.starts_with('$')) add_places(section, "/" + section.name, places);  // not for editors
+    return places;
+  }();
+  return all;
 }
 
 }  // namespace

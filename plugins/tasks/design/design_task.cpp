@@ -103,7 +103,8 @@ class DesignTask final : public TaskRun {
       Schedule schedule = spec_.schedule;
       schedule.last = std::max(schedule.last, last);
       const std::vector<PlannedStage> stages = planned_stages(prepared_.settings.contact, schedule);
-      return boost::json::object{{"stages", stages.size()}, {"last", stages.back().g_hat}};
+      return boost::json::object{{"stages", stages.size()},
+                                 {"last_activation_distance", stages.back().g_hat}};
     };
     const std::size_t searched = (spec_.quantity == DesignQuantity::eta ? 2 : 1) * spec_.targets.size();
     return {{"variables", variables},      {"limits_per_evaluation", searched},

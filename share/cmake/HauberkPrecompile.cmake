@@ -29,7 +29,7 @@ function(hauberk_precompile target)
     file(CONFIGURE OUTPUT "${empty}" CONTENT "int main() { return 0; }\n")
     if(arg_TEST)
       add_executable(${set} EXCLUDE_FROM_ALL "${empty}")
-      target_compile_options(${set} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)  # as HauberkAddTest does
+      target_compile_options(${set} PRIVATE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")  # as HauberkAddTest does
     else()
       add_library(${set} STATIC EXCLUDE_FROM_ALL "${empty}")
     endif()

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <thread>
 
 namespace hauberk::test {
@@ -87,10 +88,13 @@ TEST_P(RepeatedSearch, EndsAsOneRunWhereverItWasInterrupted)
   ASSERT_GT(whole.log.size(), 12U);
   ASSERT_EQ(whole.results.at_pointer("/design/starts").as_array().size(), 2U);
   const std::string expected = write_json(whole.results);
-  // After the first evaluation but before its states; in the middle; a line that is cut off; at the end.
+  // A line that is cut off, in the middle; at the end. For one optimizer, as a run of each costs seconds,
+  // also after the first evaluation but before its states, and in the second start.
   const std::size_t n = whole.log.size();
-  for (const auto& [count, cut] :
-       {std::pair<std::size_t, bool>{2, false}, {n / 3, true}, {2 * n / 3, false}, {n, false}}) {
+  std::vector<std::pair<std::size_t, bool>> interrupts{{n / 3, true}, {n, false}};
+  if (std::string_view(GetParam().first) == "sqp")
+    interrupts.insert(interrupts.end(), {{2, false}, {2 * n / 3, false}});
+  for (const auto& [count, cut] : interrupts) {
     std::string log;
     for (std::size_t k = 0; k < count; ++k) log += whole.log[k] + "\n";
     if (cut) log += whole.log[count].substr(0, whole.log[count].size() / 2);

@@ -9,8 +9,7 @@ function(hauberk_add_test name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} hauberk::mechanics hauberk_warnings GTest::gtest_main)
-  # Two fifths less to compile; what takes time in tests is in the kernel and in libraries, which keep their lines.
-  target_compile_options(${name} PRIVATE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")
+  target_compile_options(${name} PRIVATE "${HAUBERK_TEST_OPTIONS}")
   target_compile_definitions(
     ${name} PRIVATE HAUBERK_BINARY_DIR="${PROJECT_BINARY_DIR}" HAUBERK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                     ${arg_DEFINITIONS})

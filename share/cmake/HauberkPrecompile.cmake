@@ -12,6 +12,10 @@ set(HAUBERK_PRECOMPILED
     <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers> <optional> <span>
     <sstream> <string> <string_view> <utility> <vector> <fmt/format.h> <Eigen/Dense>)
 
+# How tests are compiled: what takes time in them is in the kernel and in libraries, which are optimised and keep their
+# lines. What is precompiled for tests must be compiled alike.
+set(HAUBERK_TEST_OPTIONS "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")
+
 # hauberk_precompile(<target> [HIDDEN] [JSON] [TEST])
 #
 # What is precompiled depends on the options of the compiler, so there is one set for each combination: HIDDEN for
@@ -29,7 +33,7 @@ function(hauberk_precompile target)
     file(CONFIGURE OUTPUT "${empty}" CONTENT "int main() { return 0; }\n")
     if(arg_TEST)
       add_executable(${set} EXCLUDE_FROM_ALL "${empty}")
-      target_compile_options(${set} PRIVATE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")  # as HauberkAddTest does
+      target_compile_options(${set} PRIVATE "${HAUBERK_TEST_OPTIONS}")
     else()
       add_library(${set} STATIC EXCLUDE_FROM_ALL "${empty}")
     endif()

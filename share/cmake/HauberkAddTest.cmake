@@ -1,9 +1,11 @@
-# hauberk_add_test(<name> SOURCES <file>... [LIBRARIES <target>...] [DEFINITIONS <definition>...])
+# hauberk_add_test(<name> SOURCES <file>... [LIBRARIES <target>...] [DEFINITIONS <definition>...] [SEPARATE])
+#
+# SEPARATE: files share names in unnamed namespaces and cannot be joined.
 #
 # A GoogleTest program <build>/bin/tests/<name>; each of its tests is one for ctest, named <name>.<suite>.<test>.
 # The kernel is linked, with all that is inside; the macro HAUBERK_BINARY_DIR is the build folder, HAUBERK_SOURCE_DIR the checkout.
 function(hauberk_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;DEFINITIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SEPARATE" "" "SOURCES;LIBRARIES;DEFINITIONS")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
     message(FATAL_ERROR "hauberk_add_test(${name}): SOURCES missing, or unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -18,6 +20,9 @@ function(hauberk_add_test name)
     hauberk_precompile(${name} JSON TEST)
   else()
     hauberk_precompile(${name} TEST)
+  endif()
+  if(NOT arg_SEPARATE)
+    hauberk_join(${name})
   endif()
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -51,3 +51,14 @@ function(hauberk_precompile target)
   target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
                                            -Wno-stringop-overread)
 endfunction()
+
+# hauberk_join(<target>): compiles sources six at a time. What most files take is templates of Eigen and Boost.JSON,
+# which are made once for all six. Names in unnamed namespaces must differ within a target then; a file that cannot be
+# joined has the property SKIP_UNITY_BUILD_INCLUSION. Off with a compiler cache, for the same reasons as above, and for
+# work on a few files: -DHAUBERK_JOIN=OFF.
+option(HAUBERK_JOIN "Compile sources six at a time" ${HAUBERK_PRECOMPILE_DEFAULT})
+function(hauberk_join target)
+  if(HAUBERK_JOIN)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
+endfunction()

@@ -10,7 +10,7 @@ namespace hauberk::brute {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Coefficients of z^-n .. z^n of a trigonometric polynomial.
 using Coefficients = std::vector<Complex>;

@@ -8,7 +8,7 @@
 namespace hauberk::brute {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double turn(double angle) { return std::remainder(angle, 2.0 * pi); }
 

@@ -10,7 +10,7 @@
 namespace hauberk::brute {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Digits50 =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 

@@ -10,7 +10,7 @@
 namespace hauberk::brute {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Smallest distance of two surface samples, then steepest pattern search over the four angles.
 double sampled_distance(const Torus& a, const Torus& b)

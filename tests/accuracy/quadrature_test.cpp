@@ -15,7 +15,7 @@
 namespace hauberk::brute {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A pair whose gap is a given part of the activation distance.
 struct Contact {

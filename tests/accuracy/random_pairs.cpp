@@ -5,7 +5,7 @@
 namespace hauberk::brute {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Sampling coarse{256, 48, 24};
 
 class Draw {

@@ -6,7 +6,7 @@
 namespace hauberk::brute {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct PlaneFoot {
   double x, y;

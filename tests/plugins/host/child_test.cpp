@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <thread>
 
 namespace hauberk::test {
@@ -35,7 +36,8 @@ TEST(InChild, SurvivesWhateverHappens)
             "ended the process with exit code 3");
   EXPECT_EQ(in_child([]() -> std::string { std::_Exit(0); }, 20.0).ending,
             "ended the process with exit code 0");
-  EXPECT_EQ(in_child([]() -> std::string { throw 1; }, 20.0).ending, "ended the process with exit code 1");
+  EXPECT_EQ(in_child([]() -> std::string { throw std::runtime_error("no licence"); }, 20.0).ending,
+            "ended by signal 6 (Aborted); it last printed:   what():  no licence");
 }
 
 TEST(InChild, EndsWhatDoesNotReturn)

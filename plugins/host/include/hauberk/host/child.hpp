@@ -15,7 +15,8 @@ struct Child {
 
 /// Runs `f` in a child of this process, which must have no threads that `f` needs. What the child prints is
 /// kept from this program's output; its last line is part of `ending`. After `seconds` the child is ended,
-/// with all that it started. Throws ComputationError when no process can be made.
+/// with all that it started; an exception that leaves `f` aborts it. Throws ComputationError when no process
+/// can be made.
 Child in_child(const std::function<std::string()>& f, double seconds);
 
 }  // namespace hauberk

@@ -10,7 +10,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Relative radius of curvature that makes sqrt(2 r g) a length of order of the contact zone; it only
 /// scales the stiffness, so that the three barriers push alike (see barrier.hpp). Unit: L.

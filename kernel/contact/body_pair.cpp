@@ -116,11 +116,10 @@ void add_side(const PairTerms& side, bool swapped, int order, PairTerms& sum)
   constexpr std::array<int, 9> at{0, 1, 2, 6, 7, 8, 3, 4, 5};
   for (int i = 0; i < 9; ++i) {
     const double si = i < 3 ? -1.0 : 1.0;
-    sum.gradient[at[static_cast<std::size_t>(i)]] += si * side.gradient[i];
+    sum.gradient[at[i]] += si * side.gradient[i];
     if (order < 2) continue;
     for (int j = 0; j < 9; ++j) {
-      sum.hessian(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]) +=
-          si * (j < 3 ? -1.0 : 1.0) * side.hessian(i, j);
+      sum.hessian(at[i], at[j]) += si * (j < 3 ? -1.0 : 1.0) * side.hessian(i, j);
     }
   }
 }

@@ -88,7 +88,7 @@ GapTerms gap_terms(const NearestFeatures& at, const Vec3& rho, int order)
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 2> rc(3, free);
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 2> X(6, free);
   for (Eigen::Index k = 0; k < free; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     rc.col(k) = at.tangent_p[i] - at.tangent_f[i];
     X.col(k) << Vec3::Zero(), at.tangent_p[i].cross(n);
   }
@@ -114,8 +114,8 @@ void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1
     }
   };
   for (int k = 0; k < 3; ++k) {
-    out.dP[static_cast<std::size_t>(k)] += w1 * at.normal[k];
-    out.dF[static_cast<std::size_t>(k)] -= w1 * at.normal[k];
+    out.dP[k] += w1 * at.normal[k];
+    out.dF[k] -= w1 * at.normal[k];
   }
   const Vec3 own(frame.e1.dot(at.normal), frame.e2.dot(at.normal), frame.e3.dot(at.normal));
   add(*frame.P->facets, at.p, own, out.dP, out.curve_P);

@@ -11,7 +11,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Panels this small hold one minimum or a merge whose depth is below rounding (depth ~ h^4).
 constexpr double merge_width = 1e-4;  // radians

@@ -115,7 +115,7 @@ class Contact {
   {
     const PoseJet e = energy(pose_torus_pair(frame_), PoseJet(settings_.clearance), 2, out.evaluations);
     for (int i = 0; i < 6; ++i) {
-      out.gradient[i] += e.g[static_cast<std::size_t>(i)];
+      out.gradient[i] += e.g[i];
       if (order < 2) continue;
       for (int j = 0; j < 6; ++j) {
         out.hessian(i, j) += e.h[PoseJet::at(static_cast<std::size_t>(i), static_cast<std::size_t>(j))];

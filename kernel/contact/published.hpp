@@ -93,12 +93,12 @@ std::array<S, 3> lowest_block(const std::array<std::array<S, 4>, 4>& H, const Ei
     std::array<S, 4> Hv;
     for (std::size_t r = 0; r < 4; ++r) {
       Hv[r] = V(0, i) * H[r][0];
-      for (int c = 1; c < 4; ++c) Hv[r] += V(c, i) * H[r][static_cast<std::size_t>(c)];
+      for (int c = 1; c < 4; ++c) Hv[r] += V(c, i) * H[r][c];
     }
     for (int k = 0; k < 4; ++k) {
-      S& x = A[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+      S& x = A[i][k];
       x = V(0, k) * Hv[0];
-      for (int r = 1; r < 4; ++r) x += V(r, k) * Hv[static_cast<std::size_t>(r)];
+      for (int r = 1; r < 4; ++r) x += V(r, k) * Hv[r];
     }
   }
   std::array<S, 3> B{A[0][0], A[0][1], A[1][1]};

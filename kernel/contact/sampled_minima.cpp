@@ -5,7 +5,7 @@
 namespace hauberk::published {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Samples of each surface along the ring and around the tube. The paper says "multiple samples on both
 /// tori"; these numbers are assumed.
@@ -35,7 +35,7 @@ Samples sample(double R, double r0, double r1, const Vec3& a, const Vec3& e1, co
     for (int j = 0; j < tube_samples; ++j) {
       const double v = 2.0 * pi * j / tube_samples;
       const int sample = i * tube_samples + j;
-      const auto k = static_cast<std::size_t>(sample);
+      const std::size_t k = sample;
       out.angles[k] = {u, v};
       out.points[k] = a + (R + r0 * std::cos(v)) * radial + r1 * std::sin(v) * e3;
     }

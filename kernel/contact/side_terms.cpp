@@ -49,8 +49,8 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
 {
   d_clearance -= w1;  // gap = distance - clearance
   for (int k = 0; k < 3; ++k) {
-    dP[static_cast<std::size_t>(k)] += w1 * f.n[k];
-    dF[static_cast<std::size_t>(k)] -= w1 * f.n[k];
+    dP[k] += w1 * f.n[k];
+    dF[k] -= w1 * f.n[k];
   }
   if (frame.P->curve) {
     add_harmonics(*frame.P->curve, q.u, w1 * Vec3(f.n.dot(frame.e1), f.n.dot(frame.e2), f.n.dot(frame.e3)),

@@ -57,7 +57,7 @@ TorusPair<PoseJet> pose_torus_pair(const PairFrame& frame)
 TorusPair<SizeJet> size_torus_pair(const PairFrame& frame)
 {
   TorusPair<SizeJet> pair = fixed_pair<SizeJet>(frame);
-  for (int k = 0; k < 3; ++k) pair.a[static_cast<std::size_t>(k)] = SizeJet::variable(frame.a[k], k);
+  for (int k = 0; k < 3; ++k) pair.a[k] = SizeJet::variable(frame.a[k], k);
   pair.R = SizeJet::variable(frame.P->R, 3);
   pair.r0 = SizeJet::variable(frame.P->r0, 4);
   pair.r1 = SizeJet::variable(frame.P->r1, 5);

@@ -34,7 +34,7 @@ DesignConstraints::DesignConstraints(std::shared_ptr<const DesignScene> scene, c
 void DesignConstraints::add_hole(const Model& model, int ring, int thread)
 {
   // Nor how wide the hole of a tube around a curve is; links and rest gaps hold it open.
-  if (model.bodies[static_cast<std::size_t>(ring)].curve) return;
+  if (model.bodies[ring].curve) return;
   for (const int k : {quantity_r0, quantity_r1}) {
     const bool known = std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) {
       return h.ring == ring && h.thread == thread && h.size_index == k;
@@ -45,8 +45,8 @@ void DesignConstraints::add_hole(const Model& model, int ring, int thread)
 
 double DesignConstraints::hole_room(const Model& model, const Hole& hole) const
 {
-  const Body& ring = model.bodies[static_cast<std::size_t>(hole.ring)];
-  const Body& thread = model.bodies[static_cast<std::size_t>(hole.thread)];
+  const Body& ring = model.bodies[hole.ring];
+  const Body& thread = model.bodies[hole.thread];
   return ring.R - ring.r0 - (hole.size_index == quantity_r0 ? thread.r0 : thread.r1) -
          scene_->design.hole_clearance / model.length;
 }
@@ -55,7 +55,7 @@ void DesignConstraints::add_hole_derivatives(const Model& model, const Hole& hol
                                              std::span<double> row) const
 {
   const auto add = [&](int body, int quantity, double factor) {
-    const int element = model.bodies[static_cast<std::size_t>(body)].element;
+    const int element = model.bodies[body].element;
     for (std::size_t v = 0; v < row.size(); ++v) {
       for (const auto& [el, parameter] : scene_->design.variables[v].entries) {
         if (el != element) continue;
@@ -108,7 +108,7 @@ void DesignConstraints::evaluate(const DesignPoint& point, const Model& otherwis
 
 bool DesignConstraints::satisfied(const DesignPoint& point, const Model& otherwise) const
 {
-  std::vector<double> c(static_cast<std::size_t>(count()));
+  std::vector<double> c(count());
   evaluate(point, otherwise, c, {});
   return c.empty() || *std::min_element(c.begin(), c.end()) >= -negligible_violation;
 }
@@ -117,7 +117,7 @@ std::string DesignConstraints::impossible_hole(const DesignPoint& point) const
 {
   const std::vector<DesignVariable>& variables = scene_->design.variables;
   const std::size_t nv = variables.size();
-  std::vector<double> c(static_cast<std::size_t>(count())), jacobian(c.size() * nv);
+  std::vector<double> c(count()), jacobian(c.size() * nv);
   evaluate(point, point.model, c, jacobian);
   double least = 0.0;
   std::string text;

@@ -50,7 +50,7 @@ class Recorder final : public OptimizerObserver {
     d.values = p.values;
     const auto senses = p.model.load->sense_names();
     for (const int k : p.changed) {
-      const LimitTask& task = tasks_[static_cast<std::size_t>(k)];
+      const LimitTask& task = tasks_[k];
       d.changed.push_back(fmt::format("{}, {}", task.direction.text(),
                                       task.sense == Sense::positive ? senses.first : senses.second));
     }
@@ -187,7 +187,7 @@ void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, 
   const DesignPoint& p = problem.current();
   out.status = s.interrupted ? "interrupted" : s.found.status;
   out.message = s.found.message;
-  std::vector<double> room(static_cast<std::size_t>(problem.constraint_count()));
+  std::vector<double> room(problem.constraint_count());
   problem.constraints(s.found.x, room, {});
   const double missing = room.empty() ? 0.0 : -*std::min_element(room.begin(), room.end()) * p.model.length;
   if (out.status == "infeasible")

@@ -1,6 +1,7 @@
 #pragma once
 /// Inverse design: element parameters whose limits come closest to targets (paper eqs. (13), (16)).
 
+#include "design/design_result.hpp"
 #include "limits/limits.hpp"
 
 #include <hauberk/optimizer.hpp>

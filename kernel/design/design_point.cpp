@@ -100,7 +100,7 @@ struct ChangingPair {
 
   Pose pose_at(int element, const Image& image, double t) const
   {
-    const auto k = static_cast<std::size_t>(element);
+    const std::size_t k = element;
     const int nc = a->coordinate_count, o = a->offset(element);
     const Vector macro = from->macro + t * dy->head(a->macro_count);
     const Vector e = from->e.segment(element * nc, nc) + t * dy->segment(o, nc);
@@ -138,17 +138,17 @@ double farthest_relative_motion(const Model& m, const State& from, const State& 
                                 const Model& changed)
 {
   double thinnest = std::numeric_limits<double>::infinity();
-  std::vector<double> own(static_cast<std::size_t>(m.element_count()), 0.0);  // turning and shape
+  std::vector<double> own(m.element_count(), 0.0);  // turning and shape
   for (std::size_t k = 0; k < m.bodies.size(); ++k) {
     const Body& b = m.bodies[k];
     thinnest = std::min({thinnest, b.r0, b.r1});
     const double turn = dy.segment<3>(m.offset(b.element) + m.coordinate_count).norm();
-    double& most = own[static_cast<std::size_t>(b.element)];
+    double& most = own[b.element];
     most = std::max(most, turn * b.reach + shape_speed(b, changed.bodies[k]));
   }
   double farthest = 0.0;
   for (const ElementPair& pair : near_pairs(m, from, 2.0 * thinnest)) {
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     const Vec3 before =
         image_pose(m, from, pair.i, {0, 0}).position - image_pose(m, from, pair.j, pair.image).position;
     const Vec3 after =
@@ -189,7 +189,7 @@ std::optional<State> opened(const Model& m, const State& state, const Vector& dy
 {
   State s = advanced(m, state, dy, 1.0);
   const auto acceptable = [&] {
-    return m.load->admissible({s.macro.data(), static_cast<std::size_t>(m.macro_count)}) &&
+    return m.load->admissible(s.macro_values()) &&
            farthest_relative_motion(m, state, s, difference(m, state, s), changed) <= longest_motion;
   };
   if (!acceptable()) return std::nullopt;
@@ -217,7 +217,7 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
   SceneSpec s = scene;
   for (std::size_t v = 0; v < variables.size(); ++v) {
     for (const auto& [element, parameter] : variables[v].entries) {
-      s.elements[static_cast<std::size_t>(element)].parameters[static_cast<std::size_t>(parameter)] = x[v];
+      s.elements[element].parameters[parameter] = x[v];
     }
   }
   return s;
@@ -232,8 +232,8 @@ Vector change_of_variables(const DesignPoint& from, const DesignPoint& to)
 Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
                               const std::vector<DesignVariable>& variables)
 {
-  const int ea = point.model.bodies[static_cast<std::size_t>(gap.a)].element;
-  const int eb = point.model.bodies[static_cast<std::size_t>(gap.b)].element;
+  const int ea = point.model.bodies[gap.a].element;
+  const int eb = point.model.bodies[gap.b].element;
   Vector d = Vector::Zero(static_cast<int>(variables.size()));
   for (std::size_t v = 0; v < variables.size(); ++v) {
     for (const auto& [element, parameter] : variables[v].entries) {
@@ -314,7 +314,7 @@ double safe_parameter_step(const Model& a, const Model& b, const State& from, co
   std::vector<ChangingPair> pairs;
   double smallest = std::numeric_limits<double>::infinity();
   for (const ElementPair& pair : near_pairs(reaching, from, a.clearance + most)) {
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     for (int p = a.first_body[i]; p < a.first_body[i + 1]; ++p) {
       for (int q = a.first_body[j]; q < a.first_body[j + 1]; ++q) {
         ChangingPair c(a, b, from, dy, pair, static_cast<std::size_t>(p), static_cast<std::size_t>(q));

@@ -155,7 +155,7 @@ std::vector<double> DesignProblem::feasible_towards(std::span<const double> d)
   std::vector<double> goal(d.size());
   for (std::size_t i = 0; i < d.size(); ++i)
     goal[i] = std::clamp(current_->x[i] + d[i], lower_[i], upper_[i]);
-  std::vector<double> c(static_cast<std::size_t>(constraint_count()));
+  std::vector<double> c(constraint_count());
   std::vector<double> jacobian(c.size() * d.size());
   for (int move = 0; move < most_start_moves; ++move) {
     constraints(current_->x, c, jacobian);

@@ -289,7 +289,7 @@ void TargetSearch::enter_objective(DesignPoint& p, const std::vector<Estimate>& 
   p.objective = 0.0;
   p.gradient = Vector::Zero(nv);
   for (int i = 0; i < nt; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     if (design.quantity == DesignQuantity::eta) {
       // eta = (s - c)/(1 + c)
       const auto& [s, ds] = estimates[2 * k];

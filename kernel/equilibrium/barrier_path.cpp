@@ -195,7 +195,7 @@ class Path {
     const SafeStep safe = checked_step(m_, s, dy, 0.05, make_stage(plan), &bounds_);
     out_.evaluations += safe.evaluations;
     const State next = advanced(m_, s, dy, safe.alpha);
-    if (m_.load->admissible({next.macro.data(), static_cast<std::size_t>(m_.macro_count)})) s = next;
+    if (m_.load->admissible(next.macro_values())) s = next;
   }
 
   const Model& m_;

@@ -188,7 +188,7 @@ class ConstrainedSearch {
     for (int halved = 0; halved <= most_halvings; ++halved, part *= 0.5) {
       const Vector step = part * d;
       State trial = advanced(m_, now_.state, root_.cwiseProduct(step), 1.0);
-      if (!m_.load->admissible({trial.macro.data(), static_cast<std::size_t>(m_.macro_count)})) continue;
+      if (!m_.load->admissible(trial.macro_values())) continue;
       Point next = at(std::move(trial));
       if (next.worst > deepest_ || value(next) > worst + enough * part * std::min(slope, 0.0) + rounding ||
           !links_kept(m_, next.state)) {
@@ -258,8 +258,7 @@ class ConstrainedSearch {
 
   bool runaway() const
   {
-    const auto [lo, hi] =
-        m_.load->stretch_range({now_.state.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    const auto [lo, hi] = m_.load->stretch_range(now_.state.macro_values());
     return lo < 1e-3 || hi > 1e3;
   }
 
@@ -323,8 +322,7 @@ class ConstrainedSearch {
       pressing.back().contact.force = f;
       if (row.b < 0) continue;
       const Gap& g = now_.gaps[k];
-      const int i = m_.bodies[static_cast<std::size_t>(g.a)].element,
-                j = m_.bodies[static_cast<std::size_t>(g.b)].element;
+      const int i = m_.bodies[g.a].element, j = m_.bodies[g.b].element;
       e.parameters.col(i).head(g.da.size()) -= f * g.da;
       e.parameters.col(j).head(g.db.size()) -= f * g.db;
       e.d_clearance += f;

@@ -43,7 +43,7 @@ class Assembler {
         maps_(model.rest.size()),
         sparse_(model.sparse())
   {
-    for (int i = 0; i < m_.element_count(); ++i) map(i, {0, 0}, maps_[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < m_.element_count(); ++i) map(i, {0, 0}, maps_[i]);
     if (request_.order >= 1) out_.gradient = Vector::Zero(m_.dofs());
     if (request_.order >= 2 && !sparse_) out_.hessian = Matrix::Zero(m_.dofs(), m_.dofs());
     if (request_.parameters) {
@@ -57,7 +57,7 @@ class Assembler {
   void evaluate(const ElementPair& pair, PairWork& work) const
   {
     work.sides.clear();
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     work.shifted = pair.image != Image{};
     if (work.shifted) map(pair.j, pair.image, work.image);
     const Pose pi{maps_[i].x, s_.rotation[i]}, pj{map_of_j(pair, work).x, s_.rotation[j]};
@@ -65,10 +65,10 @@ class Assembler {
     if ((pi.position - pj.position).norm() >= m_.reach[i] + m_.reach[j] + range) return;
     work.sum = PairTerms{};
     for (int a = m_.first_body[i]; a < m_.first_body[i + 1]; ++a) {
-      const Body& A = m_.bodies[static_cast<std::size_t>(a)];
+      const Body& A = m_.bodies[a];
       const Vec3 ca = pi.position + pi.rotation * A.center;
       for (int b = m_.first_body[j]; b < m_.first_body[j + 1]; ++b) {
-        const Body& B = m_.bodies[static_cast<std::size_t>(b)];
+        const Body& B = m_.bodies[b];
         const Vec3 cb = pj.position + pj.rotation * B.center;
         if ((ca - cb).norm() >= A.bound + B.bound + range) continue;
         const KnownGap* known = bounds_ != nullptr ? bounds_->known(a, b, pair.image) : nullptr;
@@ -88,8 +88,7 @@ class Assembler {
   {
     bool any = false;
     for (const EvaluatedSide& side : work.sides) any |= add_side(pair, side, map_of_j(pair, work));
-    if (any && request_.order >= 1)
-      scatter(pair, maps_[static_cast<std::size_t>(pair.i)], map_of_j(pair, work), work.sum);
+    if (any && request_.order >= 1) scatter(pair, maps_[pair.i], map_of_j(pair, work), work.sum);
   }
 
   void add_walls()
@@ -122,7 +121,7 @@ class Assembler {
         p.wall = static_cast<int>(w);
         p.contact.gap = g;
         p.contact.force = -b.db;
-        p.contact.on_p = p.contact.on_f = maps_[static_cast<std::size_t>(p.a)].x;
+        p.contact.on_p = p.contact.on_f = maps_[p.a].x;
         Vec3 n = Vec3::Zero();
         n[wall.terms.front().coordinate] = wall.terms.front().coefficient > 0 ? -1.0 : 1.0;
         p.contact.normal = n;  // towards the wall
@@ -146,9 +145,9 @@ class Assembler {
   void map(int element, const Image& image, PositionMap& out) const
   {
     m_.load->position(
-        {s_.macro.data(), static_cast<std::size_t>(m_.macro_count)},
+        s_.macro_values(),
         {s_.e.data() + element * m_.coordinate_count, static_cast<std::size_t>(m_.coordinate_count)},
-        m_.rest[static_cast<std::size_t>(element)].position, m_.translation(image), out);
+        m_.rest[element].position, m_.translation(image), out);
   }
 
   void add_second(int row, int column, double value)
@@ -162,7 +161,7 @@ class Assembler {
 
   const PositionMap& map_of_j(const ElementPair& pair, const PairWork& work) const
   {
-    return work.shifted ? work.image : maps_[static_cast<std::size_t>(pair.j)];
+    return work.shifted ? work.image : maps_[pair.j];
   }
 
   /// True where two bodies are known to be out of range. Else `near` says where they may be in it.
@@ -185,8 +184,7 @@ class Assembler {
   void evaluate_side(int p, int f, const Pose& pp, const Pose& pf, const PairSide& side,
                      const NearPanels& near, PairWork& work) const
   {
-    const PairFrame frame(m_.bodies[static_cast<std::size_t>(p)], pp, m_.bodies[static_cast<std::size_t>(f)],
-                          pf);
+    const PairFrame frame(m_.bodies[p], pp, m_.bodies[f], pf);
     work.sides.push_back(
         {p, f, side.swapped, frame.M, side_terms(frame, settings_, request_, side.share, near)});
     const SideTerms& t = work.sides.back().terms;
@@ -204,12 +202,12 @@ class Assembler {
     if (t.energy == 0.0) return false;
     out_.energy += t.energy;
     if (!request_.parameters && !request_.points) return true;
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     const Pose pi{maps_[i].x, s_.rotation[i]}, pj{mj.x, s_.rotation[j]};
     const Pose &pp = side.swapped ? pj : pi, &pf = side.swapped ? pi : pj;
     if (request_.parameters) add_parameters(side.p, side.f, side.M, pp, pf, t);
     if (request_.points) {
-      const Body& F = m_.bodies[static_cast<std::size_t>(side.f)];
+      const Body& F = m_.bodies[side.f];
       for (ContactPoint c : t.points) {
         const Vec3 origin = pf.position + pf.rotation * F.center;
         c.on_p = origin + side.M * c.on_p;
@@ -240,7 +238,7 @@ class Assembler {
     const int places = nm + 2 * nc;
     Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, most_local> C(3, places);
     std::array<int, most_local> index{};
-    const auto at = [&index](int k) -> int& { return index[static_cast<std::size_t>(k)]; };
+    const auto at = [&index](int k) -> int& { return index[k]; };
     for (int k = 0; k < nm; ++k) at(k) = k;
     for (int k = 0; k < nc; ++k) {
       at(nm + k) = m_.offset(pair.i) + k;
@@ -279,7 +277,7 @@ class Assembler {
       for (int c = 0; c < nm + nc; ++c) {
         double ha = 0.0, hb = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
-          const auto rr = static_cast<std::size_t>(r), cc = static_cast<std::size_t>(c);
+          const std::size_t rr = r, cc = c;
           if (A.curved) ha += g[static_cast<int>(k)] * A.H[k][rr][cc];
           if (B.curved) hb -= g[static_cast<int>(k)] * B.H[k][rr][cc];
         }
@@ -298,8 +296,7 @@ class Assembler {
     };
     const auto add = [&](int body, const std::vector<double>& geometry) {
       const Vector gradient = parameter_gradient(m_, body, geometry);
-      out_.parameters.col(m_.bodies[static_cast<std::size_t>(body)].element).head(gradient.size()) +=
-          gradient;
+      out_.parameters.col(m_.bodies[body].element).head(gradient.size()) += gradient;
     };
     add(p, t.geometry_of_P(in_element(pp, t.dP)));
     add(f, t.geometry_of_F(in_element(pf, t.dF)));

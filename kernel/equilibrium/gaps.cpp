@@ -108,13 +108,12 @@ void body_gaps(const Model& m, const ElementPair& pair, int a, int b, const Pose
                const PositionMap& mi, const PositionMap& mj, double range, bool derivatives,
                long& evaluations, std::vector<Gap>& out)
 {
-  const Body& A = m.bodies[static_cast<std::size_t>(a)];
-  const Body& B = m.bodies[static_cast<std::size_t>(b)];
+  const Body& A = m.bodies[a];
+  const Body& B = m.bodies[b];
   const bool swapped = !A.facets && second_probes(A, B);
   const Side side{m,  pair, swapped ? b : a, swapped ? a : b, swapped, swapped ? pj : pi, swapped ? pi : pj,
                   mi, mj,   evaluations};
-  const PairFrame frame(m.bodies[static_cast<std::size_t>(side.p)], side.pp,
-                        m.bodies[static_cast<std::size_t>(side.f)], side.pf);
+  const PairFrame frame(m.bodies[side.p], side.pp, m.bodies[side.f], side.pf);
   if (A.facets) {
     mesh_gaps(side, frame, range, derivatives, out);
   } else if (probe_dimension(frame) == 1) {
@@ -179,17 +178,17 @@ std::vector<Gap> find_gaps(const Model& m, const State& s, double range, bool de
   std::vector<Gap> out;
   const double reach = range + m.clearance;
   PositionMap mi, mj;
-  const auto nm = static_cast<std::size_t>(m.macro_count), nc = static_cast<std::size_t>(m.coordinate_count);
+  const std::size_t nm = m.macro_count, nc = m.coordinate_count;
   for (const ElementPair& pair : near_pairs(m, s, reach)) {
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     m.load->position({s.macro.data(), nm}, {s.e.data() + i * nc, nc}, m.rest[i].position, Vec3::Zero(), mi);
     m.load->position({s.macro.data(), nm}, {s.e.data() + j * nc, nc}, m.rest[j].position,
                      m.translation(pair.image), mj);
     const Pose pi{mi.x, s.rotation[i]}, pj{mj.x, s.rotation[j]};
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const Body& A = m.bodies[static_cast<std::size_t>(a)];
-        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const Body& A = m.bodies[a];
+        const Body& B = m.bodies[b];
         const double d = (pi.position + pi.rotation * A.center - pj.position - pj.rotation * B.center).norm();
         if (d >= A.bound + B.bound + reach) continue;
         body_gaps(m, pair, a, b, pi, pj, mi, mj, range, derivatives, count, out);
@@ -216,10 +215,10 @@ bool meshes_meet(const Model& m, const State& s)
 {
   for (const ElementPair& pair : near_pairs(m, s, 0.0)) {
     const Pose pi = image_pose(m, s, pair.i, {0, 0}), pj = image_pose(m, s, pair.j, pair.image);
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+        const Body &A = m.bodies[a], &B = m.bodies[b];
         if (A.facets && B.facets && facets_intersect(PairFrame(A, pi, B, pj))) return true;
       }
     }
@@ -229,17 +228,15 @@ bool meshes_meet(const Model& m, const State& s)
 
 std::string body_name(const SceneSpec& spec, const Body& body)
 {
-  const PlacedElement& element = spec.elements[static_cast<std::size_t>(body.element)];
-  const ElementType& type = spec.types[static_cast<std::size_t>(element.type)];
+  const PlacedElement& element = spec.elements[body.element];
+  const ElementType& type = spec.types[element.type];
   const std::vector<Primitive> primitives = type.shape->primitives(element.parameters);
-  return fmt::format("element {} ({} of {})", body.element,
-                     primitives[static_cast<std::size_t>(body.index)].name, type.name);
+  return fmt::format("element {} ({} of {})", body.element, primitives[body.index].name, type.name);
 }
 
 std::string pair_name(const SceneSpec& spec, const Model& m, const Gap& g)
 {
-  std::string text = body_name(spec, m.bodies[static_cast<std::size_t>(g.a)]) + " and " +
-                     body_name(spec, m.bodies[static_cast<std::size_t>(g.b)]);
+  std::string text = body_name(spec, m.bodies[g.a]) + " and " + body_name(spec, m.bodies[g.b]);
   if (g.image != Image{}) text += fmt::format(" of image [{}]", fmt::join(shown(g.image), ", "));
   return text;
 }

@@ -56,7 +56,7 @@ class Approach {
     Vector dy = Vector::Zero(m_.dofs());
     dy.head(m_.macro_count) = within(load_.held, out_.state.macro) - out_.state.macro;
     const State there = advanced(m_, out_.state, dy, 1.0);
-    if (!m_.load->admissible({there.macro.data(), static_cast<std::size_t>(m_.macro_count)})) return false;
+    if (!m_.load->admissible(there.macro_values())) return false;
     const SafeStep safe = checked_step(m_, out_.state, dy, keep_gap, stage_, &bounds_);
     out_.evaluations += safe.evaluations;
     if (safe.alpha < 1.0) return false;

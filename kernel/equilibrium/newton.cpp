@@ -350,9 +350,7 @@ class Newton {
   {
     double alpha = 1.0;
     trial = advanced(m_, state_, dy, 1.0);
-    for (int k = 0;
-         k < 40 && !m_.load->admissible({trial.macro.data(), static_cast<std::size_t>(m_.macro_count)});
-         ++k) {
+    for (int k = 0; k < 40 && !m_.load->admissible(trial.macro_values()); ++k) {
       alpha *= 0.5;
       trial = advanced(m_, state_, dy, alpha);
     }
@@ -392,7 +390,7 @@ class Newton {
   /// Smallest and largest stretch of a state's lattice or surface.
   std::pair<double, double> stretches(const State& s) const
   {
-    return m_.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m_.macro_count)});
+    return m_.load->stretch_range(s.macro_values());
   }
 
   bool runaway() const

@@ -31,17 +31,15 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
   const State rest = rest_state(m);
   for (const ElementPair& pair : near_pairs(m, rest, 0.0)) {
     const Pose pi = image_pose(m, rest, pair.i, {0, 0}), pj = image_pose(m, rest, pair.j, pair.image);
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const bool known = std::any_of(worst.begin(), worst.end(), [&](const Gap& g) {
           return g.a == a && g.b == b && g.image == pair.image && g.gap + m.clearance < 0.0;
         });
-        const bool meshes =
-            m.bodies[static_cast<std::size_t>(a)].surface || m.bodies[static_cast<std::size_t>(b)].surface;
+        const bool meshes = m.bodies[a].surface || m.bodies[b].surface;
         if (known || meshes) continue;  // mesh_problem tells of meshes
-        const Separation s = separation(m.bodies[static_cast<std::size_t>(a)], pi,
-                                        m.bodies[static_cast<std::size_t>(b)], pj, 0.0, touching);
+        const Separation s = separation(m.bodies[a], pi, m.bodies[b], pj, 0.0, touching);
         if (s.upper >= -touching) continue;
         Gap g;
         g.a = a;
@@ -76,10 +74,10 @@ std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& sta
   int others = 0;
   for (const ElementPair& pair : near_pairs(m, state, 0.0)) {
     const Pose pi = image_pose(m, state, pair.i, {0, 0}), pj = image_pose(m, state, pair.j, pair.image);
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+        const Body &A = m.bodies[a], &B = m.bodies[b];
         const PairFrame frame(A, pi, B, pj);
         const bool surfaces = A.surface || B.surface;
         const bool meet = facets_intersect(frame);

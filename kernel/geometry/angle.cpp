@@ -40,7 +40,7 @@ Angle::Angle(double radians)
   }
   const int nearest = static_cast<int>(radians * (1.0 / spacing) + (radians < 0.0 ? -0.5 : 0.5));
   const double by = (radians - spacing_high * nearest) - spacing_low * nearest, q = by * by;
-  const auto k = static_cast<std::size_t>((nearest + 16 * table_size) % table_size);
+  const std::size_t k = (nearest + 16 * table_size) % table_size;
   // |by| <= pi/256: what is left out is of the order of 1e-20.
   const Angle rest(1.0 - q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0)),
                    by * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0))));

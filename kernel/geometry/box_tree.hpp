@@ -39,14 +39,14 @@ class Facets::Tree {
     build(boxes, order.data(), order.size());
   }
 
-  const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
+  const Node& node(int k) const { return nodes_[k]; }
 
  private:
   int build(const std::vector<Box>& boxes, int* begin, std::size_t count)
   {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (std::size_t k = 0; k < count; ++k) {
-      const Box& b = boxes[static_cast<std::size_t>(begin[k])];
+      const Box& b = boxes[begin[k]];
       low = low.cwiseMin(b.center - b.half);
       high = high.cwiseMax(b.center + b.half);
     }
@@ -62,8 +62,8 @@ class Facets::Tree {
     node.box.half.maxCoeff(&axis);
     const std::size_t middle = count / 2;
     std::nth_element(begin, begin + middle, begin + count, [&](int a, int b) {
-      const double x = boxes[static_cast<std::size_t>(a)].center[axis];
-      const double y = boxes[static_cast<std::size_t>(b)].center[axis];
+      const double x = boxes[a].center[axis];
+      const double y = boxes[b].center[axis];
       return x < y || (x == y && a < b);  // the tree must not depend on how elements are permuted
     });
     const int left = build(boxes, begin, middle), right = build(boxes, begin + middle, count - middle);

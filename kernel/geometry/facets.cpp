@@ -15,7 +15,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Angles of section i of n, and of point j of n in a section.
 double section_angle(int i, int n) { return 2.0 * pi * (i + 0.5) / n; }
@@ -105,7 +105,7 @@ void give_features(std::vector<Facets::Triangle>& triangles, std::vector<std::ar
     t.own_points.fill(-1);
     t.own_edges.fill(-1);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto point = static_cast<std::size_t>(t.points[k]);
+      const std::size_t point = t.points[k];
       if (!owned[point]) t.own_points[k] = t.points[k];
       owned[point] = true;
       const int a = t.points[k], b = t.points[(k + 1) % 3];
@@ -121,7 +121,7 @@ void give_features(std::vector<Facets::Triangle>& triangles, std::vector<std::ar
 std::array<Vec3, 3> corners_of(const Facets& facets, const Facets::Triangle& t)
 {
   std::array<Vec3, 3> out;
-  for (std::size_t k = 0; k < 3; ++k) out[k] = facets.points()[static_cast<std::size_t>(t.points[k])];
+  for (std::size_t k = 0; k < 3; ++k) out[k] = facets.points()[t.points[k]];
   return out;
 }
 
@@ -129,7 +129,7 @@ std::array<Vec3, 3> corners_of(const Facets& facets, const Facets::Triangle& t)
 
 Facets::Facets(double R, double r0, double r1, int n)
 {
-  const auto size = static_cast<std::size_t>(n);
+  const std::size_t size = n;
   points_.reserve(size * size);
   by_size_.reserve(size * size);
   for (int i = 0; i < n; ++i) {
@@ -154,7 +154,7 @@ Facets::Facets(double R, double r0, double r1, int n)
 
 Facets::Facets(const ClosedCurve& curve, double r, int n)
 {
-  const auto size = static_cast<std::size_t>(n);
+  const std::size_t size = n;
   std::vector<CoreSection> core;
   std::vector<Varied> a;
   core.reserve(size);
@@ -181,8 +181,8 @@ Facets::Facets(const ClosedCurve& curve, double r, int n)
   sections_.reserve(size);
   loops_.emplace_back();
   for (int i = 0; i < n; ++i) {
-    const CoreSection& here = core[static_cast<std::size_t>(i)];
-    const Varied &ai = a[static_cast<std::size_t>(i)], bi = cross(ai, here.t);
+    const CoreSection& here = core[i];
+    const Varied &ai = a[i], bi = cross(ai, here.t);
     const double part = -static_cast<double>(i) / n, c = std::cos(part * phi), s = std::sin(part * phi);
     const Varied e{c * ai.x + s * bi.x, c * ai.d + s * bi.d + (c * bi.x - s * ai.x) * (part * by_phi)};
     const Varied f = cross(e, here.t);
@@ -207,7 +207,7 @@ void Facets::add_harmonics(int point, const Vec3& n, std::vector<double>& out) c
   const auto count = static_cast<int>(sections_.size());
   const Section& section = sections_[static_cast<std::size_t>(point / count)];
   const double v = corner_angle(point % count, count), c = std::cos(v), s = std::sin(v);
-  out.resize(static_cast<std::size_t>(section.x.cols()), 0.0);
+  out.resize(section.x.cols(), 0.0);
   Eigen::Map<Eigen::RowVectorXd>(out.data(), section.x.cols()) +=
       n.transpose() * section.x + c * n.transpose() * section.a + s * n.transpose() * section.b;
 }
@@ -241,7 +241,7 @@ Facets::Facets(const TriangleSurface& surface, double R) : parts_(surface.parts(
   for (const std::vector<int>& loop : surface.loops()) {
     std::vector<Vec3>& corners = loops_.emplace_back();
     corners.reserve(loop.size());
-    for (const int k : loop) corners.push_back(points_[static_cast<std::size_t>(k)]);
+    for (const int k : loop) corners.push_back(points_[k]);
   }
   complete();
 }
@@ -251,8 +251,7 @@ void Facets::complete()
   edges_.reserve(3 * triangles_.size() / 2);
   give_features(triangles_, edges_, points_.size());
   double sum = 0.0;
-  for (const auto& [a, b] : edges_)
-    sum += (points_[static_cast<std::size_t>(a)] - points_[static_cast<std::size_t>(b)]).norm();
+  for (const auto& [a, b] : edges_) sum += (points_[a] - points_[b]).norm();
   mean_edge_ = sum / static_cast<double>(edges_.size());
 
   std::vector<Box> boxes;
@@ -270,8 +269,7 @@ std::array<Vec3, 3> corners_in(const PairFrame& frame, const Mat3& axes, const F
                                const Facets::Triangle& t)
 {
   std::array<Vec3, 3> out;
-  for (std::size_t k = 0; k < 3; ++k)
-    out[k] = frame.a + axes * facets.points()[static_cast<std::size_t>(t.points[k])];
+  for (std::size_t k = 0; k < 3; ++k) out[k] = frame.a + axes * facets.points()[t.points[k]];
   return out;
 }
 
@@ -296,8 +294,8 @@ void near_features(const PairFrame& frame, double range, const FeatureVisitor& v
   const Facets &P = *frame.P->facets, &F = *frame.F_facets;
   const Mat3 axes = axes_of(frame);
   near_triangles(frame, range, [&](int tp, int tf) {
-    const Facets::Triangle& p = P.triangles()[static_cast<std::size_t>(tp)];
-    const Facets::Triangle& f = F.triangles()[static_cast<std::size_t>(tf)];
+    const Facets::Triangle& p = P.triangles()[tp];
+    const Facets::Triangle& f = F.triangles()[tf];
     const std::array<Vec3, 3> cp = corners_in(frame, axes, P, p), cf = corners_of(F, f);
     for (std::size_t k = 0; k < 3; ++k) {
       if (p.own_points[k] >= 0) visit({{p.own_points[k]}, f.points, 1, 3}, {cp[k]}, cf);
@@ -337,8 +335,8 @@ bool facets_intersect(const PairFrame& frame)
   bool found = false;
   near_triangles(frame, 0.0, [&](int tp, int tf) {
     if (found) return;
-    const auto cp = corners_in(frame, axes, P, P.triangles()[static_cast<std::size_t>(tp)]);
-    const auto cf = corners_of(F, F.triangles()[static_cast<std::size_t>(tf)]);
+    const auto cp = corners_in(frame, axes, P, P.triangles()[tp]);
+    const auto cf = corners_of(F, F.triangles()[tf]);
     for (std::size_t k = 0; k < 3 && !found; ++k)
       found = segment_meets(cp[k], cp[(k + 1) % 3], cf) || segment_meets(cf[k], cf[(k + 1) % 3], cp);
   });
@@ -370,7 +368,7 @@ bool facets_inside(const PairFrame& frame)
 {
   const Facets &P = *frame.P->facets, &F = *frame.F_facets;
   const Mat3 axes = axes_of(frame);
-  const auto point_of = [](const Facets& mesh, int k) { return mesh.points()[static_cast<std::size_t>(k)]; };
+  const auto point_of = [](const Facets& mesh, int k) { return mesh.points()[k]; };
   return std::any_of(P.parts().begin(), P.parts().end(),
                      [&](int k) { return encloses(F, frame.a + axes * point_of(P, k)); }) ||
          std::any_of(F.parts().begin(), F.parts().end(),

@@ -46,7 +46,7 @@ class Facets {
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
   /// d point / d (R, r0, r1), columns, at fixed chart coordinates; of a surface (point/R, 0, 0), of a tube
   /// around a curve (0, d point/dr, 0).
-  const Mat3& size_derivative(int point) const { return by_size_[static_cast<std::size_t>(point)]; }
+  const Mat3& size_derivative(int point) const { return by_size_[point]; }
   /// Of a tube around a curve, adds n . d point / d(harmonics) to `out`, which is made long enough; other
   /// meshes have no harmonics and leave it as it is.
   void add_harmonics(int point, const Vec3& n, std::vector<double>& out) const;

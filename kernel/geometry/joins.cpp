@@ -117,8 +117,7 @@ std::vector<Join> joins_of_tubes(const Body& A, const Body& B)
   };
   std::vector<double> distance(static_cast<std::size_t>(na) * static_cast<std::size_t>(nb));
   for (int i = 0; i < na; ++i)
-    for (int j = 0; j < nb; ++j)
-      distance[cell(i, j)] = (a[static_cast<std::size_t>(i)] - b[static_cast<std::size_t>(j)]).norm();
+    for (int j = 0; j < nb; ++j) distance[cell(i, j)] = (a[i] - b[j]).norm();
   const double together = A.r0 + B.r0 + touching;
   const double slack =
       0.5 * full_turn * ((A.curve ? A.curve->first() : A.R) / na + (B.curve ? B.curve->first() : B.R) / nb);

@@ -26,7 +26,7 @@ void finish(NearestFeatures& n)
   Vec3 r = n.on_p - n.on_f;
   std::array<Vec3, 2> t;
   for (int k = 0; k < n.free; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     t[i] = n.tangent_p[i] - n.tangent_f[i];
   }
   if (n.free == 2) {
@@ -89,7 +89,7 @@ OnTriangle on_triangle(const std::array<Vec3, 3>& t, const std::array<double, 3>
       first = static_cast<int>(k);
       continue;
     }
-    out.tangents[static_cast<std::size_t>(out.free++)] = t[k] - t[static_cast<std::size_t>(first)];
+    out.tangents[out.free++] = t[k] - t[first];
   }
   return out;
 }
@@ -159,7 +159,7 @@ NearestFeatures edge_edge(const FeaturePair& pair, const std::array<Vec3, 3>& p,
     n.free = 1;
   }
   if (inside(s) && (skew || n.free == 0)) {
-    const auto k = static_cast<std::size_t>(n.free++);
+    const std::size_t k = n.free++;
     n.tangent_p[k] = d1;
     n.tangent_f[k].setZero();
   }

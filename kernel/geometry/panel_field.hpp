@@ -84,7 +84,7 @@ class FirstPanels {
 
   explicit FirstPanels(const Probe<dim>& probe, double turn = 0.0) : probe_(probe), turn_(turn)
   {
-    for (int j = 0; dim == 2 && j < across; ++j) v_[static_cast<std::size_t>(j)] = Angle(center(j, across));
+    for (int j = 0; dim == 2 && j < across; ++j) v_[j] = Angle(center(j, across));
   }
 
   /// True where some of row k may be in range.

@@ -21,7 +21,7 @@ constexpr double smallest_panel = 1e-10;  ///< radians; below it rounding of the
 /// Surfaces that conform all around at a gap near rounding take so many; what is left then stays as coarse as
 /// it is.
 constexpr int most_evaluations = 2000000;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// Gaps below this part of the lengths they are the difference of are none: rounding decides their sign.
 constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
@@ -94,7 +94,7 @@ std::vector<Vec3> core_polygon(const Body& body, const Pose& pose, double near)
   const int count = std::max(6, static_cast<int>(std::ceil(2.0 * pi / std::sqrt(8.0 * near / second))));
   const Frame frame = world_frame(body, pose);
   std::vector<Vec3> corners;
-  corners.reserve(static_cast<std::size_t>(count));
+  corners.reserve(count);
   for (int i = 0; i < count; ++i) {
     const Angle u(2.0 * pi * i / count);
     const Vec3 local = body.curve ? body.curve->at(u).x : Vec3(body.R * u.c, body.R * u.s, 0.0);

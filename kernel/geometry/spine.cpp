@@ -91,7 +91,7 @@ class Builder {
   }
 
  private:
-  const Body& body(int b) const { return bodies_[static_cast<std::size_t>(b)]; }
+  const Body& body(int b) const { return bodies_[b]; }
 
   /// Pieces of a core from join to join; all of it where there is none.
   void cut_core(int b)
@@ -112,7 +112,7 @@ class Builder {
                         : k + 1 < count ? places[k + 1].first
                                         : places[0].first + full_turn;
       if (!places.empty()) *places[k].second = static_cast<int>(k);
-      arcs_[static_cast<std::size_t>(b)].push_back(static_cast<int>(out_.pieces.size()));
+      arcs_[b].push_back(static_cast<int>(out_.pieces.size()));
       core.pieces.emplace_back(static_cast<int>(out_.pieces.size()), 1);
       out_.pieces.push_back(body(b).surface ? std::vector<Vec3>() : arc(body(b), cut + from, to - from));
     }
@@ -156,9 +156,9 @@ class Builder {
         for (std::size_t e = 0; e < edges_.size(); ++e) {
           const auto& [a, b] = edges_[e].body;
           if (a != at && b != at) continue;
-          const auto to = static_cast<std::size_t>(a == at ? b : a);
+          const std::size_t to = a == at ? b : a;
           if (depth_[to] >= 0) continue;
-          depth_[to] = depth_[static_cast<std::size_t>(at)] + 1;
+          depth_[to] = depth_[at] + 1;
           before_[to] = static_cast<int>(e);
           in_forest_[e] = true;
           queue.push_back(static_cast<int>(to));
@@ -174,10 +174,10 @@ class Builder {
     int a = edges_[edge].body[0], b = edges_[edge].body[1];
     std::vector<int> from_a, from_b;
     while (a != b) {
-      int& deeper = depth_[static_cast<std::size_t>(a)] >= depth_[static_cast<std::size_t>(b)] ? a : b;
-      const int up = before_[static_cast<std::size_t>(deeper)];
+      int& deeper = depth_[a] >= depth_[b] ? a : b;
+      const int up = before_[deeper];
       (&deeper == &a ? from_a : from_b).push_back(up);
-      const auto& ends = edges_[static_cast<std::size_t>(up)].body;
+      const auto& ends = edges_[up].body;
       deeper = ends[0] == deeper ? ends[1] : ends[0];
     }
     std::vector<int> way{static_cast<int>(edge)};
@@ -187,12 +187,12 @@ class Builder {
     SpineLoop loop;
     int at = edges_[edge].body[0];
     for (std::size_t k = 0; k < way.size(); ++k) {
-      const Edge& e = edges_[static_cast<std::size_t>(way[k])];
+      const Edge& e = edges_[way[k]];
       const std::size_t leaves = e.body[0] == at ? 0 : 1, enters = 1 - leaves;
-      loop.pieces.emplace_back(ways_[static_cast<std::size_t>(way[k])], leaves == 0 ? 1 : -1);
+      loop.pieces.emplace_back(ways_[way[k]], leaves == 0 ? 1 : -1);
       at = e.body[enters];
       loop.primitives.push_back(at);
-      const Edge& next = edges_[static_cast<std::size_t>(way[(k + 1) % way.size()])];
+      const Edge& next = edges_[way[(k + 1) % way.size()]];
       const std::size_t side = next.body[0] == at ? 0 : 1;
       along(loop, at, e.place[enters], next.place[side]);
     }
@@ -204,9 +204,9 @@ class Builder {
   /// Along a core from one join to another, never over its cut.
   void along(SpineLoop& loop, int b, int from, int to) const
   {
-    const std::vector<int>& arcs = arcs_[static_cast<std::size_t>(b)];
-    for (int k = from; k < to; ++k) loop.pieces.emplace_back(arcs[static_cast<std::size_t>(k)], 1);
-    for (int k = from; k > to; --k) loop.pieces.emplace_back(arcs[static_cast<std::size_t>(k - 1)], -1);
+    const std::vector<int>& arcs = arcs_[b];
+    for (int k = from; k < to; ++k) loop.pieces.emplace_back(arcs[k], 1);
+    for (int k = from; k > to; --k) loop.pieces.emplace_back(arcs[k - 1], -1);
   }
 
   std::span<const Body> bodies_;
@@ -272,7 +272,7 @@ std::vector<Vec3> polygon(const Spine& s, const SpineLoop& loop, const Pose& pos
 {
   std::vector<Vec3> out;
   for (const auto& [piece, sense] : loop.pieces) {
-    std::vector<Vec3> corners = s.pieces[static_cast<std::size_t>(piece)];
+    std::vector<Vec3> corners = s.pieces[piece];
     if (sense < 0) std::reverse(corners.begin(), corners.end());
     for (std::size_t k = 0; k + 1 < corners.size(); ++k)
       out.emplace_back(pose.position + pose.rotation * corners[k]);

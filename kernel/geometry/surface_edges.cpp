@@ -43,7 +43,7 @@ class Sets {
   }
 
  private:
-  int& above(int k) { return above_[static_cast<std::size_t>(k)]; }
+  int& above(int k) { return above_[k]; }
 
   std::vector<int> above_;
 };
@@ -64,7 +64,7 @@ PathTree shortest_paths(const std::vector<SurfaceEdge>& edges, const std::vector
   };
   std::vector<std::vector<Way>> ways(points.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto a = static_cast<std::size_t>(edges[e].a), b = static_cast<std::size_t>(edges[e].b);
+    const std::size_t a = edges[e].a, b = edges[e].b;
     const double length = (points[a] - points[b]).norm();
     ways[a].push_back({edges[e].b, static_cast<int>(e), length});
     ways[b].push_back({edges[e].a, static_cast<int>(e), length});
@@ -76,15 +76,15 @@ PathTree shortest_paths(const std::vector<SurfaceEdge>& edges, const std::vector
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   for (const int start : starts) {
-    tree.distance[static_cast<std::size_t>(start)] = 0.0;
+    tree.distance[start] = 0.0;
     open.emplace(0.0, start);
   }
   while (!open.empty()) {
     const auto [distance, point] = open.top();
     open.pop();
-    if (distance > tree.distance[static_cast<std::size_t>(point)]) continue;
-    for (const Way& way : ways[static_cast<std::size_t>(point)]) {
-      const auto to = static_cast<std::size_t>(way.to);
+    if (distance > tree.distance[point]) continue;
+    for (const Way& way : ways[point]) {
+      const std::size_t to = way.to;
       if (distance + way.length >= tree.distance[to]) continue;
       tree.distance[to] = distance + way.length;
       tree.before[to] = point;
@@ -100,7 +100,7 @@ std::vector<int> loop_of(const SurfaceEdge& edge, const PathTree& tree)
 {
   const auto path = [&tree](int point) {
     std::vector<int> out;
-    for (; point >= 0; point = tree.before[static_cast<std::size_t>(point)]) out.push_back(point);
+    for (; point >= 0; point = tree.before[point]) out.push_back(point);
     return out;
   };
   std::vector<int> from = path(edge.a), to = path(edge.b);
@@ -132,7 +132,7 @@ std::vector<SurfaceEdge> surface_edges(const std::vector<TriangleSurface::Triang
                                                       : x.triangle < y.triangle;
   });
   const auto place = [&points](const Side& s) {
-    const Vec3& x = points[static_cast<std::size_t>(s.a)];
+    const Vec3& x = points[s.a];
     return fmt::format("the edge between points {} and {}, at ({:.6g}, {:.6g}, {:.6g}),", s.a + 1, s.b + 1,
                        x.x(), x.y(), x.z());
   };
@@ -172,7 +172,7 @@ std::vector<int> parts_of(const std::vector<SurfaceEdge>& edges, std::size_t tri
   int count = 0;
   for (std::size_t t = 0; t < triangle_count; ++t) {
     const int first = sets.find(static_cast<int>(t));
-    out[t] = first == static_cast<int>(t) ? count++ : out[static_cast<std::size_t>(first)];
+    out[t] = first == static_cast<int>(t) ? count++ : out[first];
   }
   return out;
 }
@@ -188,7 +188,7 @@ std::vector<std::vector<int>> homology_loops(const std::vector<SurfaceEdge>& edg
   };
   std::vector<Candidate> outside;
   for (std::size_t k = 0; k < edges.size(); ++k) {
-    const auto a = static_cast<std::size_t>(edges[k].a), b = static_cast<std::size_t>(edges[k].b);
+    const std::size_t a = edges[k].a, b = edges[k].b;
     const int number = static_cast<int>(k);
     if (tree.by_edge[a] == number || tree.by_edge[b] == number) continue;
     outside.push_back({tree.distance[a] + tree.distance[b] + (points[a] - points[b]).norm(), number});
@@ -199,7 +199,7 @@ std::vector<std::vector<int>> homology_loops(const std::vector<SurfaceEdge>& edg
   Sets across(triangle_count);
   std::vector<std::vector<int>> loops;
   for (const Candidate& c : outside) {
-    const SurfaceEdge& e = edges[static_cast<std::size_t>(c.edge)];
+    const SurfaceEdge& e = edges[c.edge];
     if (!across.join(e.forward, e.backward)) loops.push_back(loop_of(e, tree));
   }
   return loops;

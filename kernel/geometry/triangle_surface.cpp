@@ -56,24 +56,23 @@ void drop_unused(std::vector<Vec3>& points, std::vector<Triangle>& triangles)
 {
   std::vector<int> number(points.size(), -1);
   for (const Triangle& t : triangles) {
-    for (const int k : t) number[static_cast<std::size_t>(k)] = 0;
+    for (const int k : t) number[k] = 0;
   }
   int used = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (number[k] < 0) continue;
-    points[static_cast<std::size_t>(used)] = points[k];
+    points[used] = points[k];
     number[k] = used++;
   }
-  points.resize(static_cast<std::size_t>(used));
+  points.resize(used);
   for (Triangle& t : triangles) {
-    for (int& k : t) k = number[static_cast<std::size_t>(k)];
+    for (int& k : t) k = number[k];
   }
 }
 
 Corners corners_of(const std::vector<Vec3>& points, const Triangle& t)
 {
-  return {points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
-          points[static_cast<std::size_t>(t[2])]};
+  return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
 void check_areas(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double unit)
@@ -96,7 +95,7 @@ void check_fans(const std::vector<detail::SurfaceEdge>& edges, const std::vector
 {
   // Of the triangle that runs from a to b, the one beyond the edge comes next around a.
   const auto corner = [&triangles](int triangle, int point) {
-    const Triangle& t = triangles[static_cast<std::size_t>(triangle)];
+    const Triangle& t = triangles[triangle];
     return 3 * static_cast<std::size_t>(triangle) + (t[0] == point ? 0U : t[1] == point ? 1U : 2U);
   };
   std::vector<int> next(3 * triangles.size(), -1);
@@ -107,8 +106,8 @@ void check_fans(const std::vector<detail::SurfaceEdge>& edges, const std::vector
   std::vector<int> count(points.size(), 0), first(points.size(), -1);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const int k : triangles[t]) {
-      ++count[static_cast<std::size_t>(k)];
-      first[static_cast<std::size_t>(k)] = static_cast<int>(t);
+      ++count[k];
+      first[k] = static_cast<int>(t);
     }
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -132,7 +131,7 @@ std::vector<double> volumes(const std::vector<Vec3>& points, const std::vector<T
 {
   std::vector<double> six;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto k = static_cast<std::size_t>(part[t]);
+    const std::size_t k = part[t];
     if (k >= six.size()) six.resize(k + 1, 0.0);
     const Corners c = corners_of(points, triangles[t]);
     six[k] += c[0].dot(c[1].cross(c[2]));
@@ -190,11 +189,11 @@ void check_meetings(const std::vector<Vec3>& points, const std::vector<Triangle>
   std::array<int, 2> met{-1, -1};
   visit_near(tree, tree, Mat3::Identity(), Vec3::Zero(), touching, [&](int i, int j) {
     if (i >= j || (met[0] >= 0 && std::array{i, j} > met)) return;
-    const auto &a = triangles[static_cast<std::size_t>(i)], &b = triangles[static_cast<std::size_t>(j)];
+    const auto &a = triangles[i], &b = triangles[j];
     if (Meeting(points, a, b).found()) met = {i, j};
   });
   if (met[0] < 0) return;
-  const Vec3& x = points[static_cast<std::size_t>(triangles[static_cast<std::size_t>(met[0])][0])];
+  const Vec3& x = points[triangles[met[0]][0]];
   throw InputError(
       fmt::format("the surface meets itself: triangles {} and {}, at {}; mend the mesh, or make "
                   "elements of its parts",
@@ -225,7 +224,7 @@ TriangleSurface::TriangleSurface(std::vector<Vec3> points, std::vector<Triangle>
   double volume = 0.0, area = 0.0;
   for (const double v : six) volume += std::abs(v) / 6.0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const auto k = static_cast<std::size_t>(part[t]);
+    const std::size_t k = part[t];
     const Corners c = corners_of(points_, triangles_[t]);
     area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
     if (k == parts_.size()) parts_.push_back(triangles_[t][0]);

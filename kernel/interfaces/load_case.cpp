@@ -93,8 +93,8 @@ void LoadCase::position(std::span<const double> macro, std::span<const double> e
                         const Vec3& T, PositionMap& out) const
 {
   // This call is in the innermost loops, so the checks are comparisons of sizes and one sum.
-  const auto macros = static_cast<std::size_t>(macro_count());
-  const auto coordinates = static_cast<std::size_t>(coordinate_count());
+  const std::size_t macros = macro_count();
+  const std::size_t coordinates = coordinate_count();
   if (macros > max_macro || coordinates > max_coordinates) {
     throw PluginError(
         fmt::format("load case: declares {} macroscopic unknowns (at most {}) and {} coordinates of "
@@ -148,7 +148,7 @@ double LoadCase::value(const Direction& direction, std::span<const double> macro
 
 bool LoadCase::transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const
 {
-  const auto macros = static_cast<std::size_t>(macro_count());
+  const std::size_t macros = macro_count();
   if (macro.size() != macros || out.size() != macros) {
     throw PluginError(fmt::format("load case: expected {} macroscopic unknowns, found {} and {}", macros,
                                   macro.size(), out.size()));
@@ -212,7 +212,7 @@ std::vector<MacroCondition> LoadCase::conditions(const Direction& direction) con
   for (const MacroCondition& c : out) {
     double squares = 0.0;
     for (int k = 0; k < macro_count(); ++k) {
-      const double x = c.coefficients[static_cast<std::size_t>(k)];
+      const double x = c.coefficients[k];
       squares += x * x;
     }
     if (!(squares > 0.0) || !std::isfinite(squares))

@@ -95,8 +95,8 @@ bool carries(const Body& a, const Body& b, const Mat3& S)
 
 std::span<const Body> bodies_of(const Model& m, int element)
 {
-  const auto e = static_cast<std::size_t>(element);
-  const auto first = static_cast<std::size_t>(m.first_body[e]);
+  const std::size_t e = element;
+  const std::size_t first = m.first_body[e];
   return std::span(m.bodies).subspan(first, static_cast<std::size_t>(m.first_body[e + 1]) - first);
 }
 
@@ -145,7 +145,7 @@ std::vector<double> surroundings(const Model& m)
   const State rest = rest_state(m);
   std::vector<double> out(m.rest.size(), 0.0);
   for (const ElementPair& pair : near_pairs(m, rest, margin)) {
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     const Pose own = m.rest[i];
     const Pose other{m.rest[j].position + m.translation(pair.image), m.rest[j].rotation};
     const double far = m.reach[i] + m.reach[j] + margin;

@@ -14,7 +14,7 @@ struct Support {
 
 std::vector<Support> supports(const std::vector<LimitResult>& limits, const LoadCase& load)
 {
-  const auto n = static_cast<std::size_t>(load.macro_count());
+  const std::size_t n = load.macro_count();
   std::vector<Support> out;
   for (std::size_t k = 0; k < limits.size(); ++k) {
     const LimitResult& limit = limits[k];

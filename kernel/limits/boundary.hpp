@@ -1,7 +1,7 @@
 #pragma once
 /// The boundary of what a fabric can reach, as a surface over directions of the macroscopic unknowns.
 
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 
 #include <hauberk/load_case.hpp>
 

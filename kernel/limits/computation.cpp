@@ -312,8 +312,8 @@ class Computation {
     if (static_cast<int>(r.macro.size()) != model_.macro_count) return std::nullopt;
     Vector macro(model_.macro_count);
     for (int k = 0; k < model_.macro_count; ++k) {
-      const int power = model_.load->macros()[static_cast<std::size_t>(k)].length_power;
-      macro[k] = r.macro[static_cast<std::size_t>(k)].second / std::pow(model_.length, power);
+      const int power = model_.load->macros()[k].length_power;
+      macro[k] = r.macro[k].second / std::pow(model_.length, power);
     }
     return macro;
   }

@@ -70,9 +70,7 @@ void enter_searches(Confidence& out, const Model& m, const LimitTask& task, cons
     }
     FailedSearch failed{found[k].origin, found[k].seed, name_of(l.status), std::nullopt};
     if (!l.stages.empty()) {
-      failed.reached =
-          m.load->value(task.direction, {l.state.macro.data(), static_cast<std::size_t>(m.macro_count)}) *
-          scale_of(m);
+      failed.reached = m.load->value(task.direction, l.state.macro_values()) * scale_of(m);
       if (there > furthest + same)
         out.contradicted_by.push_back(fmt::format("a search that failed came to {:.9g}", *failed.reached));
     }
@@ -106,8 +104,8 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
       } else {
         Vector macro(m.macro_count);
         for (int i = 0; i < m.macro_count; ++i) {
-          const auto& info = m.load->macros()[static_cast<std::size_t>(i)];
-          macro[i] = other.macro[static_cast<std::size_t>(i)].second / std::pow(m.length, info.length_power);
+          const auto& info = m.load->macros()[i];
+          macro[i] = other.macro[i].second / std::pow(m.length, info.length_power);
         }
         there = donors.reached(donor, macro, tasks[k]);
       }

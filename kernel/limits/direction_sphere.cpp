@@ -38,16 +38,13 @@ std::array<Vec3, 12> icosahedron()
 std::vector<Triangle> faces(const std::array<Vec3, 12>& v)
 {
   constexpr double longer_than_edge = 2.1;  // the next distance is 2 g = 3.24
-  const auto edge = [&v](int a, int b) {
-    return (v[static_cast<std::size_t>(a)] - v[static_cast<std::size_t>(b)]).norm() < longer_than_edge;
-  };
+  const auto edge = [&v](int a, int b) { return (v[a] - v[b]).norm() < longer_than_edge; };
   std::vector<Triangle> out;
   for (int a = 0; a < 12; ++a) {
     for (int b = a + 1; b < 12; ++b) {
       for (int c = b + 1; c < 12; ++c) {
         if (!edge(a, b) || !edge(b, c) || !edge(a, c)) continue;
-        const Vec3 &A = v[static_cast<std::size_t>(a)], &B = v[static_cast<std::size_t>(b)],
-                   &C = v[static_cast<std::size_t>(c)];
+        const Vec3 &A = v[a], &B = v[b], &C = v[c];
         out.push_back(A.dot(B.cross(C)) > 0.0 ? Triangle{a, b, c} : Triangle{a, c, b});
       }
     }
@@ -76,10 +73,10 @@ class Subdivision {
     if (!fresh) return at->second;
     Vec3 x = Vec3::Zero();
     for (const auto& [corner, weight] : weights) {
-      if (weight > 0) x += weight * corners_[static_cast<std::size_t>(corner)];
+      if (weight > 0) x += weight * corners_[corner];
     }
     x.normalize();
-    for (int k = 0; k < 3; ++k) x[k] /= std::sqrt(metric_[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 3; ++k) x[k] /= std::sqrt(metric_[k]);
     sphere_.directions.push_back(Direction::along({x.data(), 3}));
     return at->second;
   }

@@ -63,7 +63,7 @@ std::optional<double> Donors::reached(std::size_t donor, const Vector& macro, co
 {
   if (!images_[donor]) return std::nullopt;
   Vector there = macro;
-  const auto n = static_cast<std::size_t>(macro.size());
+  const std::size_t n = macro.size();
   if (!is_own(donor) && !model_.load->transform(symmetries_[donor % symmetries_.size()].O, {macro.data(), n},
                                                 {there.data(), n}))
     return std::nullopt;

@@ -55,8 +55,7 @@ Closed closed_contacts(const Model& m, const State& s, double within)
   Eigen::Index k = 0;
   for (const Gap& g : gaps) {
     out.normals.col(k) = root.cwiseProduct(free_part(m, g.dy));
-    const auto a = static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(g.a)].element),
-               b = static_cast<std::size_t>(m.bodies[static_cast<std::size_t>(g.b)].element);
+    const std::size_t a = m.bodies[g.a].element, b = m.bodies[g.b].element;
     out.parameters.col(k).segment(first[a], g.da.size()) += g.da;
     out.parameters.col(k).segment(first[b], g.db.size()) += g.db;
     out.clearance[k++] = -1.0;
@@ -134,10 +133,9 @@ std::optional<OneSidedSensitivities> sides_at(const Model& m, const State& state
     return true;
   };
   if (!add(closed.clearance, out.clearance)) return std::nullopt;
-  out.parameters.resize(static_cast<std::size_t>(closed.parameters.rows()));
+  out.parameters.resize(closed.parameters.rows());
   for (Eigen::Index p = 0; p < closed.parameters.rows(); ++p) {
-    if (!add(closed.parameters.row(p).transpose(), out.parameters[static_cast<std::size_t>(p)]))
-      return std::nullopt;
+    if (!add(closed.parameters.row(p).transpose(), out.parameters[p])) return std::nullopt;
   }
   return kink ? std::optional(std::move(out)) : std::nullopt;
 }

@@ -34,11 +34,6 @@ constexpr double most_rounding = 1e-3;
 /// Rest may overlap by this much and still count as touching; what is less than rest by more is no limit.
 constexpr double wrong_side = 1e-9;
 
-std::span<const double> macro_span(const Model& m, const State& s)
-{
-  return {s.macro.data(), static_cast<std::size_t>(m.macro_count)};
-}
-
 double power(double x, int n) { return std::pow(x, static_cast<double>(n)); }
 
 double z_range(const Model& m, const State& s)
@@ -134,10 +129,10 @@ ContactForce reported_contact(const Model& m, const ContactEnergy::Point& p, dou
   if (p.wall >= 0) {
     c.elements = {p.a, -1};
     c.primitives = {-1, -1};
-    c.wall = m.walls[static_cast<std::size_t>(p.wall)].name;
+    c.wall = m.walls[p.wall].name;
   } else {
-    const Body& A = m.bodies[static_cast<std::size_t>(p.a)];
-    const Body& B = m.bodies[static_cast<std::size_t>(p.b)];
+    const Body& A = m.bodies[p.a];
+    const Body& B = m.bodies[p.b];
     c.elements = {A.element, B.element};
     c.primitives = {A.index, B.index};
     c.image = p.image;
@@ -153,7 +148,7 @@ ContactForce reported_contact(const Model& m, const ContactEnergy::Point& p, dou
 Vec3 fill_state(LimitResult& r, const Model& m, const State& s)
 {
   for (int k = 0; k < m.macro_count; ++k) {
-    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
+    const MacroInfo& info = m.load->macros()[k];
     r.macro.emplace_back(info.name, s.macro[k] * power(m.length, info.length_power));
   }
   r.min_gap = smallest_gap(m, s, gap_range) * m.length;
@@ -208,7 +203,7 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   r.hold = m.load->hold(task.direction);
   // Their names only: there is no state yet.
   const State rest = rest_state(m);
-  r.companions = m.load->companions(task.direction, macro_span(m, rest));
+  r.companions = m.load->companions(task.direction, rest.macro_values());
   for (auto& [name, value] : r.companions) value = std::numeric_limits<double>::quiet_NaN();
   return r;
 }
@@ -222,8 +217,8 @@ ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load
   const int nm = m.macro_count, nc = m.coordinate_count;
   const auto push = [&](int element, const Image& image, const Vec3& point, const Vec3& force) {
     PositionMap map;
-    const auto k = static_cast<std::size_t>(element);
-    m.load->position(macro_span(m, s), {s.e.data() + element * nc, static_cast<std::size_t>(nc)},
+    const std::size_t k = element;
+    m.load->position(s.macro_values(), {s.e.data() + element * nc, static_cast<std::size_t>(nc)},
                      m.rest[k].position, m.translation(image), map);
     rest.head(nm) += map.J.leftCols(nm).transpose() * force;
     rest.segment(m.offset(element), nc) += map.J.middleCols(nm, nc).transpose() * force;
@@ -232,13 +227,13 @@ ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load
   for (const ContactEnergy::Point& p : points) {
     const double f = mu * p.contact.force;
     if (p.wall >= 0) {
-      for (const auto& t : m.walls[static_cast<std::size_t>(p.wall)].terms) {
+      for (const auto& t : m.walls[p.wall].terms) {
         rest[m.offset(t.element) + t.coordinate] += f * t.coefficient;
       }
       continue;
     }
-    push(m.bodies[static_cast<std::size_t>(p.a)].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
-    push(m.bodies[static_cast<std::size_t>(p.b)].element, p.image, p.contact.on_f, f * p.contact.normal);
+    push(m.bodies[p.a].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
+    push(m.bodies[p.b].element, p.image, p.contact.on_f, f * p.contact.normal);
   }
   ForceBalance out;
   if (load.held.cols() > 0)
@@ -324,8 +319,8 @@ void fill_sensitivities(LimitResult& r, const HeldState& h, const SceneSpec& spe
   const double by = -h.sign() * h.l.stage.mu;
   r.sensitivity_clearance = by * h.contacts.d_clearance * h.scale / h.m.length;
   for (int k = 0; k < h.m.element_count(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const auto& infos = spec.types[static_cast<std::size_t>(spec.elements[i].type)].shape->parameters();
+    const std::size_t i = k;
+    const auto& infos = spec.types[spec.elements[i].type].shape->parameters();
     for (std::size_t c = 0; c < infos.size(); ++c) {
       r.sensitivity_parameters.emplace_back(fmt::format("{}/{}", k, infos[c].name),
                                             by * h.contacts.parameters(static_cast<int>(c), k) * h.scale);
@@ -409,8 +404,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   if (l.stages.empty()) return r;
 
   const HeldState h(m, task, l);
-  r.value = m.load->value(task.direction, macro_span(m, l.state)) * h.scale;
-  r.companions = m.load->companions(task.direction, macro_span(m, l.state));
+  r.value = m.load->value(task.direction, l.state.macro_values()) * h.scale;
+  r.companions = m.load->companions(task.direction, l.state.macro_values());
   if (l.error_estimate) r.error_estimate = *l.error_estimate * h.scale;
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   const Vec3 shift = fill_state(r, m, l.state);
@@ -428,10 +423,9 @@ LockedState locked_state(const Model& m, const LimitTask& task, const FoundState
   const Locked& l = found.locked;
   LockedState s;
   s.value =
-      m.load->value(task.direction, macro_span(m, l.state)) * power(m.length, m.load->value_length_power());
+      m.load->value(task.direction, l.state.macro_values()) * power(m.length, m.load->value_length_power());
   for (int k = 0; k < m.macro_count; ++k) {
-    s.macro.push_back(l.state.macro[k] *
-                      power(m.length, m.load->macros()[static_cast<std::size_t>(k)].length_power));
+    s.macro.push_back(l.state.macro[k] * power(m.length, m.load->macros()[k].length_power));
   }
   s.z_range = z_range(m, l.state) * m.length;
   s.seed = found.seed;

@@ -10,11 +10,6 @@
 namespace hauberk {
 namespace {
 
-std::span<const double> macro_span(const Model& m, const State& s)
-{
-  return {s.macro.data(), static_cast<std::size_t>(m.macro_count)};
-}
-
 /// A locked start whose path did not pass through anything. Certified paths do not; sampled ones may.
 bool sound(const Model& m, const Locked& l, const Schedule& schedule)
 {
@@ -59,7 +54,7 @@ std::optional<std::size_t> furthest(const Model& m, const LimitTask& task, const
 
 double reached(const Model& m, const LimitTask& task, const State& state)
 {
-  const double v = m.load->value(task.direction, macro_span(m, state));
+  const double v = m.load->value(task.direction, state.macro_values());
   return task.sense == Sense::positive ? v : -v;
 }
 

@@ -2,7 +2,7 @@
 /// Deformation limits: locked states from rest, for directions and senses, with several starts.
 
 #include "equilibrium/locking.hpp"
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 
 #include <cstddef>
 #include <cstdint>

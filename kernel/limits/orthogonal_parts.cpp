@@ -78,7 +78,7 @@ std::vector<Vec3> short_sums(const std::vector<Vec3>& v)
 Mat3 columns(const std::vector<Vec3>& v)
 {
   Mat3 m;
-  for (int k = 0; k < 3; ++k) m.col(k) = v[static_cast<std::size_t>(k)];
+  for (int k = 0; k < 3; ++k) m.col(k) = v[k];
   return m;
 }
 
@@ -140,7 +140,7 @@ std::vector<Mat3> patch_candidates(const Model& m, const std::vector<int>& kinds
     double radius = 0.0;  ///< of its last element
     std::vector<int> elements;
   };
-  const auto place = [&m](int i) -> const Vec3& { return m.rest[static_cast<std::size_t>(i)].position; };
+  const auto place = [&m](int i) -> const Vec3& { return m.rest[i].position; };
   const auto radius = [&place](int i) { return std::hypot(place(i).x(), place(i).y()); };
   std::vector<std::pair<double, int>> order;
   for (int i = 0; i < m.element_count(); ++i) order.emplace_back(radius(i), i);
@@ -148,7 +148,7 @@ std::vector<Mat3> patch_candidates(const Model& m, const std::vector<int>& kinds
   std::vector<Ring> rings;
   std::map<int, std::size_t> last;  // per kind: its latest ring
   for (const auto& [r, i] : order) {
-    const int kind = kinds[static_cast<std::size_t>(i)];
+    const int kind = kinds[i];
     const auto at = last.find(kind);
     if (at == last.end() || r - rings[at->second].radius > symmetry_tolerance(place(i))) {
       last[kind] = rings.size();

@@ -39,7 +39,7 @@ PlaceIndex::PlaceIndex(const Model& m) : model_(&m), lattice_(m)
     cells_[k] = static_cast<std::int64_t>(std::clamp(std::floor(across / cell_width), 1.0, most_cells));
   }
   for (int i = 0; i < m.element_count(); ++i) {
-    const Vec3 g = grid(m.rest[static_cast<std::size_t>(i)].position);
+    const Vec3 g = grid(m.rest[i].position);
     Cell cell{};
     for (std::size_t k = 0; k < 3; ++k)
       cell[k] = static_cast<std::int64_t>(std::floor(g[static_cast<int>(k)]));
@@ -93,7 +93,7 @@ void PlaceIndex::find(const Vec3& x, std::vector<Placed>& out) const
         const auto cell = elements_.find(k);
         if (cell == elements_.end()) continue;
         for (const int j : cell->second) {
-          const Vec3 d = x - model_->rest[static_cast<std::size_t>(j)].position;
+          const Vec3 d = x - model_->rest[j].position;
           const Image image = lattice_.nearest(d);
           if ((d - model_->translation(image)).norm() <= tolerance) out.push_back({j, image});
         }

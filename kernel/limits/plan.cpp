@@ -29,9 +29,9 @@ Reduction reduction(const Body& a, const Body& b)
 /// True if all primitives of the element share one axis of revolution, so that spinning about it is inert.
 bool spins(const Model& m, std::size_t element)
 {
-  const Body& first = m.bodies[static_cast<std::size_t>(m.first_body[element])];
+  const Body& first = m.bodies[m.first_body[element]];
   for (int k = m.first_body[element]; k < m.first_body[element + 1]; ++k) {
-    const Body& b = m.bodies[static_cast<std::size_t>(k)];
+    const Body& b = m.bodies[k];
     const Vec3 axis = first.axes.col(2);
     if (b.curve || b.surface || b.axes.col(2).cross(axis).norm() > 1e-12 ||
         (b.center - first.center).cross(axis).norm() > 1e-12)
@@ -44,7 +44,7 @@ bool spins(const Model& m, std::size_t element)
 /// do not account for.
 bool linked_together(const Model& m, const std::vector<ElementLink>& links, const Gap& g)
 {
-  const Body &A = m.bodies[static_cast<std::size_t>(g.a)], &B = m.bodies[static_cast<std::size_t>(g.b)];
+  const Body &A = m.bodies[g.a], &B = m.bodies[g.b];
   const auto same = [&](const ElementPair& p) {
     return p.i == A.element && p.j == B.element && p.image == g.image;
   };
@@ -66,8 +66,8 @@ void list_tightest(Plan& p, const Model& m, const State& rest)
   const std::vector<ElementLink> links = element_links(m);
   std::map<std::tuple<int, int, Image>, std::size_t> seen;  // bodies and image: where in the list
   for (const Gap& g : find_gaps(m, rest, tight_range, false)) {
-    const Body& A = m.bodies[static_cast<std::size_t>(g.a)];
-    const Body& B = m.bodies[static_cast<std::size_t>(g.b)];
+    const Body& A = m.bodies[g.a];
+    const Body& B = m.bodies[g.b];
     TightPair t;
     t.elements = {A.element, B.element};
     t.primitives = {A.index, B.index};
@@ -124,8 +124,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   for (std::size_t i = 0; i < m.rest.size(); ++i) p.inert += spins(m, i) ? 1 : 0;
   p.links_per_element.assign(m.rest.size(), 0);
   for (const ElementLink& l : element_links(m)) {
-    for (const int element : {l.pair.i, l.pair.j})
-      p.links_per_element[static_cast<std::size_t>(element)] += l.primitives + l.together;
+    for (const int element : {l.pair.i, l.pair.j}) p.links_per_element[element] += l.primitives + l.together;
   }
 
   const State rest = rest_state(m);
@@ -135,11 +134,11 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
     for (std::size_t k = 0; k < pair.image.size(); ++k) {
       if (std::abs(pair.image[k]) > std::abs(p.farthest_image[k])) p.farthest_image[k] = pair.image[k];
     }
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const Body& A = m.bodies[static_cast<std::size_t>(a)];
-        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const Body& A = m.bodies[a];
+        const Body& B = m.bodies[b];
         std::array<std::string, 2> names{name_of(A.kind), name_of(B.kind)};
         std::array<PrimitiveKind, 2> of{A.kind, B.kind};
         if (names[1] < names[0]) {

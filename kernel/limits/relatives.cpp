@@ -135,19 +135,18 @@ std::optional<State> Carrier::state(const State& from) const
   State out = rest_state(to_);
   out.macro = from.macro;
   const auto n = from_.element_count() / cells(from_repeat_);
-  const std::span<const double> macro(out.macro.data(), static_cast<std::size_t>(to_.macro_count));
-  const auto nc = static_cast<std::size_t>(to_.coordinate_count);
+  const std::span<const double> macro = out.macro_values();
+  const std::size_t nc = to_.coordinate_count;
   PositionMap map;
   for (int k = 0; k < to_.element_count(); ++k) {
     const CellPlace there = place_of(cell_at(k / n, to_repeat_), from_repeat_);
     const Pose pose = image_pose(from_, from, there.cell * n + k % n, there.image);
-    out.rotation[static_cast<std::size_t>(k)] = pose.rotation;
+    out.rotation[k] = pose.rotation;
     // Positions are affine in an element's coordinates, or nearly: Newton's method ends at once.
     auto e = out.e.segment(k * to_.coordinate_count, to_.coordinate_count);
     double missed = 0.0;
     for (int step = 0; step < 4; ++step) {
-      to_.load->position(macro, {e.data(), nc}, to_.rest[static_cast<std::size_t>(k)].position, Vec3::Zero(),
-                         map);
+      to_.load->position(macro, {e.data(), nc}, to_.rest[k].position, Vec3::Zero(), map);
       const Vec3 left = pose.position - map.x;
       missed = left.norm();
       if (nc == 0 || missed < 1e-15) break;

@@ -47,7 +47,7 @@ RoomyState grow(const Model& m, State state, const RoomSettings& settings, const
 
 Room find_room(const Model& m, const RoomSettings& settings, unsigned threads, const KeepGoing& keep_going)
 {
-  std::vector<RoomyState> found(static_cast<std::size_t>(std::max(settings.starts, 1)));
+  std::vector<RoomyState> found(std::max(settings.starts, 1));
   parallel_for(found.size(), threads, [&](std::size_t k) {
     const std::uint64_t seed = settings.seed + k;
     State from = rest_state(m);

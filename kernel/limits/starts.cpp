@@ -45,12 +45,12 @@ State perturbed(const Model& m, const State& from, double size, std::uint64_t se
   for (int k = 0; k < count; ++k) {
     Vector dy = Vector::Zero(m.dofs());
     for (int i = 0; i < m.element_count(); ++i) {
-      const int source = m.source[static_cast<std::size_t>(i)];
+      const int source = m.source[i];
       if (copies == Copies::alike && source != i) {
         dy.segment(m.offset(i), m.element_dofs()) = dy.segment(m.offset(source), m.element_dofs());
         continue;
       }
-      const Mat3& Q = m.rest[static_cast<std::size_t>(i)].rotation;
+      const Mat3& Q = m.rest[i].rotation;
       const Vec3 u = Q * normal.vector(), w = Q * normal.vector();
       dy.segment(m.offset(i), m.coordinate_count) = size * u.head(m.coordinate_count);
       dy.segment<3>(m.offset(i) + m.coordinate_count) = size * w;
@@ -111,7 +111,7 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
                         const KeepGoing& keep_going)
 {
   bool repeated = false;
-  for (int i = 0; i < m.element_count(); ++i) repeated |= m.source[static_cast<std::size_t>(i)] != i;
+  for (int i = 0; i < m.element_count(); ++i) repeated |= m.source[i] != i;
   const bool small = start == 0 || (start == 1 && repeated && settings.perturbation > 0.0);
   const State from = perturbed(
       m, start_state(m, settings), small ? settings.perturbation : settings.further_perturbation,

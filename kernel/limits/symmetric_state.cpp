@@ -89,7 +89,7 @@ SceneSymmetry inverse(const Model& m, const SceneSymmetry& g)
   out.image.resize(g.to.size());
   out.local.resize(g.to.size());
   for (std::size_t i = 0; i < g.to.size(); ++i) {
-    const auto j = static_cast<std::size_t>(g.to[i]);
+    const std::size_t j = g.to[i];
     out.to[j] = static_cast<int>(i);
     out.image[j] = lattice.nearest(-(out.O * m.translation(g.image[i])));
     out.local[j] = g.local[i].transpose();
@@ -110,8 +110,8 @@ std::optional<State> transformed(const Model& m, const SceneSymmetry& g, const S
   m.load->position(span_of(out.macro), span_of(none), g.t, Vec3::Zero(), moved);
   const Vec3 shift = moved.x - origin.x;
   for (int i = 0; i < m.element_count(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const auto j = static_cast<std::size_t>(g.to[k]);
+    const std::size_t k = i;
+    const std::size_t j = g.to[k];
     const Vec3 x = g.O * image_pose(m, s, i, {}).position + shift;
     const std::optional<Vector> e =
         coordinates_at(m, out.macro, m.rest[j].position, m.translation(g.image[k]), x);

@@ -61,11 +61,11 @@ class SymmetrySearch {
   }
 
  private:
-  const Vec3& place(int i) const { return m_.rest[static_cast<std::size_t>(i)].position; }
+  const Vec3& place(int i) const { return m_.rest[i].position; }
 
   bool load_allows(const Mat3& O) const
   {
-    const std::vector<double> macro(static_cast<std::size_t>(m_.macro_count), 0.0);
+    const std::vector<double> macro(m_.macro_count, 0.0);
     std::vector<double> out(macro);
     return m_.load->transform(O, macro, out);
   }
@@ -76,7 +76,7 @@ class SymmetrySearch {
   {
     std::vector<std::vector<int>> by_kind;
     for (int i = 0; i < m_.element_count(); ++i) {
-      const auto kind = static_cast<std::size_t>(kinds_[static_cast<std::size_t>(i)]);
+      const auto kind = static_cast<std::size_t>(kinds_[i]);
       if (kind >= by_kind.size()) by_kind.resize(kind + 1);
       by_kind[kind].push_back(i);
     }
@@ -115,13 +115,13 @@ class SymmetrySearch {
     for (const std::size_t i : order_) {
       places_.find(O * m_.rest[i].position + t, there);
       const auto goes_to = [&](const Placed& p) {
-        const auto j = static_cast<std::size_t>(p.element);
+        const std::size_t j = p.element;
         return !taken[j] && kinds_[i] == kinds_[j] &&
                carries_bodies(m_, static_cast<int>(i), p.element, local(O, i, j));
       };
       const auto at = std::find_if(there.begin(), there.end(), goes_to);
       if (at == there.end()) return std::nullopt;
-      const auto j = static_cast<std::size_t>(at->element);
+      const std::size_t j = at->element;
       taken[j] = true;
       g.to[i] = at->element;
       g.image[i] = at->image;

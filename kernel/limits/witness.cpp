@@ -19,9 +19,7 @@ constexpr double most_growth = 1.5;
 /// The same way in fewer pieces: from each state straight to a far one that it certainly reaches.
 std::vector<State> in_fewer_pieces(const Model& m, const std::vector<State>& path)
 {
-  const auto largest = [&m](const State& s) {
-    return m.load->stretch_range({s.macro.data(), static_cast<std::size_t>(m.macro_count)}).second;
-  };
+  const auto largest = [&m](const State& s) { return m.load->stretch_range(s.macro_values()).second; };
   std::vector<State> out{path.front()};
   for (std::size_t at = 0; at + 1 < path.size();) {
     std::size_t span = std::min(most_joined, path.size() - 1 - at);
@@ -39,7 +37,7 @@ WitnessState reported(const Model& m, const State& s)
 {
   WitnessState out;
   for (int k = 0; k < m.macro_count; ++k) {
-    const MacroInfo& info = m.load->macros()[static_cast<std::size_t>(k)];
+    const MacroInfo& info = m.load->macros()[k];
     out.macro.emplace_back(info.name, s.macro[k] * std::pow(m.length, info.length_power));
   }
   out.poses = poses(m, s);
@@ -66,8 +64,7 @@ void add_witness(LimitResult& r, const Model& m, const LimitTask& task, const Lo
     if (last == nullptr || step_norm(m, difference(m, *last, s)) > 0.0) r.witness.push_back(reported(m, s));
     last = &s;
   }
-  const auto [lo, hi] =
-      m.load->stretch_range({l.state.macro.data(), static_cast<std::size_t>(m.macro_count)});
+  const auto [lo, hi] = m.load->stretch_range(l.state.macro_values());
   r.certificate =
       fmt::format("a motion of {} pieces without intersection, to singular values of F of {:.3g} and {:.3g}",
                   r.witness.size() - 1, lo, hi);

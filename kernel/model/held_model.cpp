@@ -80,8 +80,8 @@ class SubspaceLoadCase final : public LoadCase {
   {
     for (int k = 0; k < nm_; ++k) {
       double sum = 0.0;
-      for (int j = 0; j < nq_; ++j) sum += basis_(k, j) * q[static_cast<std::size_t>(j)];
-      macro[static_cast<std::size_t>(k)] = sum;
+      for (int j = 0; j < nq_; ++j) sum += basis_(k, j) * q[j];
+      macro[k] = sum;
     }
     return {macro.data(), static_cast<std::size_t>(nm_)};
   }
@@ -110,7 +110,7 @@ class SubspaceLoadCase final : public LoadCase {
 
 Vector metric_weights(const LoadCase& load)
 {
-  std::vector<double> weights(static_cast<std::size_t>(load.macro_count()));
+  std::vector<double> weights(load.macro_count());
   load.metric(weights);
   return Eigen::Map<const Vector>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }
@@ -137,8 +137,8 @@ MacroLoad macro_load(const Model& m, const Direction& direction, Sense sense)
     throw PluginError("load case: holds conditions on macroscopic unknowns of different units");
   Matrix held(m.macro_count, static_cast<Eigen::Index>(conditions.size()));
   for (Eigen::Index k = 0; k < held.cols(); ++k) {
-    const auto& c = conditions[static_cast<std::size_t>(k)].coefficients;
-    for (int i = 0; i < m.macro_count; ++i) held(i, k) = c[static_cast<std::size_t>(i)];
+    const auto& c = conditions[k].coefficients;
+    for (int i = 0; i < m.macro_count; ++i) held(i, k) = c[i];
   }
   constexpr double nothing = 1e-9;
   if (Eigen::ColPivHouseholderQR<Matrix>(held).rank() < held.cols() ||

@@ -41,10 +41,10 @@ class Overlap {
  private:
   double of(int element, const Pose& pose, const Vec3& d) const
   {
-    const auto e = static_cast<std::size_t>(element);
+    const std::size_t e = element;
     double most = -std::numeric_limits<double>::infinity();
     for (int k = m_.first_body[e]; k < m_.first_body[e + 1]; ++k)
-      most = std::max(most, support(m_.bodies[static_cast<std::size_t>(k)], pose, d));
+      most = std::max(most, support(m_.bodies[k], pose, d));
     return most;
   }
   const Model& m_;
@@ -85,7 +85,7 @@ bool hulls_apart(const Model& m, const State& s)
 {
   const std::vector<Pose> p = poses(m, s);
   for (const ElementPair& pair : near_pairs(m, s, 0.0)) {
-    const Pose& first = p[static_cast<std::size_t>(pair.i)];
+    const Pose& first = p[pair.i];
     const Pose second = image_pose(m, s, pair.j, pair.image);
     const Vec3 between = second.position - first.position;
     const Vec3 ahead = between.norm() > 0.0 ? between.normalized() : Vec3(Vec3::UnitZ());

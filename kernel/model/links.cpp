@@ -24,7 +24,7 @@ int cycle_index(const Model& m, std::size_t element, std::size_t cycle)
 void add_loops(std::vector<Link>& links, const Model& m, const ElementPair& pair, const Pose& pose,
                const Pose& other)
 {
-  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+  const std::size_t i = pair.i, j = pair.j;
   const Spine &a = *m.spines[i], &b = *m.spines[j];
   if (a.loops.empty() && b.loops.empty()) return;
   const Eigen::MatrixXi numbers = linking_numbers(a, pose, b, other);
@@ -62,12 +62,12 @@ std::vector<Link> find_links(const Model& m, const State& s)
   std::vector<Link> links;
   const std::vector<Pose> p = poses(m, s);
   for (const ElementPair& pair : near_pairs(m, s, 0.0)) {
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     const Pose other = image_pose(m, s, pair.j, pair.image);
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const Body& A = m.bodies[static_cast<std::size_t>(a)];
-        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const Body& A = m.bodies[a];
+        const Body& B = m.bodies[b];
         const double d =
             (p[i].position + p[i].rotation * A.center - other.position - other.rotation * B.center).norm();
         if (d >= A.core_bound() + B.core_bound()) continue;
@@ -83,7 +83,7 @@ std::vector<Link> find_links(const Model& m, const State& s)
 int element_of_cycle(const Model& m, int cycle)
 {
   const int bodies = static_cast<int>(m.bodies.size());
-  if (cycle < bodies) return m.bodies[static_cast<std::size_t>(cycle)].element;
+  if (cycle < bodies) return m.bodies[cycle].element;
   const auto after = std::upper_bound(m.first_loop.begin(), m.first_loop.end(), cycle - bodies);
   return static_cast<int>(after - m.first_loop.begin()) - 1;
 }
@@ -91,11 +91,9 @@ int element_of_cycle(const Model& m, int cycle)
 std::vector<int> primitives_of_cycle(const Model& m, int cycle)
 {
   const int bodies = static_cast<int>(m.bodies.size());
-  if (cycle < bodies) return {m.bodies[static_cast<std::size_t>(cycle)].index};
-  const auto element = static_cast<std::size_t>(element_of_cycle(m, cycle));
-  return m.spines[element]
-      ->loops[static_cast<std::size_t>(cycle - bodies - m.first_loop[element])]
-      .primitives;
+  if (cycle < bodies) return {m.bodies[cycle].index};
+  const std::size_t element = element_of_cycle(m, cycle);
+  return m.spines[element]->loops[cycle - bodies - m.first_loop[element]].primitives;
 }
 
 std::vector<ElementLink> element_links(const Model& m)
@@ -142,7 +140,7 @@ std::vector<Vec3> cycle_translations(const Model& m)
 {
   // Spanning forest of the quotient graph: every element gets a translation; each further link closes a
   // cycle whose translation is the mismatch.
-  const auto n = static_cast<std::size_t>(m.element_count());
+  const std::size_t n = m.element_count();
   std::vector<Image> at(n);
   std::vector<bool> seen(n, false);
   std::vector<Vec3> cycles;

@@ -112,18 +112,18 @@ void check_images(const Model& m)
 void set_metric(Model& m)
 {
   m.metric = Vector::Ones(m.dofs());
-  std::vector<double> weights(static_cast<std::size_t>(m.macro_count));
+  std::vector<double> weights(m.macro_count);
   m.load->metric(weights);
   std::vector<double> distances = lattice_distances(m);
   if (m.lattice.empty()) {
     for (const Pose& p : m.rest) distances.push_back(p.position.norm());
   }
   for (int k = 0; k < m.macro_count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     m.metric[k] = squared_displacement(distances, m.load->macros()[i]) * weights[i];
   }
   for (int i = 0; i < m.element_count(); ++i) {
-    const double r = m.reach[static_cast<std::size_t>(i)];
+    const double r = m.reach[i];
     m.metric.segment<3>(m.offset(i) + m.coordinate_count).setConstant(r * r);
   }
 }
@@ -133,7 +133,7 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 {
   Matrix rows = Matrix::Zero(m.dofs(), static_cast<int>(equalities.size()));
   for (int k = 0; k < rows.cols(); ++k) {
-    for (const LinearTerm& t : equalities[static_cast<std::size_t>(k)].terms)
+    for (const LinearTerm& t : equalities[k].terms)
       rows(m.offset(t.element) + t.coordinate, k) += t.coefficient;
   }
   if (rows.cols() == 0) return rows;
@@ -203,8 +203,7 @@ void set_spines(Model& m)
   const auto several = [](const SpineLoop& l) { return l.primitives.size() > 1; };
   if (m.bodies.size() == m.rest.size()) return;  // one primitive each
   for (std::size_t e = 0; e < m.rest.size(); ++e) {
-    const auto first = static_cast<std::size_t>(m.first_body[e]),
-               end = static_cast<std::size_t>(m.first_body[e + 1]);
+    const std::size_t first = m.first_body[e], end = m.first_body[e + 1];
     std::vector<double> key;
     bool meshes = false;
     for (std::size_t k = first; k < end; ++k) {
@@ -253,7 +252,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   std::vector<Vec3> positions;
   for (std::size_t k = 0; k < spec.elements.size(); ++k) {
     const PlacedElement& e = spec.elements[k];
-    const Shape& shape = *spec.types[static_cast<std::size_t>(e.type)].shape;
+    const Shape& shape = *spec.types[e.type].shape;
     const std::vector<Primitive> primitives = shape.primitives(e.parameters);
     std::vector<PrimitiveJacobian> jacobians = shape.jacobians(e.parameters);
     m.first_body.push_back(static_cast<int>(m.bodies.size()));
@@ -299,8 +298,8 @@ std::vector<int> shown(const Image& image)
 
 Vector parameter_gradient(const Model& m, int body, const std::vector<double>& geometry)
 {
-  const auto k = static_cast<std::size_t>(body);
-  Vector out = Vector::Zero(m.parameter_count[static_cast<std::size_t>(m.bodies[k].element)]);
+  const std::size_t k = body;
+  Vector out = Vector::Zero(m.parameter_count[m.bodies[k].element]);
   for (std::size_t r = 0; r < geometry.size(); ++r) {
     for (int c = 0; c < out.size(); ++c) out[c] += geometry[r] * m.size_derivative(k, static_cast<int>(r), c);
   }
@@ -319,8 +318,8 @@ State rest_state(const Model& m)
 Pose image_pose(const Model& m, const State& s, int element, const Image& image)
 {
   PositionMap map;
-  const auto k = static_cast<std::size_t>(element);
-  m.load->position({s.macro.data(), static_cast<std::size_t>(m.macro_count)},
+  const std::size_t k = element;
+  m.load->position(s.macro_values(),
                    {s.e.data() + element * m.coordinate_count, static_cast<std::size_t>(m.coordinate_count)},
                    m.rest[k].position, m.translation(image), map);
   return {map.x, s.rotation[k]};
@@ -341,7 +340,7 @@ State advanced(const Model& m, const State& s, const Vector& dy, double alpha)
   for (int i = 0; i < m.element_count(); ++i) {
     const int o = m.offset(i);
     n.e.segment(i * m.coordinate_count, m.coordinate_count) += alpha * dy.segment(o, m.coordinate_count);
-    auto& Q = n.rotation[static_cast<std::size_t>(i)];
+    auto& Q = n.rotation[i];
     Q = rotation_exp(alpha * dy.segment<3>(o + m.coordinate_count)) * Q;
   }
   return n;
@@ -355,7 +354,7 @@ Vector difference(const Model& m, const State& from, const State& to)
     const int o = m.offset(i);
     dy.segment(o, m.coordinate_count) = to.e.segment(i * m.coordinate_count, m.coordinate_count) -
                                         from.e.segment(i * m.coordinate_count, m.coordinate_count);
-    const auto k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     const Mat3 D = to.rotation[k] * from.rotation[k].transpose();
     // Small turns through the antisymmetric part: exact to rounding where angle-axis loses digits.
     const Vec3 a = 0.5 * Vec3(D(2, 1) - D(1, 2), D(0, 2) - D(2, 0), D(1, 0) - D(0, 1));
@@ -372,11 +371,8 @@ std::string not_a_sheet(const Model& m, const State& s)
   std::vector<Vec3> X;
   X.reserve(m.rest.size());
   for (const Pose& p : m.rest) X.push_back(p.position);
-  return m.load->not_a_sheet({{s.macro.data(), static_cast<std::size_t>(s.macro.size())},
-                              {s.e.data(), static_cast<std::size_t>(s.e.size())},
-                              X,
-                              m.reach,
-                              m.linked});
+  return m.load->not_a_sheet(
+      {s.macro_values(), {s.e.data(), static_cast<std::size_t>(s.e.size())}, X, m.reach, m.linked});
 }
 
 Vector free_part(const Model& m, const Vector& x)
@@ -391,9 +387,8 @@ double largest_motion(const Model& m, const Vector& dy)
   double most = 0.0;
   for (int i = 0; i < m.element_count(); ++i) {
     const int o = m.offset(i);
-    most = std::max(most,
-                    dy.segment(o, m.coordinate_count).norm() +
-                        dy.segment<3>(o + m.coordinate_count).norm() * m.reach[static_cast<std::size_t>(i)]);
+    most = std::max(most, dy.segment(o, m.coordinate_count).norm() +
+                              dy.segment<3>(o + m.coordinate_count).norm() * m.reach[i]);
   }
   return most;
 }

@@ -8,6 +8,8 @@
 
 #include <Eigen/Dense>
 
+#include <span>
+
 namespace hauberk {
 
 using Vector = Eigen::VectorXd;
@@ -55,9 +57,9 @@ struct Model {
   /// (file units).
   double size_derivative(std::size_t body, int quantity, int parameter) const
   {
-    const int n = parameter_count[static_cast<std::size_t>(bodies[body].element)];
+    const int n = parameter_count[bodies[body].element];
     const int entry = quantity * n + parameter;
-    return jacobians[body][static_cast<std::size_t>(entry)] / length;
+    return jacobians[body][entry] / length;
   }
   int element_count() const { return static_cast<int>(rest.size()); }
   int element_dofs() const { return coordinate_count + 3; }
@@ -86,6 +88,12 @@ struct State {
   Vector macro;
   Vector e;                    ///< coordinate_count per element
   std::vector<Mat3> rotation;  ///< per element
+
+  /// The macroscopic unknowns as load cases take them; refers to this state.
+  std::span<const double> macro_values() const
+  {
+    return {macro.data(), static_cast<std::size_t>(macro.size())};
+  }
 };
 
 /// Builds the model and finds its links. Throws InputError when a primitive is bad or the cell far too small.

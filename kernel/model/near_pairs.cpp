@@ -30,7 +30,7 @@ std::vector<ElementPair> pairs_one_by_one(const Model& m, const std::vector<Pose
   const int n = m.element_count();
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const std::size_t a = i, b = j;
       if ((p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
         pairs.push_back({i, j, {}});
     }
@@ -49,18 +49,17 @@ std::vector<ElementPair> pairs_by_buckets(const Model& m, const std::vector<Pose
     return Bucket{static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2])};
   };
   std::map<Bucket, std::vector<int>> buckets;
-  for (int i = 0; i < m.element_count(); ++i)
-    buckets[bucket(p[static_cast<std::size_t>(i)].position)].push_back(i);
+  for (int i = 0; i < m.element_count(); ++i) buckets[bucket(p[i].position)].push_back(i);
   std::vector<ElementPair> pairs;
   for (int i = 0; i < m.element_count(); ++i) {
-    const auto a = static_cast<std::size_t>(i);
+    const std::size_t a = i;
     const Bucket at = bucket(p[a].position);
     const std::size_t first = pairs.size();
     for (int k = 0; k < 27; ++k) {
       const auto found = buckets.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
       if (found == buckets.end()) continue;
       for (const int j : found->second) {
-        const auto b = static_cast<std::size_t>(j);
+        const std::size_t b = j;
         if (j > i && (p[a].position - p[b].position).norm() < m.reach[a] + m.reach[b] + margin)
           pairs.push_back({i, j, {}});
       }
@@ -106,7 +105,7 @@ std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const
   const int n = m.element_count();
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const std::size_t a = i, b = j;
       const double r = m.reach[a] + m.reach[b] + margin;
       const Vec3 at = lattice.inverse * (p[a].position - p[b].position);
       Image first{}, last{};
@@ -181,7 +180,7 @@ class LatticeBuckets {
   {
     buckets_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]));
     for (int i = 0; i < m_.element_count(); ++i) {
-      const Vec3 x = lattice_.inverse * p_[static_cast<std::size_t>(i)].position;
+      const Vec3 x = lattice_.inverse * p_[i].position;
       Place place;
       for (std::size_t k = 0; k < 2; ++k) {
         const double coordinate = x[static_cast<Eigen::Index>(k)], cell = std::floor(coordinate);
@@ -196,22 +195,22 @@ class LatticeBuckets {
   std::vector<int>& bucket(const std::array<int, 2>& at)
   {
     const int number = at[0] * count_[1] + at[1];
-    return buckets_[static_cast<std::size_t>(number)];
+    return buckets_[number];
   }
 
   /// Pairs of i with elements of the bucket d1, d2 away.
   void add_from(int i, int d1, int d2, std::vector<ElementPair>& out)
   {
-    const Place& at = places_[static_cast<std::size_t>(i)];
+    const Place& at = places_[i];
     std::array<int, 2> there{at.bucket[0] + d1, at.bucket[1] + d2}, beyond{};
     for (std::size_t k = 0; k < 2; ++k) {
       beyond[k] = there[k] < 0 ? -1 : there[k] >= count_[k] ? 1 : 0;
       there[k] -= beyond[k] * count_[k];
     }
-    const auto a = static_cast<std::size_t>(i);
+    const std::size_t a = i;
     for (const int j : bucket(there)) {
       if (j < i) continue;
-      const auto b = static_cast<std::size_t>(j);
+      const std::size_t b = j;
       const Image image{beyond[0] - places_[b].cell[0] + at.cell[0],
                         beyond[1] - places_[b].cell[1] + at.cell[1], 0};
       if (i == j && !counts(image)) continue;

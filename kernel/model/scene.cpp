@@ -10,7 +10,7 @@ double characteristic_length(const SceneSpec& spec)
   if (spec.length > 0.0) return spec.length;
   std::vector<double> radii;
   for (const PlacedElement& e : spec.elements) {
-    for (const Primitive& p : spec.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters)) {
+    for (const Primitive& p : spec.types[e.type].shape->primitives(e.parameters)) {
       radii.push_back(p.R());
     }
   }
@@ -24,7 +24,7 @@ double thinnest_tube(const SceneSpec& spec)
 {
   double thinnest = std::numeric_limits<double>::infinity();
   for (const PlacedElement& e : spec.elements) {
-    for (const Primitive& p : spec.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters))
+    for (const Primitive& p : spec.types[e.type].shape->primitives(e.parameters))
       thinnest = std::min({thinnest, p.r0(), p.r1()});
   }
   return thinnest;

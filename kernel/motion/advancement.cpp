@@ -36,11 +36,11 @@ std::vector<BodyPair> body_pairs(const Model& m, const std::vector<CandidatePair
 {
   std::vector<BodyPair> out;
   for (const CandidatePair& pair : candidates) {
-    const auto i = static_cast<std::size_t>(pair.ti.element), j = static_cast<std::size_t>(pair.tj.element);
+    const std::size_t i = pair.ti.element, j = pair.tj.element;
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-        const Body& A = m.bodies[static_cast<std::size_t>(a)];
-        const Body& B = m.bodies[static_cast<std::size_t>(b)];
+        const Body& A = m.bodies[a];
+        const Body& B = m.bodies[b];
         out.push_back(
             {&pair, a, b, A, B, pair.approach + pair.ti.w.norm() * A.reach + pair.tj.w.norm() * B.reach});
       }

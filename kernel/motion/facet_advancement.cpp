@@ -101,15 +101,14 @@ class FacetAdvance {
     Vec3 mean_velocity() const
     {
       Vec3 sum = Vec3::Zero();
-      for (int k = 0; k < count; ++k) sum += velocity[static_cast<std::size_t>(k)];
+      for (int k = 0; k < count; ++k) sum += velocity[k];
       return sum / count;
     }
     /// How much faster than `mean` one of them is.
     double excess(const Vec3& mean) const
     {
       double most = 0.0;
-      for (int k = 0; k < count; ++k)
-        most = std::max(most, (velocity[static_cast<std::size_t>(k)] - mean).norm());
+      for (int k = 0; k < count; ++k) most = std::max(most, (velocity[k] - mean).norm());
       return most;
     }
   };
@@ -120,8 +119,8 @@ class FacetAdvance {
     Corners out;
     out.count = count;
     for (int k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const Vec3 local = body.center + body.axes * body.facets->points()[static_cast<std::size_t>(points[i])];
+      const std::size_t i = k;
+      const Vec3 local = body.center + body.axes * body.facets->points()[points[i]];
       const Vec3 arm = pose.rotation * local;
       out.at[i] = (pose.position - origin) + arm;
       out.velocity[i] = v + w.cross(arm);

@@ -99,10 +99,10 @@ SafeStep sampled_safe_step(const Model& m, const State& from, const Vector& dy, 
   const std::vector<CandidatePair> candidates = candidate_pairs(m, from, dy);
   const auto for_each_pair = [&](auto&& visit) {
     for (const CandidatePair& pair : candidates) {
-      const auto i = static_cast<std::size_t>(pair.ti.element), j = static_cast<std::size_t>(pair.tj.element);
+      const std::size_t i = pair.ti.element, j = pair.tj.element;
       for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
         for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-          const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+          const Body &A = m.bodies[a], &B = m.bodies[b];
           const double motion = pair.approach + pair.ti.w.norm() * A.reach + pair.tj.w.norm() * B.reach;
           const Vec3 ca = pair.ti.pose.position + pair.ti.pose.rotation * A.center;
           const Vec3 cb = pair.tj.pose.position + pair.tj.pose.rotation * B.center;

@@ -12,10 +12,10 @@ Track::Track(const Model& model, const State& state, const Vector& step, int k, 
 {
   const int nc = m->coordinate_count, o = m->offset(k);
   w = step.segment<3>(o + nc);
-  const auto n = static_cast<std::size_t>(nc), nm = static_cast<std::size_t>(m->macro_count);
-  acceleration = m->load->acceleration_bound(
-      {state.macro.data(), nm}, {step.data(), nm}, {state.e.data() + k * nc, n}, {step.data() + o, n},
-      m->rest[static_cast<std::size_t>(k)].position, m->translation(image));
+  const std::size_t n = nc, nm = m->macro_count;
+  acceleration =
+      m->load->acceleration_bound({state.macro.data(), nm}, {step.data(), nm}, {state.e.data() + k * nc, n},
+                                  {step.data() + o, n}, m->rest[k].position, m->translation(image));
   at(0.0, pose, velocity);
 }
 
@@ -24,10 +24,10 @@ void Track::at(double s, Pose& there, Vec3& moving) const
   const int nc = m->coordinate_count, nm = m->macro_count, o = m->offset(element);
   std::array<double, max_macro> macro{};
   std::array<double, max_coordinates> e{};
-  for (int k = 0; k < nm; ++k) macro[static_cast<std::size_t>(k)] = from->macro[k] + s * (*dy)[k];
-  for (int k = 0; k < nc; ++k) e[static_cast<std::size_t>(k)] = from->e[element * nc + k] + s * (*dy)[o + k];
+  for (int k = 0; k < nm; ++k) macro[k] = from->macro[k] + s * (*dy)[k];
+  for (int k = 0; k < nc; ++k) e[k] = from->e[element * nc + k] + s * (*dy)[o + k];
   PositionMap map;
-  const auto i = static_cast<std::size_t>(element);
+  const std::size_t i = element;
   m->load->position({macro.data(), static_cast<std::size_t>(nm)}, {e.data(), static_cast<std::size_t>(nc)},
                     m->rest[i].position, m->translation(image), map);
   there = {map.x, rotation_exp(s * w) * from->rotation[i]};
@@ -100,9 +100,8 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
   const double strain = dy.head(m.macro_count).cwiseAbs().sum();
   double widest = 0.0;
   for (const double r : m.reach) widest = std::max(widest, r);
-  const double smin =
-      std::min(m.load->stretch_range({from.macro.data(), static_cast<std::size_t>(m.macro_count)}).first,
-               m.load->stretch_range({to.macro.data(), static_cast<std::size_t>(m.macro_count)}).first);
+  const double smin = std::min(m.load->stretch_range(from.macro_values()).first,
+                               m.load->stretch_range(to.macro_values()).first);
   const int nc = m.coordinate_count;
   Vector lowest = from.e.head(nc), highest = lowest;
   for (int k = 1; k < m.element_count(); ++k) {
@@ -137,7 +136,7 @@ std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, co
   for (const ElementPair& pair :
        m.lattice.empty() ? pairs_of_patch(m, from, dy) : pairs_of_cell(m, from, dy)) {
     const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     const double approach = (ti.velocity - tj.velocity).norm() + 0.5 * (ti.acceleration + tj.acceleration);
     if ((ti.pose.position - tj.pose.position).norm() - m.reach[i] - m.reach[j] - approach > m.clearance)
       continue;

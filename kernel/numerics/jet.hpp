@@ -27,7 +27,7 @@ struct Jet {
   static Jet variable(double value, int k)
   {
     Jet x(value);
-    x.g[static_cast<std::size_t>(k)] = 1.0;
+    x.g[k] = 1.0;
     return x;
   }
   static constexpr std::size_t at(std::size_t row, std::size_t column)

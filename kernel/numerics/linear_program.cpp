@@ -74,8 +74,7 @@ LinearProgram::End LinearProgram::minimise(Eigen::RowVectorXd& cost, Eigen::Inde
     for (Eigen::Index i = 0; i < tableau_.rows(); ++i) {
       if (tableau_(i, column) <= tolerance_) continue;
       const double ratio = std::max(0.0, tableau_(i, end)) / tableau_(i, column);
-      const bool earlier = row >= 0 && ratio == least &&
-                           basis_[static_cast<std::size_t>(i)] < basis_[static_cast<std::size_t>(row)];
+      const bool earlier = row >= 0 && ratio == least && basis_[i] < basis_[row];
       if (row < 0 || ratio < least || earlier) {
         row = i;
         least = ratio;
@@ -95,7 +94,7 @@ void LinearProgram::pivot(Eigen::Index row, Eigen::Index column, Eigen::RowVecto
     if (i != row) tableau_.row(i) -= tableau_(i, column) * tableau_.row(row);
   }
   cost -= cost[column] * tableau_.row(row);
-  basis_[static_cast<std::size_t>(row)] = column;
+  basis_[row] = column;
 }
 
 }  // namespace hauberk

@@ -68,7 +68,7 @@ class DualActiveSet {
     Index worst = -1;
     double least = 0.0;
     for (Index i = 0; i < normals_.cols(); ++i) {
-      if (ignored_[static_cast<std::size_t>(i)]) continue;
+      if (ignored_[i]) continue;
       if (std::find(active_.begin(), active_.end(), i) != active_.end()) continue;
       const double s = slack(i);
       if (s < least && s < -feasible * magnitude(i)) {
@@ -100,7 +100,7 @@ class DualActiveSet {
     const double s = slack(p);
     const bool dependent = z.norm() <= independent;
     if (dependent && s >= -feasible_dependent * magnitude(p)) {
-      ignored_[static_cast<std::size_t>(p)] = true;
+      ignored_[p] = true;
       return Progress::added;
     }
     if (dependent && blocking < 0) return Progress::infeasible;

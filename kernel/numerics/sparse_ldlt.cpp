@@ -96,8 +96,7 @@ SparseLdlt::SparseLdlt(const Sparse& lower, const std::vector<int>& order)
   analyze(lower, order);
   const auto n = static_cast<Eigen::Index>(order_.size());
   permutation_.resize(n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    permutation_.indices()[order_[static_cast<std::size_t>(k)]] = static_cast<int>(k);
+  for (Eigen::Index k = 0; k < n; ++k) permutation_.indices()[order_[k]] = static_cast<int>(k);
   permuted_.resize(n, n);
   permuted_.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(permutation_);
 }
@@ -138,8 +137,8 @@ void SparseLdlt::analyze(const Sparse& lower, const std::vector<int>& order)
     std::fill_n(block_of.begin() + b.first, b.columns, static_cast<int>(k));
   }
   for (Block& b : blocks_) {
-    const auto columns = static_cast<std::size_t>(b.columns);
-    if (columns < b.rows.size()) b.parent = block_of[static_cast<std::size_t>(b.rows[columns])];
+    const std::size_t columns = b.columns;
+    if (columns < b.rows.size()) b.parent = block_of[b.rows[columns]];
   }
   values_.resize(size);
 }
@@ -160,23 +159,22 @@ bool SparseLdlt::factor(double shift, int most_negative)
     if (storage.size() < b.rows.size() * b.rows.size()) storage.resize(b.rows.size() * b.rows.size());
     Eigen::Map<MatrixXd> front(storage.data(), rows, rows);
     front.triangularView<Eigen::Lower>().setZero();
-    for (std::size_t r = 0; r < b.rows.size(); ++r)
-      place[static_cast<std::size_t>(b.rows[r])] = static_cast<int>(r);
+    for (std::size_t r = 0; r < b.rows.size(); ++r) place[b.rows[r]] = static_cast<int>(r);
     for (int c = 0; c < b.columns; ++c) {
       for (Sparse::InnerIterator it(permuted_, b.first + c); it; ++it)
-        front(place[static_cast<std::size_t>(it.row())], c) += it.value();
+        front(place[it.row()], c) += it.value();
       front(c, c) += shift;
     }
     for (const int child : children[k]) {
-      const Block& from = blocks_[static_cast<std::size_t>(child)];
-      MatrixXd& part = left[static_cast<std::size_t>(child)];
+      const Block& from = blocks_[child];
+      MatrixXd& part = left[child];
       to.clear();
       for (auto row = from.rows.begin() + from.columns; row != from.rows.end(); ++row)
-        to.push_back(place[static_cast<std::size_t>(*row)]);
+        to.push_back(place[*row]);
       for (Eigen::Index c = 0; c < part.cols(); ++c) {
-        double* column = &front(0, to[static_cast<std::size_t>(c)]);
+        double* column = &front(0, to[c]);
         const double* added = &part(0, c);
-        for (Eigen::Index r = c; r < part.rows(); ++r) column[to[static_cast<std::size_t>(r)]] += added[r];
+        for (Eigen::Index r = c; r < part.rows(); ++r) column[to[r]] += added[r];
       }
       part.resize(0, 0);
     }
@@ -186,7 +184,7 @@ bool SparseLdlt::factor(double shift, int most_negative)
       const Eigen::Index rest = rows - b.columns;
       left[k].resize(rest, rest);
       left[k].triangularView<Eigen::Lower>() = front.bottomRightCorner(rest, rest);
-      children[static_cast<std::size_t>(b.parent)].push_back(static_cast<int>(k));
+      children[b.parent].push_back(static_cast<int>(k));
     }
   }
   return true;
@@ -213,8 +211,7 @@ Eigen::VectorXd SparseLdlt::solve_permuted(Eigen::VectorXd x) const
     auto own = x.segment(block.first, block.columns);
     l.topRows(block.columns).triangularView<Eigen::UnitLower>().solveInPlace(own);
     rest.noalias() = l.bottomRows(l.rows() - block.columns) * own;
-    for (Eigen::Index r = 0; r < rest.size(); ++r)
-      x[block.rows[static_cast<std::size_t>(block.columns + r)]] -= rest[r];
+    for (Eigen::Index r = 0; r < rest.size(); ++r) x[block.rows[block.columns + r]] -= rest[r];
   }
   for (std::size_t k = blocks_.size(); k-- > 0;) {
     const Block& block = blocks_[k];
@@ -222,8 +219,7 @@ Eigen::VectorXd SparseLdlt::solve_permuted(Eigen::VectorXd x) const
     auto own = x.segment(block.first, block.columns);
     own.array() /= l.diagonal().array();
     rest.resize(l.rows() - block.columns);
-    for (Eigen::Index r = 0; r < rest.size(); ++r)
-      rest[r] = x[block.rows[static_cast<std::size_t>(block.columns + r)]];
+    for (Eigen::Index r = 0; r < rest.size(); ++r) rest[r] = x[block.rows[block.columns + r]];
     own.noalias() -= l.bottomRows(rest.size()).transpose() * rest;
     l.topRows(block.columns).triangularView<Eigen::UnitLower>().transpose().solveInPlace(own);
   }

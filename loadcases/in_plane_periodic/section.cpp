@@ -11,8 +11,7 @@ void in_plane_periodic_fields(std::vector<Field>& out)
   measure.kind = Field::Kind::choice;
   measure.doc =
       "Reported value: tensor is n^T eps n; equation_12 is (d . eps)/(d . d) with d = (c^2, s^2, c s), "
-      "equation "
-      "(12) of the paper read literally, which goes with hold [].";
+      "equation (12) of the paper read literally, which goes with hold [].";
   measure.default_json = "\"tensor\"";
   measure.choices = {"tensor", "equation_12"};
   out.push_back(std::move(measure));

@@ -149,7 +149,7 @@ std::vector<LinearEquality> ParaboloidBending::do_equalities(std::span<const Vec
   LinearEquality mean_y{"mean y", {}};
   LinearEquality turn{"turn about z", {}};
   for (int i = 0; i < static_cast<int>(X.size()); ++i) {
-    const Vec3& rest = X[static_cast<std::size_t>(i)];
+    const Vec3& rest = X[i];
     mean_x.terms.push_back({i, 0, 1.0});
     mean_y.terms.push_back({i, 1, 1.0});
     turn.terms.push_back({i, 0, -rest.y()});
@@ -196,11 +196,11 @@ std::string ParaboloidBending::do_not_a_sheet(const SheetState& state) const
   }
   const std::size_t own = state.e.size() / state.X.size();
   const auto place = [&](int k, std::size_t axis) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     return state.X[i][static_cast<Eigen::Index>(axis)] + (axis < own ? state.e[i * own + axis] : 0.0);
   };
   for (const auto& [i, j] : state.linked) {
-    const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+    const std::size_t k = i, l = j;
     const double x = place(i, 0), y = place(i, 1);
     const double along = length_along(state.macro, x, y, place(j, 0) - x, place(j, 1) - y);
     const double unit = std::max((state.X[l] - state.X[k]).norm(), 0.5 * (state.radius[k] + state.radius[l]));

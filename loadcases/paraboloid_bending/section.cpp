@@ -10,16 +10,14 @@ void paraboloid_bending_fields(std::vector<Field>& out)
   held.kind = Field::Kind::choice;
   held.doc =
       "places: every element's x and y stay at rest; twist, transverse: n^T H m, m^T H m of the curvature H "
-      "are "
-      "zero.";
+      "are zero.";
   held.choices = {"places", "twist", "transverse"};
   Field hold;
   hold.name = "hold";
   hold.kind = Field::Kind::list;
   hold.doc =
       "What is held at a limit; n is along the load, m across it. places hold along components, too, the "
-      "others "
-      "along angles only.";
+      "others along angles only.";
   hold.default_json = "[]";
   hold.max_items = 3;
   hold.children = {std::move(held)};

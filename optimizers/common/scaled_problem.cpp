@@ -25,7 +25,7 @@ ScaledProblem::ScaledProblem(OptimizationProblem& problem, std::span<const doubl
 {
   for (Index i = 0; i < scale_.size(); ++i) {
     if (std::isfinite(scale_[i]) && scale_[i] > 0.0) continue;
-    scale_[i] = std::max(1.0, std::abs(start[static_cast<std::size_t>(i)]));
+    scale_[i] = std::max(1.0, std::abs(start[i]));
   }
 }
 

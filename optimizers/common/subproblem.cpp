@@ -42,7 +42,7 @@ QuadraticProgram assemble(const MatrixXd& B, const Linearisation& at, const Vect
   q.A.block(m + n, 0, n, n) = -MatrixXd::Identity(n, n);
   q.b.segment(m + n, n) = -upper;
   for (Index k = 0; k < slacks; ++k) {
-    const Index i = violated[static_cast<std::size_t>(k)];
+    const Index i = violated[k];
     q.G(n + k, n + k) = slack_curvature * price / -at.c[i];
     q.A(i, n + k) = 1.0;
     q.A(m + 2 * n + k, n + k) = 1.0;

@@ -164,7 +164,7 @@ class Search {
   double violation(const Point& x)
   {
     if (problem_.constraint_count() == 0) return 0.0;
-    std::vector<double> c(static_cast<std::size_t>(problem_.constraint_count()));
+    std::vector<double> c(problem_.constraint_count());
     problem_.constraints(x, c, {});
     double worst = 0.0;
     for (const double value : c) worst = std::max(worst, -value);

@@ -87,14 +87,14 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
   const Index m = at.c.size();
   const Index residuals = at_.r.size();
   std::vector<Piece> list = pieces();
-  std::vector<Index> column(static_cast<std::size_t>(residuals), -1);  // of the residual's own variable
+  std::vector<Index> column(residuals, -1);  // of the residual's own variable
   Index own = 0;
   for (const Piece& p : list) {
-    Index& c = column[static_cast<std::size_t>(p.residual)];
+    Index& c = column[p.residual];
     if (c < 0) c = own++;
   }
   for (Index i = 0; i < residuals; ++i) {  // the iterate's pieces
-    if (column[static_cast<std::size_t>(i)] < 0) continue;
+    if (column[i] < 0) continue;
     // Both sides: the residual may change its sign within the step.
     const VectorXd gradient = sign(i) * at_.J.row(i).transpose();
     list.push_back({i, std::abs(at_.r[i]), gradient});
@@ -112,7 +112,7 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
   extended.J.topLeftCorner(m, n) = at.J;
   B.diagonal().head(n).setConstant(shift * curvature());
   for (Index i = 0; i < residuals; ++i) {
-    const Index c = column[static_cast<std::size_t>(i)];
+    const Index c = column[i];
     if (c >= 0) {
       B(n + c, n + c) = 1.0;
       extended.gradient[n + c] = std::abs(at_.r[i]);
@@ -122,10 +122,10 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
     }
   }
   for (Index k = 0; k < rows; ++k) {
-    const Piece& p = list[static_cast<std::size_t>(k)];
+    const Piece& p = list[k];
     extended.c[m + k] = std::max(0.0, std::abs(at_.r[p.residual]) - p.value);
     extended.J.row(m + k).head(n) = -p.gradient.transpose();
-    extended.J(m + k, n + column[static_cast<std::size_t>(p.residual)]) = 1.0;
+    extended.J(m + k, n + column[p.residual]) = 1.0;
   }
   VectorXd low = VectorXd::Constant(n + own, -wide * (1.0 + at_.r.cwiseAbs().maxCoeff()));
   VectorXd high = -low;
@@ -144,10 +144,10 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
   VectorXd weight = VectorXd::Zero(residuals);
   MatrixXd mean = MatrixXd::Zero(residuals, n);  // of |r|'s gradients, weighted by the multipliers
   for (Index i = 0; i < residuals; ++i) {
-    if (column[static_cast<std::size_t>(i)] >= 0) model[i] = 0.0;
+    if (column[i] >= 0) model[i] = 0.0;
   }
   for (Index k = 0; k < rows; ++k) {
-    const Piece& p = list[static_cast<std::size_t>(k)];
+    const Piece& p = list[k];
     model[p.residual] = std::max(model[p.residual], p.value + p.gradient.dot(step.d));
     weight[p.residual] += whole.multipliers[m + k];
     mean.row(p.residual) += whole.multipliers[m + k] * p.gradient.transpose();

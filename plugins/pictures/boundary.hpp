@@ -1,7 +1,7 @@
 #pragma once
 /// The boundary of what a fabric can reach: as a surface for other programs, and as a picture.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
 #include "pictures/polar_svg.hpp"
 
 #include <string>

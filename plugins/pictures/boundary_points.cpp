@@ -21,7 +21,7 @@ BoundaryPoints boundary_points(const RunResult& run)
                           limit.status});
   }
   if (!run.boundary) return out;
-  const auto place_of = [&place](int limit) { return place[static_cast<std::size_t>(limit)]; };
+  const auto place_of = [&place](int limit) { return place[limit]; };
   for (const Triangle& t : run.boundary->triangles) {
     if (std::all_of(t.begin(), t.end(), [&](int limit) { return place_of(limit) != none; }))
       out.triangles.push_back({place_of(t[0]), place_of(t[1]), place_of(t[2])});

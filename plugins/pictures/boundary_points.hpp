@@ -1,7 +1,7 @@
 #pragma once
 /// What the surface and its picture are made of.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
 
 #include <vector>
 

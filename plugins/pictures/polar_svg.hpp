@@ -1,7 +1,7 @@
 #pragma once
 /// The polar plot of a deformation-limit profile.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
 
 #include <string>
 

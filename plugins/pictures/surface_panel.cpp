@@ -84,10 +84,7 @@ class Panel {
   }
 
  private:
-  static const Vec3& point(const BoundaryPoints& surface, int k)
-  {
-    return surface.points[static_cast<std::size_t>(k)].at;
-  }
+  static const Vec3& point(const BoundaryPoints& surface, int k) { return surface.points[k].at; }
 
   Point2 at(const Vec3& x) const
   {
@@ -114,8 +111,7 @@ class Panel {
 View plane_view(int across, int upward, const std::array<std::string, 3>& names)
 {
   View out;
-  out.title = fmt::format("{} and {}", names[static_cast<std::size_t>(across)],
-                          names[static_cast<std::size_t>(upward)]);
+  out.title = fmt::format("{} and {}", names[across], names[upward]);
   out.right = Vec3::Unit(across);
   out.up = Vec3::Unit(upward);
   out.toward = out.right.cross(out.up);
@@ -140,7 +136,7 @@ void draw_surface(Svg& svg, Point2 corner, double size, const View& view, const 
   const Panel panel(svg, corner, size, view, reach);
   svg.text({corner.x + 14.0, corner.y + 12.0}, view.title, 12);
   panel.faces(surface);
-  for (int k = 0; k < 3; ++k) panel.axis(Vec3::Unit(k), names[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k) panel.axis(Vec3::Unit(k), names[k]);
   panel.points(surface, surface.triangles.empty());
 }
 

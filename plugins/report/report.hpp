@@ -1,8 +1,8 @@
 #pragma once
 /// A report of many results: designs and limits in one text, one table and one page of plots.
 
+#include "design/run_result.hpp"
 #include "document/atomic_file.hpp"
-#include "limits/results.hpp"
 
 #include <boost/json/value.hpp>
 

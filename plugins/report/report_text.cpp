@@ -36,8 +36,7 @@ constexpr const char* recheck_explained =
 
 constexpr const char* costs_explained =
     "Seconds are those of all searches of a design; those per iteration of the one that gave it. Limits "
-    "before and "
-    "after the search are not in them. Published times are of other machines.\n\n";
+    "before and after the search are not in them. Published times are of other machines.\n\n";
 
 std::string deviations_table(std::span<const ReportEntry> entries, const std::vector<std::string>& names,
                              const detail::ReportTotals& sums)

@@ -1,7 +1,7 @@
 #pragma once
 /// Limits as a table, for spreadsheets and plotting programs.
 
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 /// The document of results.json, format "hauberk-results/1"; share/doc/results.md explains every field.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
 
 #include <boost/json/object.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Pieces of the results document; lengths and units as in limits/results.hpp.
+/// Pieces of the results document; lengths and units as in limits/limit_result.hpp.
 
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>

@@ -79,7 +79,7 @@ std::string paper_problem(const SceneSpec& scene, const std::string& unit)
 bool has_primitive(const SceneSpec& scene, PrimitiveKind kind)
 {
   return std::any_of(scene.elements.begin(), scene.elements.end(), [&scene, kind](const PlacedElement& e) {
-    const auto primitives = scene.types[static_cast<std::size_t>(e.type)].shape->primitives(e.parameters);
+    const auto primitives = scene.types[e.type].shape->primitives(e.parameters);
     return std::any_of(primitives.begin(), primitives.end(),
                        [kind](const Primitive& p) { return p.kind == kind; });
   });

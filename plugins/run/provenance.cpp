@@ -79,8 +79,7 @@ void check_origin(const json::value& document, const Prepared& prepared)
   if (!same_texts(then.as_object(), "files", now.files))
     throw InputError(
         "it was computed from another file of the same name, see /provenance/files; bring that back, or "
-        "start anew with "
-        "--force");
+        "start anew with --force");
   if (!same_texts(then.as_object(), "weaves", now.weaves))
     throw InputError(
         "it was computed from another weave of this name; bring its file back (the results hold it, below "

@@ -2,8 +2,9 @@
 /// One variant of a file (a member of a stability family, a row of a sweep, a point of a chart) from its
 /// experiment to its results.
 
+#include "design/run_result.hpp"
+#include "limits/limit_result.hpp"
 #include "limits/limits.hpp"
-#include "limits/results.hpp"
 #include "run/scene_at_rest.hpp"
 
 #include <hauberk/experiment/experiment.hpp>

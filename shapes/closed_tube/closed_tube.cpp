@@ -77,7 +77,7 @@ void ClosedTube::do_primitives(std::span<const double> p, std::vector<Primitive>
   tube.kind = PrimitiveKind::curve_tube;
   tube.curve.resize(harmonics_);
   for (const CurveTerm& term : terms_) {
-    Harmonic& h = tube.curve[static_cast<std::size_t>(term.k - 1)];
+    Harmonic& h = tube.curve[term.k - 1];
     (term.sine ? h.s : h.c)[term.axis] += term.weight * p[term.parameter];
   }
   const double r = p.back();

@@ -63,8 +63,7 @@ void mesh_fields(std::vector<Field>& out)
   file.required = true;
   file.doc =
       "A closed surface of triangles: Wavefront OBJ (.obj) or STL (.stl), relative to the experiment's "
-      "folder. "
-      "The solver's contact must be mesh.";
+      "folder. The solver's contact must be mesh.";
   out.push_back(std::move(file));
 }
 

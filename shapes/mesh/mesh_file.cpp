@@ -50,7 +50,7 @@ std::string read_bytes(const std::string& path)
 void renumber(MeshFile& mesh, const std::vector<int>& number)
 {
   for (auto& t : mesh.triangles) {
-    for (int& k : t) k = number[static_cast<std::size_t>(k)];
+    for (int& k : t) k = number[k];
   }
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
 }
@@ -62,13 +62,13 @@ namespace detail {
 void join_equal_points(MeshFile& mesh)
 {
   const auto same = [&mesh](int i, int j) {
-    const Vec3 &a = mesh.points[static_cast<std::size_t>(i)], &b = mesh.points[static_cast<std::size_t>(j)];
+    const Vec3 &a = mesh.points[i], &b = mesh.points[j];
     return a == b;
   };
   std::vector<int> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&mesh](int i, int j) {
-    const Vec3 &a = mesh.points[static_cast<std::size_t>(i)], &b = mesh.points[static_cast<std::size_t>(j)];
+    const Vec3 &a = mesh.points[i], &b = mesh.points[j];
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (a[k] != b[k]) return a[k] < b[k];
     }
@@ -78,8 +78,7 @@ void join_equal_points(MeshFile& mesh)
   std::vector<int> first(mesh.points.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool again = k > 0 && same(order[k - 1], order[k]);
-    first[static_cast<std::size_t>(order[k])] =
-        again ? first[static_cast<std::size_t>(order[k - 1])] : order[k];
+    first[order[k]] = again ? first[order[k - 1]] : order[k];
   }
   std::vector<int> number(mesh.points.size());
   std::vector<Vec3> points;
@@ -88,7 +87,7 @@ void join_equal_points(MeshFile& mesh)
       number[k] = static_cast<int>(points.size());
       points.push_back(mesh.points[k]);
     } else {
-      number[k] = number[static_cast<std::size_t>(first[k])];
+      number[k] = number[first[k]];
     }
   }
   mesh.points = std::move(points);
@@ -115,7 +114,7 @@ void join_near_points(MeshFile& mesh, double distance)
       const auto found = kept.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
       if (found == kept.end()) continue;
       for (const int i : found->second) {
-        if ((points[static_cast<std::size_t>(i)] - x).norm() < distance) return i;
+        if ((points[i] - x).norm() < distance) return i;
       }
     }
     return -1;

@@ -97,7 +97,7 @@ class Reader {
         continue;
       }
       torus.weights.resize(parameters_.size(), 0.0);
-      torus.weights[static_cast<std::size_t>(at - parameters_.begin())] += 1.0;
+      torus.weights[at - parameters_.begin()] += 1.0;
     }
   }
 

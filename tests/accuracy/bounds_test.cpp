@@ -82,7 +82,7 @@ TEST_P(CertifiedBound, NeverExceedsTheDistance)
 {
   const PairKind kind = GetParam();
   const long first = count("HAUBERK_ACCURACY_FIRST", 0), pairs = count("HAUBERK_ACCURACY_BOUNDS", 2000);
-  const auto most = static_cast<std::size_t>(count("HAUBERK_ACCURACY_PRECISE", 15));
+  const std::size_t most = count("HAUBERK_ACCURACY_PRECISE", 15);
   std::array<Figures, requests.size()> figures;
   std::array<Tightest, 3> tightest{Tightest(most), Tightest(most), Tightest(most)};
   Tightest least(most), closest(most);
@@ -116,7 +116,7 @@ TEST_P(CertifiedBound, NeverExceedsTheDistance)
       d = std::min({d, dense, s[1].upper});
     }
     ++separate;
-    ++families[static_cast<std::size_t>(p.family)];
+    ++families[p.family];
     for (std::size_t r = 0; r < requests.size(); ++r) {
       if (s[r].lower > d + rounding) ++violated;
       EXPECT_LE(s[r].lower, d + rounding) << what << ", " << requests[r].what;
@@ -129,15 +129,15 @@ TEST_P(CertifiedBound, NeverExceedsTheDistance)
     }
     least.offer(s[1].lower - d, k);
     closest.offer(-d, k);
-    figures[0].by_family[static_cast<std::size_t>(p.family)].add(s[0].lower / d);
-    figures[1].by_family[static_cast<std::size_t>(p.family)].add(time[0]);
+    figures[0].by_family[p.family].add(s[0].lower / d);
+    figures[1].by_family[p.family].add(time[0]);
   }
   fmt::print(
       "{}: {} pairs apart, {} overlapping; bound above the distance {}; kernel closer than the samples {}\n",
       name(kind), separate, overlapping, violated, unseen);
   for (std::size_t r = 0; r < requests.size(); ++r) figures[r].print(requests[r]);
   for (int f = 0; f < draw_family_count; ++f) {
-    const auto i = static_cast<std::size_t>(f);
+    const std::size_t i = f;
     fmt::print(
         "  {:<14} {} pairs, bound/distance 1 % {:.4g}, median {:.4g}; microseconds median {:.4g}, 99 % "
         "{:.4g}\n",
@@ -179,8 +179,7 @@ TEST_P(CertifiedBound, NeverExceedsTheDistance)
     }
     fmt::print(
         "  fifty digits, {} with {}: above the distance {}; 1 - bound/distance at least {:.3g}, distance - "
-        "bound at "
-        "least {:.3g}; distances {:.3g} .. {:.3g}, double differs by {:.2g}\n",
+        "bound at least {:.3g}; distances {:.3g} .. {:.3g}, double differs by {:.2g}\n",
         group.pairs.pairs().size(), group.what, above, least_relative, least_slack, smallest, largest, apart);
   }
 }

@@ -57,7 +57,7 @@ std::vector<BruteMinimum> circle_minima(const Torus& P, const Torus& F)
   if (std::abs(poly.back()) < 1e-13 * scale || scale == 0.0) return out;  // degenerate: caller skips
   Eigen::Matrix<Complex, 8, 8> companion = Eigen::Matrix<Complex, 8, 8>::Zero();
   for (int k = 0; k < 8; ++k) {
-    companion(k, 7) = -poly[static_cast<std::size_t>(k)] / poly[8];
+    companion(k, 7) = -poly[k] / poly[8];
     if (k > 0) companion(k, k - 1) = 1.0;
   }
   const Eigen::ComplexEigenSolver<Eigen::Matrix<Complex, 8, 8>> solver(companion, false);

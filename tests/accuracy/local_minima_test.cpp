@@ -182,7 +182,7 @@ TEST(LocalMinima, NoneMissedNoneSpurious)
       ++overlapping;
       continue;
     }
-    Tally& tally = tallies[static_cast<std::size_t>(k % 3)];
+    Tally& tally = tallies[k % 3];
     ++tally.pairs;
     int evaluations = 0;
     const double threshold = threshold_of(k);
@@ -205,7 +205,7 @@ std::pair<Torus, Torus> tall_linked_pair(long k)
   std::seed_seq seed{k, 5L};
   std::mt19937_64 rng(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   Torus P, F;
   F.r0 = 0.03 + 0.1 * uniform(rng);
   F.r1 = 0.3 + 0.6 * uniform(rng);
@@ -267,8 +267,7 @@ TEST(LocalMinima, SamplesMissTheNearestOfTallLinkedRings)
   look(9492);
   fmt::print(
       "tall linked rings: {} pairs, nearest minimum missed by certified {}, by samples {}, whose distance is "
-      "up to "
-      "{:.4f} of the right one\n",
+      "up to {:.4f} of the right one\n",
       pairs, certified, sampled, furthest);
   EXPECT_EQ(certified, 0);
   EXPECT_GT(furthest, 1.05);
@@ -303,14 +302,14 @@ TEST(LocalMinima, NearestOfDrawnPairs)
       }
       if (sampled_places(P, F).front().distance > p.distance + same_distance) {
         ++sampled_all;
-        ++sampled[static_cast<std::size_t>(p.family)];
+        ++sampled[p.family];
       }
     }
     fmt::print(
         "{}: {} pairs, nearest minimum missed by certified {} (equally close all around: {}), by samples {}:",
         name(kind), pairs, certified, level, sampled_all);
     for (int f = 0; f < draw_family_count; ++f)
-      fmt::print(" {} {}", name(static_cast<DrawFamily>(f)), sampled[static_cast<std::size_t>(f)]);
+      fmt::print(" {} {}", name(static_cast<DrawFamily>(f)), sampled[f]);
     fmt::print("\n");
   }
 }

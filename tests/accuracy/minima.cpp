@@ -122,9 +122,9 @@ void insert(std::vector<BruteMinimum>& list, const Torus& P, const BruteMinimum&
 
 void search_curve(const Field& f, int n, std::vector<BruteMinimum>& out)
 {
-  std::vector<double> value(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) value[static_cast<std::size_t>(k)] = f.value(2.0 * pi * k / n, 0.0);
-  const auto at = [&](int k) { return value[static_cast<std::size_t>((k + n) % n)]; };
+  std::vector<double> value(n);
+  for (int k = 0; k < n; ++k) value[k] = f.value(2.0 * pi * k / n, 0.0);
+  const auto at = [&](int k) { return value[(k + n) % n]; };
   for (int k = 0; k < n; ++k) {
     if (!(at(k) <= at(k - 1) && at(k) < at(k + 1))) continue;
     const double u = slope_root(f, 2.0 * pi * (k - 1) / n, 2.0 * pi * (k + 1) / n);
@@ -149,7 +149,7 @@ void search_surface(const Field& f, int nu, int nv, std::vector<BruteMinimum>& o
   const auto k = std::min_element(value.begin(), value.end()) - value.begin();
   const auto row = k / nv, column = k % nv;
   BruteMinimum deepest{2.0 * pi * static_cast<double>(row) / nu, 2.0 * pi * static_cast<double>(column) / nv,
-                       value[static_cast<std::size_t>(k)]};
+                       value[k]};
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) {
       bool low = true;

@@ -91,7 +91,7 @@ long link_count(const Model& m, const TorusAt& at, double s)
     for (int b = a; b < n; ++b) {
       for (int i = -range; i <= range; ++i) {
         for (int j = -range; j <= range; ++j) {
-          const auto element = [&](int body) { return m.bodies[static_cast<std::size_t>(body)].element; };
+          const auto element = [&](int body) { return m.bodies[body].element; };
           if (a == b && i == 0 && j == 0) continue;
           if (element(a) == element(b) && i == 0 && j == 0) continue;
           links += std::abs(gauss_linking(at(a, {0, 0}, s), at(b, {i, j}, s)));
@@ -135,7 +135,7 @@ void follow(long k, const RandomScene& scene, std::mt19937_64& rng, bool on, boo
   const SafeStep safe = largest_safe_step(m, from, dy, keep);
   tally.evaluations.add(static_cast<double>(safe.evaluations));
   const TorusAt at = [&](int body, const Image& image, double s) {
-    const Body& b = m.bodies[static_cast<std::size_t>(body)];
+    const Body& b = m.bodies[body];
     return from_kernel(b, image_pose(m, advanced(m, from, dy, s), b.element, image));
   };
   const Watched w = watch(m, at, keep, safe.alpha);
@@ -218,7 +218,7 @@ double sampled_change(const Model& m, const TorusAt& at)
       for (int b = a; b < n; ++b) {
         for (int i = -range; i <= range; ++i) {
           for (int j = -range; j <= range; ++j) {
-            const auto element = [&](int body) { return m.bodies[static_cast<std::size_t>(body)].element; };
+            const auto element = [&](int body) { return m.bodies[body].element; };
             if (element(a) == element(b) && i == 0 && j == 0) continue;
             const Torus p = at(a, {0, 0}, s), q = at(b, {i, j}, s);
             if ((p.center - q.center).norm() > p.bound() + q.bound() + m.clearance) continue;
@@ -268,7 +268,7 @@ TEST(Motion, NoCollisionBeforeTheCertifiedChangeOfParameters)
     if (k % 2 == 0) dy = 0.1 * random_step(a, from, false, rng);
     const double alpha = safe_parameter_step(a, b, from, dy);
     const TorusAt at = [&](int body, const Image& image, double s) {
-      const auto i = static_cast<std::size_t>(body);
+      const std::size_t i = body;
       Torus t = from_kernel(a.bodies[i], image_pose(a, advanced(a, from, dy, s), a.bodies[i].element, image));
       t.R += s * (b.bodies[i].R - t.R);
       t.r0 += s * (b.bodies[i].r0 - t.r0);

@@ -71,8 +71,7 @@ class Watcher {
       for (int b = a; b < n; ++b) {
         for (int i = -range; i <= range; ++i) {
           for (int j = -range; j <= range; ++j) {
-            const bool same = m_.bodies[static_cast<std::size_t>(a)].element ==
-                              m_.bodies[static_cast<std::size_t>(b)].element;
+            const bool same = m_.bodies[a].element == m_.bodies[b].element;
             if (same && i == 0 && j == 0) continue;
             if (a == b && (i < 0 || (i == 0 && j < 0))) continue;
             pair(a, b, {i, j});

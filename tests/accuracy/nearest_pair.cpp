@@ -43,7 +43,7 @@ std::vector<LowSample> low_samples(const PairField<double>& f, int nu, int nv, i
     const double least = f.least(u_at(i));
     for (int j = 0; j < nv; ++j) {
       const int k = i * nv + j;
-      double& here = value[static_cast<std::size_t>(k)];
+      double& here = value[k];
       here = least - margin > best ? least : f.value(u_at(i), v_at(j));
       best = std::min(best, here);
     }
@@ -54,7 +54,7 @@ std::vector<LowSample> low_samples(const PairField<double>& f, int nu, int nv, i
   }
   const auto at = [&](int i, int j) {
     const int k = (i + nu) % nu * nv + (j + nv) % nv;
-    return value[static_cast<std::size_t>(k)];
+    return value[k];
   };
   std::vector<LowSample> out;
   const int side = nv > 1 ? 1 : 0;

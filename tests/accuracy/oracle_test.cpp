@@ -32,7 +32,7 @@ double sampled_distance(const Torus& a, const Torus& b)
     double best = 1e300;
     int at = 0;
     for (int j = 0; j < nu * nv; ++j) {
-      const double d = (p[static_cast<std::size_t>(i)] - q[static_cast<std::size_t>(j)]).squaredNorm();
+      const double d = (p[i] - q[j]).squaredNorm();
       if (d < best) {
         best = d;
         at = j;

@@ -141,8 +141,8 @@ class PairField {
     using std::sqrt;
     std::array<Point<S>, 3> e;
     for (int k = 0; k < 2; ++k) {
-      Point<S>& x = e[static_cast<std::size_t>(k)];
-      for (int i = 0; i < 3; ++i) x[static_cast<std::size_t>(i)] = S(t.axes(i, k));
+      Point<S>& x = e[k];
+      for (int i = 0; i < 3; ++i) x[i] = S(t.axes(i, k));
       if (k == 1) {
         const S along = dot(x, e[0]);
         for (std::size_t i = 0; i < 3; ++i) x[i] -= along * e[0][i];

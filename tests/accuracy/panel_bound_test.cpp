@@ -135,10 +135,9 @@ TEST(PanelBound, FieldCurvatureBoundsTheDerivativesInItsBall)
     std::array<Digits50, 5> value;
     for (int i = -2; i <= 2; ++i) {
       Point<Digits50> x;
-      for (int c = 0; c < 3; ++c)
-        x[static_cast<std::size_t>(c)] = Digits50(at[c]) + i * h * Digits50(along[c]);
+      for (int c = 0; c < 3; ++c) x[c] = Digits50(at[c]) + i * h * Digits50(along[c]);
       const int place = i + 2;
-      value[static_cast<std::size_t>(place)] = field_value(t, x);
+      value[place] = field_value(t, x);
     }
     const double second = ((value[1] - 2 * value[2] + value[3]) / (h * h)).convert_to<double>();
     const double third =

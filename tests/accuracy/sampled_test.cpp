@@ -34,12 +34,11 @@ TEST(Sampled, NearestOfTheSampledMinima)
     EXPECT_GT(distance, exact - same_distance) << "pair " << k;
     if (distance > exact + same_distance) {
       ++further;
-      ++missed[static_cast<std::size_t>(pair.family)];
+      ++missed[pair.family];
     }
   }
   fmt::print("sampled minima: {} pairs, nearest minimum missed {}:", pairs, further);
-  for (int f = 0; f < family_count; ++f)
-    fmt::print(" {} {}", name(static_cast<Family>(f)), missed[static_cast<std::size_t>(f)]);
+  for (int f = 0; f < family_count; ++f) fmt::print(" {} {}", name(static_cast<Family>(f)), missed[f]);
   fmt::print("\n");
   ASSERT_GT(pairs, pair_count() / 2);
   EXPECT_LE(further, pairs / 100);
@@ -60,7 +59,7 @@ TEST(Sampled, CollisionsAlongSteps)
     ASSERT_GE(safe.alpha, 0.0);
     ASSERT_LE(safe.alpha, 1.0);
     const TorusAt at = [&](int body, const Image& image, double s) {
-      const Body& b = m.bodies[static_cast<std::size_t>(body)];
+      const Body& b = m.bodies[body];
       return from_kernel(b, image_pose(m, advanced(m, from, dy, s), b.element, image));
     };
     const Watched w = watch(m, at, 0.1, safe.alpha);

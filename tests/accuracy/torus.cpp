@@ -57,10 +57,9 @@ double gauss_sum(const Torus& a, const Torus& b, int n)
   double sum = 0.0;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      const Vec3 r = p[static_cast<std::size_t>(i)] - q[static_cast<std::size_t>(j)];
+      const Vec3 r = p[i] - q[j];
       const double d = r.squaredNorm();
-      sum +=
-          r.dot(dp[static_cast<std::size_t>(i)].cross(dq[static_cast<std::size_t>(j)])) / (d * std::sqrt(d));
+      sum += r.dot(dp[i].cross(dq[j])) / (d * std::sqrt(d));
     }
   }
   const double h = 2.0 * pi / n;

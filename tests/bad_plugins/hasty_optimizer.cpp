@@ -22,7 +22,7 @@ class Hasty final : public Optimizer {
       result.value = problem.evaluate(start, false).value;
       // What it can see of the problem's residuals, for the tests of the guard.
       result.iterations = problem.residual_count();
-      std::vector<double> r(static_cast<std::size_t>(result.iterations)), J(r.size() * start.size());
+      std::vector<double> r(result.iterations), J(r.size() * start.size());
       if (!r.empty() && problem.residuals(start, r, J)) result.message = std::to_string(r[0]);
     } catch (...) {
       if (!swallow_) throw;

@@ -83,8 +83,7 @@ TEST(BadInput, Numbers)
       "5: /elements/link/parameters/ring.R: expected a number in [1e-12, 1000000000000], found -5");
   expect_refused(R"("ring.r0": 0.7)", R"("ring.r0": 6)",
                  "5: /elements/link/parameters: parameter 'ring.r0' = 6 must be smaller than 'ring.R' = 5: "
-                 "it closes the "
-                 "hole of torus 'ring'");
+                 "it closes the hole of torus 'ring'");
 }
 
 TEST(BadInput, OverlapAtRest)
@@ -92,8 +91,7 @@ TEST(BadInput, OverlapAtRest)
   expect_refused(
       "[6, 0, 0]", "[9.2, 0, 0]",
       "6: /cell: element 0 (ring of link) and element 1 (ring of link) overlap at rest by 0.6 mm; move "
-      "them apart, "
-      "make them thinner, or set cell.relax to true");
+      "them apart, make them thinner, or set cell.relax to true");
 }
 
 TEST(BadInput, CoresThatCrossExactly)

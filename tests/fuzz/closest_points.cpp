@@ -22,7 +22,7 @@
 namespace hauberk::fuzz {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Closest-point evaluations that one question may cost: about a second.
 constexpr long most_evaluations = 2100000;
@@ -228,7 +228,7 @@ void check_step(const PairInput& input, const Model& m, const Bodies& p)
   constexpr int looks = 12;
   const State from = rest_state(m);
   Vector dy = Vector::Zero(m.dofs());
-  for (int k = 0; k < m.dofs(); ++k) dy[k] = input.step[static_cast<std::size_t>(k)];
+  for (int k = 0; k < m.dofs(); ++k) dy[k] = input.step[k];
   const SafeStep safe = largest_safe_step(m, from, dy, keep);
   require(safe.alpha >= 0.0 && safe.alpha <= 1.0, input, fmt::format("step {:g}", safe.alpha));
   require(safe.evaluations <= 2 * most_evaluations, input,

@@ -68,7 +68,7 @@ bool is_small(const Experiment& e)
 {
   std::size_t bodies = 0, cases = 0;
   for (const PlacedElement& placed : e.scene.elements) {
-    const ElementType& type = e.scene.types[static_cast<std::size_t>(placed.type)];
+    const ElementType& type = e.scene.types[placed.type];
     bodies += type.shape->primitives(placed.parameters).size();
   }
   if (e.section<ExperimentStability>()) {

@@ -49,7 +49,7 @@ brute::Torus torus(Bytes& bytes)
   brute::Torus t;
   t.R = bytes.factor(3.0);
   const int ratio = bytes.byte();
-  t.r0 = t.R * (ratio < 8 ? ratios[static_cast<std::size_t>(ratio)] : ratio / 256.0);
+  t.r0 = t.R * (ratio < 8 ? ratios[ratio] : ratio / 256.0);
   t.r1 = t.r0 * bytes.factor(3.0);
   return t;
 }
@@ -62,7 +62,7 @@ double length(Bytes& bytes, const brute::Torus& a, const brute::Torus& b)
   if (choice < 243) {
     for (const double part : {a.R, b.R, a.r0, b.r0, a.r1}) {
       constexpr std::array<double, 3> signs{0.0, 1.0, -1.0};
-      x += signs[static_cast<std::size_t>(choice % 3)] * part;
+      x += signs[choice % 3] * part;
       choice /= 3;
     }
   } else {
@@ -105,7 +105,7 @@ PairInput decode(const std::uint8_t* data, std::size_t size)
     const double far = 4.0 * bytes.tiny(8.0), turn = 4.0 * bytes.tiny(8.0);
     for (int k = 0; k < 6; ++k) {
       const int unknown = 3 + 6 * element + k;
-      in.step[static_cast<std::size_t>(unknown)] = (k < 3 ? far : turn) * bytes.fraction();
+      in.step[unknown] = (k < 3 ? far : turn) * bytes.fraction();
     }
   }
   const double strain = 0.5 * bytes.tiny(8.0);

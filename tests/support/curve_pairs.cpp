@@ -48,8 +48,8 @@ Primitive wavy(double size, double r, std::mt19937_64& rng)
 
 Primitive knot(int p, int q, double r)
 {
-  std::vector<Harmonic> h(static_cast<std::size_t>(p + q));
-  const auto at = [&h](int k) -> Harmonic& { return h[static_cast<std::size_t>(k - 1)]; };
+  std::vector<Harmonic> h(p + q);
+  const auto at = [&h](int k) -> Harmonic& { return h[k - 1]; };
   at(p).c.x() += 1.0;
   at(p).s.y() += 1.0;
   at(q + p).c.x() += 0.2;

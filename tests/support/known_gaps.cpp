@@ -12,7 +12,7 @@
 namespace hauberk::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double gap_at(const PairFrame& frame, double u, double v, double clearance)
 {
@@ -69,12 +69,12 @@ KnownGapCheck check_known_gaps(const Model& m, const GapBounds& bounds, const St
   KnownGapCheck out;
   for (const ElementPair& pair : near_pairs(m, s, 0.2)) {
     const Pose pi = image_pose(m, s, pair.i, {}), pj = image_pose(m, s, pair.j, pair.image);
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+    const std::size_t i = pair.i, j = pair.j;
     for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
       for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
         const KnownGap* known = bounds.known(a, b, pair.image);
         if (known == nullptr) continue;
-        const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+        const Body &A = m.bodies[a], &B = m.bodies[b];
         const PairFrame frame = second_probes(A, B) ? PairFrame(B, pj, A, pi) : PairFrame(A, pi, B, pj);
         check_pair(frame, *known, known->lost(A, pi, B, pj), m.clearance, rng, out);
       }

@@ -236,7 +236,7 @@ TEST(InPlanePeriodic, WallsKeepElementsWithinTheHalfHeight)
       double sum = 0.0;
       for (const auto& term : wall.terms) {
         EXPECT_EQ(term.coordinate, 2);
-        value += term.coefficient * u[static_cast<std::size_t>(term.element)];
+        value += term.coefficient * u[term.element];
         sum += term.coefficient;
       }
       EXPECT_NEAR(value, 0.3 - (side == 0 ? 1.0 : -1.0) * (u[i] - 0.25), 1e-15);

@@ -65,7 +65,7 @@ TEST(ParaboloidBending, DerivativesAreExact)
     const PositionMap map = position(load, d.y, d.X);
     ASSERT_TRUE(map.curved);
     Vec3 slope = Vec3::Zero();
-    for (int k = 0; k < all; ++k) slope += map.J.col(k) * d.dy[static_cast<std::size_t>(k)];
+    for (int k = 0; k < all; ++k) slope += map.J.col(k) * d.dy[k];
     double second = 0.0;
     for (std::size_t i = 0; i < all; ++i)
       for (std::size_t j = 0; j < all; ++j) second += d.dy[i] * map.H[2][i][j] * d.dy[j];
@@ -152,8 +152,7 @@ TEST(ParaboloidBending, HoldsTheMeanAndTheTurn)
   ASSERT_EQ(equalities.size(), 3U);
   const auto violation = [&](std::size_t k, const std::vector<Eigen::Vector2d>& e) {
     double sum = 0.0;
-    for (const LinearTerm& t : equalities[k].terms)
-      sum += t.coefficient * e[static_cast<std::size_t>(t.element)][t.coordinate];
+    for (const LinearTerm& t : equalities[k].terms) sum += t.coefficient * e[t.element][t.coordinate];
     return sum;
   };
   EXPECT_EQ(violation(0, {{1, 0}, {1, 0}, {1, 0}}), 3.0);

@@ -80,7 +80,7 @@ std::unique_ptr<Optimizer> make(const Configuration& c)
 double violation_at(FunctionProblem& problem, const std::vector<double>& x)
 {
   if (problem.constraint_number == 0) return 0.0;
-  std::vector<double> c(static_cast<std::size_t>(problem.constraint_number));
+  std::vector<double> c(problem.constraint_number);
   problem.constraints(x, c, {});
   return std::max(0.0, -*std::min_element(c.begin(), c.end()));
 }

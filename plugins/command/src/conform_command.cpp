@@ -17,8 +17,7 @@ Description conform_description()
       .synopsis = "plugins conform FILE.so [options]",
       .summary =
           "Checks that a plugin does what plugins must do, each check in a process of its own. "
-          "Exits with 1 when anything fails. The plugin is run: do not check what you would not "
-          "run.",
+          "Exits with 1 when anything fails. The plugin is run: do not check what you would not run.",
       .arguments = {{.name = "FILE.so", .offer = Offer::libraries}},
       .options = {{.name = "filter",
                    .takes = Takes::text,

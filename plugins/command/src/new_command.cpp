@@ -122,22 +122,21 @@ std::string prefix_option()
 
 Description new_description()
 {
-  return {.name = "plugins new",
-          .line = "write a project to begin a plugin with",
-          .synopsis = "plugins new --kind shape|load_case|optimizer NAME DIR",
-          .summary =
-              "Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it "
-              "is.",
-          .more =
-              "NAME is made of small letters, digits and single `_`, and is not that of a plugin that is "
-              "found. Files that exist are refused, and all files are written or none.",
-          .arguments = {{.name = "NAME"}, {.name = "DIR", .offer = Offer::folders}},
-          .options = {{.name = "kind",
-                       .takes = Takes::text,
-                       .value = "KIND",
-                       .help = "shape, load_case or optimizer",
-                       .offer = Offer::words,
-                       .choices = {kinds.begin(), kinds.end()}}}};
+  return {
+      .name = "plugins new",
+      .line = "write a project to begin a plugin with",
+      .synopsis = "plugins new --kind shape|load_case|optimizer NAME DIR",
+      .summary = "Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it is.",
+      .more =
+          "NAME is made of small letters, digits and single `_`, and is not that of a plugin that is "
+          "found. Files that exist are refused, and all files are written or none.",
+      .arguments = {{.name = "NAME"}, {.name = "DIR", .offer = Offer::folders}},
+      .options = {{.name = "kind",
+                   .takes = Takes::text,
+                   .value = "KIND",
+                   .help = "shape, load_case or optimizer",
+                   .offer = Offer::words,
+                   .choices = {kinds.begin(), kinds.end()}}}};
 }
 
 int new_command(const std::vector<std::string>& words)

@@ -135,8 +135,7 @@ Description plugins_description()
           .synopsis = "plugins [list | describe ID | conform FILE.so | new NAME DIR] [--plugin-path DIR]",
           .summary =
               "Lists the plugins that are found, or explains one with all its fields. conform checks "
-              "one that was built elsewhere, new writes a project to begin with; both have their own "
-              "--help.",
+              "one that was built elsewhere, new writes a project to begin with; both have their own --help.",
           .arguments =
               {{.name = "WHAT", .offer = Offer::words, .choices = {"list", "describe"}, .optional = true},
                {.name = "ID", .offer = Offer::plugins, .after = "describe", .optional = true}},

@@ -29,7 +29,7 @@ SceneSpec scene_in(const Prepared& prepared, const Model& m, const State& state)
   SceneSpec scene = with_rest(prepared.scene, m, state);
   if (scene.lattice.empty()) return scene;
   PositionMap at, moved;
-  const std::vector<double> none(static_cast<std::size_t>(m.coordinate_count), 0.0);
+  const std::vector<double> none(m.coordinate_count, 0.0);
   const std::span<const double> macro{state.macro.data(), static_cast<std::size_t>(m.macro_count)};
   m.load->position(macro, none, Vec3::Zero(), Vec3::Zero(), at);
   for (std::size_t k = 0; k < scene.lattice.size(); ++k) {

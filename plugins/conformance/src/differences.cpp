@@ -63,8 +63,7 @@ std::vector<Deviation> deviations(const Along& f, std::span<const double> claime
 std::string text_of(const Deviation& d)
 {
   return fmt::format(
-      "the plugin says {:.12g}, central differences say {:.12g} (their error falls with slope {:.1f}, "
-      "not 2)",
+      "the plugin says {:.12g}, central differences say {:.12g} (their error falls with slope {:.1f}, not 2)",
       d.claimed, d.difference, d.slope);
 }
 

@@ -1,5 +1,7 @@
 #include <hauberk/conformance/function_problem.hpp>
 
+#include "as_vector.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,11 +9,6 @@
 
 namespace hauberk::conformance {
 namespace {
-
-VectorXd vector(std::span<const double> x)
-{
-  return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
 
 /// Calls `functions` at v and hands out what was asked for.
 void fill(const std::function<void(const VectorXd&, VectorXd&, RowMajor&)>& functions, int count,
@@ -57,7 +54,7 @@ void FunctionProblem::check_evaluation(const VectorXd& v)
 
 OptimizationProblem::Evaluation FunctionProblem::evaluate(std::span<const double> x, bool want_gradient)
 {
-  const VectorXd v = vector(x);
+  const VectorXd v = as_vector(x);
   check_evaluation(v);
   // What became of an iterate when it was accepted costs nothing to ask.
   const bool known = std::exchange(just_accepted, false) && v == accepted.back();
@@ -77,28 +74,28 @@ OptimizationProblem::Evaluation FunctionProblem::evaluate(std::span<const double
 
 void FunctionProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
 {
-  if (constraint_number > 0) fill(constraint_functions, constraint_number, vector(x), c, jacobian);
+  if (constraint_number > 0) fill(constraint_functions, constraint_number, as_vector(x), c, jacobian);
 }
 
 bool FunctionProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)
 {
-  breaks(!is_latest(vector(x)), "it asked for residuals at another point than the one evaluated last");
-  fill(residual_functions, residual_number, vector(x), r, jacobian);
+  breaks(!is_latest(as_vector(x)), "it asked for residuals at another point than the one evaluated last");
+  fill(residual_functions, residual_number, as_vector(x), r, jacobian);
   return true;
 }
 
 double FunctionProblem::largest_safe_step(std::span<const double> x, std::span<const double> d)
 {
-  breaks(accepted.empty() || vector(x) != accepted.back(),
+  breaks(accepted.empty() || as_vector(x) != accepted.back(),
          "it asked for the largest safe step from another point than the accepted one");
-  directions.push_back({vector(d), safe(vector(x), vector(d))});
+  directions.push_back({as_vector(d), safe(as_vector(x), as_vector(d))});
   return directions.back().alpha;
 }
 
 void FunctionProblem::accept(std::span<const double> x)
 {
-  breaks(!is_latest(vector(x)), "it accepted another point than the one evaluated last");
-  accepted.push_back(vector(x));
+  breaks(!is_latest(as_vector(x)), "it accepted another point than the one evaluated last");
+  accepted.push_back(as_vector(x));
   just_accepted = true;
   directions.clear();
 }

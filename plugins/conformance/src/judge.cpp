@@ -1,5 +1,7 @@
 #include "judge.hpp"
 
+#include "as_vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,11 +10,6 @@ namespace {
 
 /// Violation of a constraint that counts as none in a result.
 constexpr double feasible = 1e-6;
-
-VectorXd vector(std::span<const double> x)
-{
-  return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
 
 /// Equal up to the rounding of scaling and back.
 bool nearly(double a, double b) { return std::abs(a - b) <= 1e-12 * (1.0 + std::abs(b)); }
@@ -36,7 +33,7 @@ void check_result(const OptimizerResult& r, const FunctionProblem& problem, cons
             r.status);
     return;
   }
-  const VectorXd x = vector(r.x);
+  const VectorXd x = as_vector(r.x);
   require(std::find(problem.accepted.begin(), problem.accepted.end(), x) != problem.accepted.end(),
           "the result was never accepted");
   const double value = value_at(problem, x);
@@ -45,8 +42,9 @@ void check_result(const OptimizerResult& r, const FunctionProblem& problem, cons
   if (r.status == "converged")
     require(violation <= feasible, "it says 'converged' at a point that violates a constraint by {:.3g}",
             violation);
-  const double before = value_at(problem, vector(start));
-  if (violation_at(problem, vector(start)) > 0.0 || problem.fails(vector(start)) || !std::isfinite(before))
+  const double before = value_at(problem, as_vector(start));
+  if (violation_at(problem, as_vector(start)) > 0.0 || problem.fails(as_vector(start)) ||
+      !std::isfinite(before))
     return;
   require(violation <= feasible, "the start was feasible, the result violates a constraint by {:.3g}",
           violation);
@@ -75,9 +73,9 @@ double violation_at(const FunctionProblem& problem, const VectorXd& x)
 std::string Watcher::defect(const OptimizerIterate& iterate) const
 {
   if (iterate.iteration != count) return fmt::format("iterate {} is called {}", count, iterate.iteration);
-  if (problem_.accepted.empty() || vector(iterate.x) != problem_.accepted.back())
+  if (problem_.accepted.empty() || as_vector(iterate.x) != problem_.accepted.back())
     return fmt::format("iterate {} is not the point accepted last", count);
-  const double value = value_at(problem_, vector(iterate.x));
+  const double value = value_at(problem_, as_vector(iterate.x));
   if (!nearly(iterate.value, value))
     return fmt::format("iterate {} has the value {:.12g}, and the observer was told {:.12g}", count, value,
                        iterate.value);

@@ -106,7 +106,7 @@ void rest(Trial& trial)
 
 std::string unknown_name(const LoadCase& load_case, std::size_t k)
 {
-  const auto macros = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t macros = load_case.macro_count();
   return k < macros ? load_case.macros()[k].name : fmt::format("e[{}]", k - macros);
 }
 
@@ -279,7 +279,7 @@ double beyond_walls(const LoadCase& load_case, const Vec3& X, std::span<const do
   double most = -std::numeric_limits<double>::infinity();
   for (const LinearInequality& wall : load_case.inequalities({&X, 1})) {
     double g = wall.offset;
-    for (const LinearTerm& t : wall.terms) g += t.coefficient * e[static_cast<std::size_t>(t.coordinate)];
+    for (const LinearTerm& t : wall.terms) g += t.coefficient * e[t.coordinate];
     most = std::max(most, -g);
   }
   return most;

@@ -22,7 +22,7 @@ void load(Trial& trial)
 {
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
-  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t count = load_case.macro_count();
   bool pulls = false;
   for (const double theta : angles(trial.random, states)) {
     const Direction direction = Direction::at_radians(theta);
@@ -71,7 +71,7 @@ void admissible(Trial& trial)
   constexpr int segments = 400, samples = 16;
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
-  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t count = load_case.macro_count();
   require(load_case.admissible(Values(count, 0.0)), "rest is not admissible");
   for (std::size_t k = 0; k < count; ++k) {
     Values macro(count, 0.0);
@@ -125,7 +125,7 @@ void boundedness(Trial& trial)
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
   Random& random = trial.random;
-  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t count = load_case.macro_count();
   std::vector<Values> loads;
   for (const double theta : angles(random, states)) {
     Values t(count);
@@ -202,7 +202,7 @@ void transform(Trial& trial)
 {
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
-  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t count = load_case.macro_count();
   Values metric(count);
   load_case.metric(metric);
   const auto squared = [&metric](const Values& macro) {

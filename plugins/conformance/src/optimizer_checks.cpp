@@ -146,8 +146,7 @@ void only_the_start(Trial& trial)
   const OptimizerResult r = watched(*object.optimizer, problem, valley_start).result;
   require(r.x == valley_start, "only the start can be evaluated, and the result is another point");
   require(r.status != "converged",
-          "only the start can be evaluated, its gradient is not zero, and it says "
-          "'converged'");
+          "only the start can be evaluated, its gradient is not zero, and it says 'converged'");
 }
 
 void nothing_safe(Trial& trial)

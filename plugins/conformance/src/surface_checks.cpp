@@ -20,7 +20,7 @@
 namespace hauberk::conformance {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = 1e-12;  ///< of equal lengths from different arithmetic, relative to the surface
 
 /// Core of a tube and the plane across it: a point and two orthonormal vectors.
@@ -54,7 +54,7 @@ CorePoint core_at(const Primitive& primitive, double u)
 std::vector<Station> stations(const Primitive& primitive, int count)
 {
   std::vector<Station> out;
-  out.reserve(static_cast<std::size_t>(count));
+  out.reserve(count);
   const CorePoint start = core_at(primitive, 0.0);
   const Vec3 tangent = start.derivative.normalized();
   const bool ring = primitive.curve.empty();
@@ -75,7 +75,7 @@ std::vector<Station> stations(const Primitive& primitive, int count)
   carried = Eigen::Quaterniond::FromTwoVectors(before, tangent) * carried;
   const double lacking = std::atan2(-carried.dot(first.cross(tangent)), carried.dot(first));
   for (int i = 0; i < count; ++i) {
-    Station& s = out[static_cast<std::size_t>(i)];
+    Station& s = out[i];
     const double turn = lacking * i / count;
     const Vec3 a = std::cos(turn) * s.first + std::sin(turn) * s.second;
     s.second = std::cos(turn) * s.second - std::sin(turn) * s.first;
@@ -88,7 +88,7 @@ std::vector<Station> stations(const Primitive& primitive, int count)
 std::vector<Vec3> surface_points(const Primitive& primitive, int n)
 {
   std::vector<Vec3> out;
-  out.reserve(static_cast<std::size_t>(n * n));
+  out.reserve(n * n);
   for (const Station& s : stations(primitive, n)) {
     for (int j = 0; j < n; ++j) {
       const double v = 2.0 * pi * j / n;
@@ -105,10 +105,9 @@ double longest_diagonal(const std::vector<Vec3>& points, int n)
   double longest = 0.0;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      const Vec3& here = points[static_cast<std::size_t>(i * n + j)];
+      const Vec3& here = points[i * n + j];
       for (const int side : {1, n - 1})
-        longest = std::max(
-            longest, (points[static_cast<std::size_t>(((i + 1) % n) * n + (j + side) % n)] - here).norm());
+        longest = std::max(longest, (points[((i + 1) % n) * n + (j + side) % n] - here).norm());
     }
   }
   return longest;
@@ -117,9 +116,7 @@ double longest_diagonal(const std::vector<Vec3>& points, int n)
 /// Volume within the triangles of a grid of n x n points that closes both ways, by the divergence theorem.
 double volume_within(const std::vector<Vec3>& points, int n)
 {
-  const auto at = [&](int i, int j) -> const Vec3& {
-    return points[static_cast<std::size_t>((i % n) * n + j % n)];
-  };
+  const auto at = [&](int i, int j) -> const Vec3& { return points[(i % n) * n + j % n]; };
   double six = 0.0;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -151,9 +148,7 @@ double nearest_pass(const Primitive& primitive)
   std::vector<double> way{0.0};
   for (int i = 0; i < count; ++i) {
     x.push_back(core_at(primitive, 2.0 * pi * i / count).x);
-    if (i > 0)
-      way.push_back(way.back() +
-                    (x[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i) - 1]).norm());
+    if (i > 0) way.push_back(way.back() + (x[i] - x[static_cast<std::size_t>(i) - 1]).norm());
   }
   const double length = way.back() + (x.front() - x.back()).norm();
   double nearest = std::numeric_limits<double>::infinity();
@@ -175,9 +170,7 @@ void check_triangles(const Primitive& primitive, Trial& trial)
   const Vec3 from = trial.random.vector(2.0);
   double total = 0.0, six = 0.0, six_from = 0.0, sum = 0.0, farthest = 0.0;
   for (const auto& t : surface.triangles()) {
-    const Vec3 &a = surface.points()[static_cast<std::size_t>(t[0])],
-               &b = surface.points()[static_cast<std::size_t>(t[1])],
-               &c = surface.points()[static_cast<std::size_t>(t[2])];
+    const Vec3 &a = surface.points()[t[0]], &b = surface.points()[t[1]], &c = surface.points()[t[2]];
     const Vec3 twice = (b - a).cross(c - a);
     area += 0.5 * twice;
     total += 0.5 * twice.norm();
@@ -259,9 +252,7 @@ namespace {
 std::vector<Vec3> triangle_points(const Primitive& primitive, int n)
 {
   std::vector<Vec3> out;
-  const auto at = [&primitive](int k) -> Vec3 {
-    return primitive.R() * primitive.surface->points()[static_cast<std::size_t>(k)];
-  };
+  const auto at = [&primitive](int k) -> Vec3 { return primitive.R() * primitive.surface->points()[k]; };
   for (const auto& t : primitive.surface->triangles()) {
     for (int i = 0; i <= n; ++i) {
       for (int j = 0; i + j <= n; ++j)
@@ -292,9 +283,9 @@ void check_mesh_distances(const Primitive& p, const Primitive& f, Trial& trial)
     double longest = 0.0;
     for (const auto& t : primitive.surface->triangles()) {
       for (std::size_t k = 0; k < 3; ++k)
-        longest = std::max(longest, (primitive.surface->points()[static_cast<std::size_t>(t[k])] -
-                                     primitive.surface->points()[static_cast<std::size_t>(t[(k + 1) % 3])])
-                                        .norm());
+        longest = std::max(
+            longest,
+            (primitive.surface->points()[t[k]] - primitive.surface->points()[t[(k + 1) % 3]]).norm());
     }
     known_to += primitive.R() * longest / n;
     return triangle_points(primitive, n);
@@ -349,8 +340,7 @@ void check_distances(Trial& trial)
       if (found.upper <= 0.0) continue;  // they meet
       require(found.lower <= sampled + rounding * size && sampled <= found.upper + known_to,
               "the gap of '{}' and '{}' is between {:.6g} and {:.6g}, says the kernel; samples of the "
-              "surfaces are "
-              "{:.6g} apart, known to {:.2g}",
+              "surfaces are {:.6g} apart, known to {:.2g}",
               p.name, f.name, found.lower, found.upper, sampled, known_to);
     }
   }

@@ -79,7 +79,7 @@ Exercise::Exercise(const Object& object, Trial& trial)
   if (!object.load_case) return;
   const LoadCase& load_case = *object.load_case;
   Random& random = trial.random;
-  const auto coordinates = static_cast<std::size_t>(load_case.coordinate_count());
+  const std::size_t coordinates = load_case.coordinate_count();
   for (const double theta : angles(random, states)) {
     const Numbers macro = draw_macro(load_case, random);
     states_.push_back({macro, random.values(macro.size(), 0.1), random.values(coordinates, 0.5),

@@ -197,7 +197,7 @@ Point draw_point(const Shape& shape, Trial& trial)
 
 std::vector<double> draw_macro(const LoadCase& load_case, Random& random, double size)
 {
-  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t count = load_case.macro_count();
   for (int draw = 0; draw < most_draws; ++draw) {
     std::vector<double> macro = random.values(count, size);
     if (load_case.admissible(macro)) return macro;
@@ -208,7 +208,7 @@ std::vector<double> draw_macro(const LoadCase& load_case, Random& random, double
 bool spatial(const LoadCase& load_case, Random& random)
 {
   const std::vector<double> macro = draw_macro(load_case, random);
-  const std::vector<double> e(static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
+  const std::vector<double> e(load_case.coordinate_count(), 0.0);
   PositionMap here, above;
   load_case.position(macro, e, Vec3::Zero(), Vec3::Zero(), here);
   load_case.position(macro, e, Vec3::Zero(), Vec3::UnitZ(), above);

@@ -62,7 +62,7 @@ std::vector<Direction> read_list(const Node& list, const LoadCase& load_case, Pr
 {
   std::vector<Direction> out;
   std::vector<std::vector<double>> units;
-  const auto count = static_cast<std::size_t>(load_case.macro_count());
+  const std::size_t count = load_case.macro_count();
   std::vector<double> metric(count);
   load_case.metric(metric);
   for (const Node& item : list.items) {

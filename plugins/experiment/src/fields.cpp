@@ -31,8 +31,7 @@ Field place_field()
   Field rotation =
       object("rotation",
              "Active, right-handed rotation about the element's origin, applied before translation: axis and "
-             "degrees, "
-             "or a quaternion. Absent: none.",
+             "degrees, or a quaternion. Absent: none.",
              {numbers("axis", "Axis; normalised.", 3), number("degrees", "Angle about the axis.", "degree"),
               numbers("quaternion", "Quaternion [w, x, y, z]; normalised.", 4)});
   Field overrides = map("parameters", "Values for this placement only, over those of the element.",
@@ -200,8 +199,7 @@ Field solver_field()
                     1),
            at_least(integer("max_iterations",
                             "Most Newton steps of one stage in which the energy does not fall noticeably; "
-                            "absent: as the "
-                            "preset says."),
+                            "absent: as the preset says."),
                     1),
            at_least(
                number("tolerance", "Relative error of 1 + value to reach; absent: as the preset says.", "1"),

@@ -72,7 +72,7 @@ void check_extent(const Node& root, const Node& section, const LoadCase& load_ca
   const bool patch = cell->find("patch") != nullptr;
   if (load_case.periodic() != patch) {
     const Node* vectors = find_typed(*cell, "vectors", Node::Type::array);
-    const auto needed = static_cast<std::size_t>(load_case.lattice_vectors());
+    const std::size_t needed = load_case.lattice_vectors();
     if (!patch && vectors != nullptr && vectors->items.size() != needed) {
       problems.add(*vectors, "'" + plugin->string + "' loads cells with " + std::to_string(needed) +
                                  " vectors, and there are " + std::to_string(vectors->items.size()));

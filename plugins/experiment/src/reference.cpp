@@ -16,8 +16,7 @@ const char* introduction =
     "An experiment is JSON with comments and trailing commas. This page is generated from the table of "
     "fields "
     "that also checks the files and makes `share/schema/experiment.schema.json`; a test fails when it is out "
-    "of "
-    "date. `hauberk check FILE` reports everything that is wrong in a file at once.\n"
+    "of date. `hauberk check FILE` reports everything that is wrong in a file at once.\n"
     "\n"
     "In the headings, `*` stands for any name and any index. Lengths are in the unit of the file. A key in "
     "**bold** is required.\n";

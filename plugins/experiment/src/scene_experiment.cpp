@@ -38,7 +38,7 @@ Node array_node(std::vector<Node> items)
 
 Node placement(const SceneSpec& scene, const PlacedElement& element)
 {
-  const ElementType& type = scene.types[static_cast<std::size_t>(element.type)];
+  const ElementType& type = scene.types[element.type];
   const Vec3& x = element.rest.position;
   Eigen::Quaterniond q(element.rest.rotation);
   if (q.w() < 0.0) q.coeffs() *= -1.0;

@@ -91,7 +91,7 @@ class SceneReader {
         good = false;
         continue;
       }
-      const ParameterInfo& info = shape.parameters()[static_cast<std::size_t>(index)];
+      const ParameterInfo& info = shape.parameters()[index];
       if (!value.is(Node::Type::number)) continue;
       if (value.number < info.lower || value.number > info.upper) {
         Field range;
@@ -99,10 +99,10 @@ class SceneReader {
         range.maximum = info.upper;
         problems_.add(value, "expected " + describe_expected(range) + ", found " + describe_found(value));
         good = false;
-        values[static_cast<std::size_t>(index)] = std::numeric_limits<double>::quiet_NaN();
+        values[index] = std::numeric_limits<double>::quiet_NaN();
         continue;
       }
-      values[static_cast<std::size_t>(index)] = value.number;
+      values[index] = value.number;
     }
     return good;
   }
@@ -330,7 +330,7 @@ class SceneReader {
     if (name == nullptr) return std::nullopt;
     element.type = find_type(*name);
     if (element.type < 0) return std::nullopt;
-    const auto type = static_cast<std::size_t>(element.type);
+    const std::size_t type = element.type;
     const Shape* shape = spec_.types[type].shape.get();
     if (shape == nullptr) return std::nullopt;
     element.parameters = type_parameters_[type];

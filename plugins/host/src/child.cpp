@@ -46,7 +46,7 @@ class Pipe {
   int write_end() const { return ends_[1]; }
   void close(int end)
   {
-    int& fd = ends_[static_cast<std::size_t>(end)];
+    int& fd = ends_[end];
     if (fd >= 0) ::close(std::exchange(fd, -1));
   }
 

@@ -91,7 +91,7 @@ std::vector<std::size_t> read_scenes_of(const Node& section, const std::vector<C
   for (const ChartScene& scene : scenes) known.push_back(scene.name);
   for (const Node& item : list->items) {
     const auto at = std::find(known.begin(), known.end(), item.string);
-    const auto scene = static_cast<std::size_t>(at - known.begin());
+    const std::size_t scene = at - known.begin();
     if (at == known.end())
       problems.add(item, "unknown scene '" + item.string + "'" + suggestion(item.string, known));
     else if (std::find(out.begin(), out.end(), scene) != out.end())

@@ -1,7 +1,7 @@
 #pragma once
 /// A design on the terminal.
 
-#include "limits/results.hpp"
+#include "design/design_result.hpp"
 
 #include <string>
 

@@ -37,8 +37,7 @@ constexpr double acceptable_violation = 1e-6;
 double initial_value(const Prepared& prepared, const DesignVariable& v)
 {
   const auto& [element, parameter] = v.entries.front();
-  return prepared.scene.elements[static_cast<std::size_t>(element)]
-      .parameters[static_cast<std::size_t>(parameter)];
+  return prepared.scene.elements[element].parameters[parameter];
 }
 
 bool ended_well(const std::string& status)

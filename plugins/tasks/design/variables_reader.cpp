@@ -92,7 +92,7 @@ class VariablesReader {
     std::map<std::string, ExperimentVariable> groups;
     std::vector<std::string> order;
     for (std::size_t k = 0; k < scene_.elements.size(); ++k) {
-      const ElementType& type = scene_.types[static_cast<std::size_t>(scene_.elements[k].type)];
+      const ElementType& type = scene_.types[scene_.elements[k].type];
       const int parameter = type.shape ? parameter_index(*type.shape, name.string) : -1;
       if (parameter < 0) continue;
       const std::string group = entry.per == "all"    ? "*"
@@ -156,7 +156,7 @@ class VariablesReader {
     for (const ElementType& type : scene_.types) {
       const int index = type.shape ? parameter_index(*type.shape, name.string) : -1;
       if (index < 0) continue;
-      const ParameterInfo& info = type.shape->parameters()[static_cast<std::size_t>(index)];
+      const ParameterInfo& info = type.shape->parameters()[index];
       if (!info.smooth) {
         problems_.add(name, "parameter '" + name.string + "' of element '" + type.name +
                                 "' cannot be designed: the shape does not depend on it smoothly");
@@ -180,8 +180,7 @@ class VariablesReader {
 
   double value_of(const ParameterRef& ref) const
   {
-    return scene_.elements[static_cast<std::size_t>(ref.element)]
-        .parameters[static_cast<std::size_t>(ref.parameter)];
+    return scene_.elements[ref.element].parameters[ref.parameter];
   }
 
   void finish(const Entry& entry, const Node& name, ExperimentVariable variable,

@@ -73,7 +73,7 @@ KeptLimits kept_limits(const json::value& results, const Experiment& experiment,
                        const std::vector<LimitTask>& tasks)
 {
   const LoadCase& load = *experiment.load_case;
-  const std::vector<double> rest(static_cast<std::size_t>(load.macro_count()), 0.0);
+  const std::vector<double> rest(load.macro_count(), 0.0);
   std::vector<std::string> companions;
   for (const auto& [name, value] : load.companions(Direction(), rest)) companions.push_back(name);
   KeptLimits out;

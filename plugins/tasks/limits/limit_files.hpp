@@ -1,7 +1,7 @@
 #pragma once
 /// Files of limits beside results.json.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
 #include "tasks/task.hpp"
 
 #include <array>

@@ -87,7 +87,7 @@ std::string boundary_table(const Experiment& experiment, const RunResult& run)
     text += locked > 0 ? fmt::format(", from {:.8f} to {:.8f}\n", least, most) : "\n";
   }
   for (const BoundarySurface::Shortfall& s : run.boundary->shortfalls) {
-    const auto text_of = [&run](int k) { return run.limits[static_cast<std::size_t>(k)].direction.text(); };
+    const auto text_of = [&run](int k) { return run.limits[k].direction.text(); };
     text += fmt::format("{}: not the furthest, the state of {} is further by {:.3g}\n", text_of(s.limit),
                         text_of(s.state), s.by);
   }

@@ -1,7 +1,8 @@
 #pragma once
 /// Limits on the terminal.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
+#include "limits/limit_result.hpp"
 #include "run/prepared.hpp"
 
 #include <string>

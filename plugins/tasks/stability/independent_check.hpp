@@ -1,7 +1,8 @@
 #pragma once
 /// What the independent check says about the limits of one experiment.
 
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
+#include "limits/limit_result.hpp"
 #include "tasks/stability/stability_results.hpp"
 
 #include <hauberk/verify/verify.hpp>

@@ -38,8 +38,7 @@ Field stability_field()
   return object(
       "stability",
       "Families of scenes times methods. Each is solved, checked independently, and classified: verified, "
-      "local (a "
-      "further state is known), honest failure, silently wrong. Needed by task stability.",
+      "local (a further state is known), honest failure, silently wrong. Needed by task stability.",
       {with_default(
            at_least(number("tolerance",
                            "A value is at the best known state when 1 + value falls short of it by no more "

@@ -26,8 +26,7 @@ void check_exact(const StabilityFamily& family, std::size_t member, const Experi
   if (!family.exact[member] || limits == 1) return;
   diagnostics.problems.add(
       {"/stability/families", 0,
-       fmt::format("family '{}', member '{}': an exact value needs one direction and sense, "
-                   "found {} limits",
+       fmt::format("family '{}', member '{}': an exact value needs one direction and sense, found {} limits",
                    family.name, family.labels[member], limits)});
 }
 

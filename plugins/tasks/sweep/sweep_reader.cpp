@@ -48,7 +48,7 @@ std::vector<Node> spread(const Node& range, Problems& problems)
                             format_number(to));
     return out;
   }
-  out.reserve(static_cast<std::size_t>(count));
+  out.reserve(count);
   for (int k = 0; k < count; ++k) {
     const double t = static_cast<double>(k) / (count - 1);
     double x = log ? from * std::pow(to / from, t) : from + (to - from) * t;

@@ -168,7 +168,7 @@ void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& rea
   const std::size_t n = table.rows.size();
   std::vector<bool> left(n);
   for (std::size_t k = 0; k < n; ++k) left[k] = table.rows[k].status == RowStatus::interrupted;
-  const auto rows_left = static_cast<std::size_t>(std::count(left.begin(), left.end(), true));
+  const std::size_t rows_left = std::count(left.begin(), left.end(), true);
   if (rows_left == 0) return;
   Grid grid(context, "sweep", rows_left);
 

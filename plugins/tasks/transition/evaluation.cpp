@@ -18,19 +18,15 @@ template <typename F>
 void for_bodies(const MovingPair& pair, F&& f)
 {
   const Model& m = *pair.model;
-  const auto i = static_cast<std::size_t>(pair.fixed), j = static_cast<std::size_t>(pair.moving);
+  const std::size_t i = pair.fixed, j = pair.moving;
   for (int a = m.first_body[i]; a < m.first_body[i + 1]; ++a) {
     for (int b = m.first_body[j]; b < m.first_body[j + 1]; ++b) {
-      f(m.bodies[static_cast<std::size_t>(a)], m.bodies[static_cast<std::size_t>(b)], a - m.first_body[i],
-        b - m.first_body[j]);
+      f(m.bodies[a], m.bodies[b], a - m.first_body[i], b - m.first_body[j]);
     }
   }
 }
 
-const Pose& rest_of(const MovingPair& pair, int element)
-{
-  return pair.model->rest[static_cast<std::size_t>(element)];
-}
+const Pose& rest_of(const MovingPair& pair, int element) { return pair.model->rest[element]; }
 
 /// What pair_contact gives in (x_A - x_B, w_A, w_B) for the unknowns (x_B, w_B) of the moving element B.
 struct MovingTerms {
@@ -45,10 +41,9 @@ void add_moving(const PairTerms& t, MovingTerms& out)
   const auto sign = [](int k) { return k < 3 ? -1.0 : 1.0; };
   out.energy += t.energy;
   for (int i = 0; i < 6; ++i) {
-    const int row = from[static_cast<std::size_t>(i)];
+    const int row = from[i];
     out.gradient[i] += sign(i) * t.gradient[row];
-    for (int j = 0; j < 6; ++j)
-      out.hessian(i, j) += sign(i) * sign(j) * t.hessian(row, from[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < 6; ++j) out.hessian(i, j) += sign(i) * sign(j) * t.hessian(row, from[j]);
   }
 }
 

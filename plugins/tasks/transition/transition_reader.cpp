@@ -82,7 +82,7 @@ std::shared_ptr<const TaskSection> read_transition(Node& section, SectionContext
   }
   Vec3 origin = Vec3::Zero();
   if (scene_complete && out.moving < static_cast<int>(scene.elements.size()))
-    origin = scene.elements[static_cast<std::size_t>(out.moving)].rest.position;
+    origin = scene.elements[out.moving].rest.position;
   const Node* paths = find_typed(section, "paths", Node::Type::array);
   if (paths == nullptr) return transition;
   for (const Node& item : paths->items) {

@@ -74,7 +74,7 @@ json::array contacts_json(const TransitionPath& path)
   std::vector<Span> spans;
   for (const TransitionSample& sample : path.samples) {
     for (const TransitionMinimum& m : sample.minima) {
-      const auto k = static_cast<std::size_t>(m.contact);
+      const std::size_t k = m.contact;
       if (k >= spans.size()) spans.resize(k + 1, {sample.s, sample.s});
       spans[k].to = sample.s;
     }

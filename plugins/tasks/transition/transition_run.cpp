@@ -43,7 +43,7 @@ TransitionForce in_file_units(const PathPoint& p, double length)
 {
   TransitionForce f;
   f.energy = p.energy;
-  for (int k = 0; k < 6; ++k) f.wrench[static_cast<std::size_t>(k)] = -p.gradient[k] / (k < 3 ? length : 1.0);
+  for (int k = 0; k < 6; ++k) f.wrench[k] = -p.gradient[k] / (k < 3 ? length : 1.0);
   f.along = -p.slope;
   return f;
 }

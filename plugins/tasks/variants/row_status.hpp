@@ -1,7 +1,7 @@
 #pragma once
 /// How the computation of one variant of a file ended: a row of a sweep, a point of a chart.
 
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 
 #include <array>
 #include <optional>

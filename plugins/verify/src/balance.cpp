@@ -36,8 +36,7 @@ void add_contact(Vector& residual, const Scene& scene, const Setting& setting, c
     const Image image = side == 0 ? Image{} : contact.image;
     const Vec3 force = (side == 0 ? -1.0 : 1.0) * contact.force * contact.normal;
     const PositionDerivatives d = derivatives(scene, setting, state, k, image);
-    const Vec3 origin = state.places[static_cast<std::size_t>(k)].position +
-                        translation(scene, state.macro.deformation(), image);
+    const Vec3 origin = state.places[k].position + translation(scene, state.macro.deformation(), image);
     residual.head(macros(scene)) += scene.length * d.macro.transpose() * force;
     residual.segment<3>(first_of(scene, k)) += scene.length * d.own.transpose() * force;
     residual.segment<3>(first_of(scene, k) + 3) += (contact.points[side] - origin).cross(force);

@@ -19,7 +19,7 @@ std::size_t limit_index(const json::value& v, const std::vector<Limit>& limits, 
 {
   const double k = number(v, where);
   const bool there = k >= 0.0 && k < static_cast<double>(limits.size()) && k == std::floor(k);
-  if (!there || !limits[static_cast<std::size_t>(k)].direction)
+  if (!there || !limits[k].direction)
     throw Malformed(fmt::format("{}: no limit along components has the index {:g}", where, k));
   return static_cast<std::size_t>(k);
 }

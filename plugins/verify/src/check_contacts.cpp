@@ -33,7 +33,7 @@ bool indices_exist(const Scene& scene, const Contact& contact)
   for (std::size_t side = 0; side < 2; ++side) {
     const int k = contact.elements[side], p = contact.primitives[side];
     if (k < 0 || k >= static_cast<int>(scene.elements.size())) return false;
-    if (p < 0 || p >= static_cast<int>(scene.elements[static_cast<std::size_t>(k)].tori.size())) return false;
+    if (p < 0 || p >= static_cast<int>(scene.elements[k].tori.size())) return false;
   }
   for (std::size_t k = scene.cell.size(); k < contact.image.size(); ++k) {
     if (contact.image[k] != 0) return false;
@@ -59,11 +59,10 @@ void check_surfaces(const Scene& scene, const Limit& limit, const Contact& conta
                     const std::string& name, const std::string& where, Sentences& problems, Record& record)
 {
   for (std::size_t side = 0; side < 2; ++side) {
-    const auto k = static_cast<std::size_t>(contact.elements[side]);
+    const std::size_t k = contact.elements[side];
     Place place = limit.poses[k];
     if (side == 1) place.position += translation(scene, limit.macro->deformation(), contact.image);
-    const Primitive torus =
-        placed(scene.elements[k].tori[static_cast<std::size_t>(contact.primitives[side])], place);
+    const Primitive torus = placed(scene.elements[k].tori[contact.primitives[side]], place);
     if (torus.facets > 0) {
       const double off = mesh_distance(torus, contact.points[side]);
       if (off > slack.length)
@@ -96,7 +95,7 @@ bool check_wall(const Scene& scene, const Setting& setting, const Limit& limit, 
   for (std::size_t e = 0; e < limit.poses.size(); ++e)
     mean += (limit.poses[e].position.z() - scene.elements[e].rest.position.z()) /
             static_cast<double>(limit.poses.size());
-  const auto e = static_cast<std::size_t>(k);
+  const std::size_t e = k;
   const double height = limit.poses[e].position.z() - scene.elements[e].rest.position.z() - mean;
   const double gap = setting.half_height - contact.normal.z() * height;
   if (contact.normal.head<2>().norm() > 0.0) problems.push_back(name + ": the normal of a wall is along z");

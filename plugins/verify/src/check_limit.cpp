@@ -133,8 +133,7 @@ void check_held(const Scene& scene, const Setting& setting, const Limit& limit, 
   const Vector zero = components.coefficients.transpose() * scaled(*limit.macro, scene.length);
   for (Eigen::Index k = 0; k < zero.size(); ++k)
     if (!(std::abs(zero[k]) <= tolerances.held))
-      problems.push_back(
-          fmt::format("{} is held, and is {:.3g}", components.names[static_cast<std::size_t>(k)], zero[k]));
+      problems.push_back(fmt::format("{} is held, and is {:.3g}", components.names[k], zero[k]));
   std::vector<std::string> names;
   for (const Reaction& r : limit.reactions) names.push_back(r.name);
   if (names != components.names) {
@@ -144,10 +143,10 @@ void check_held(const Scene& scene, const Setting& setting, const Limit& limit, 
   }
   const Vector found = reactions(scene, setting, limit);
   for (Eigen::Index k = 0; k < found.size(); ++k) {
-    const double reported = limit.reactions[static_cast<std::size_t>(k)].value;
+    const double reported = limit.reactions[k].value;
     if (!(std::abs(reported - found[k]) <= tolerances.reaction + 10.0 * imbalance))
-      problems.push_back(fmt::format("reaction of {} {:.8g} reported, the forces leave {:.8g}",
-                                     names[static_cast<std::size_t>(k)], reported, found[k]));
+      problems.push_back(fmt::format("reaction of {} {:.8g} reported, the forces leave {:.8g}", names[k],
+                                     reported, found[k]));
   }
 }
 

@@ -65,10 +65,10 @@ double distance_with(const Scene& scene, const Limit& limit, const Contact& cont
 {
   std::array<Primitive, 2> pair;
   for (std::size_t side = 0; side < 2; ++side) {
-    const auto k = static_cast<std::size_t>(contact.elements[side]);
+    const std::size_t k = contact.elements[side];
     Place place = limit.poses[k];
     if (side == 1) place.position += translation(scene, limit.macro->deformation(), contact.image);
-    const auto p = static_cast<std::size_t>(contact.primitives[side]);
+    const std::size_t p = contact.primitives[side];
     pair[side] = placed(k == element ? tori.at(p) : scene.elements[k].tori.at(p), place);
   }
   return touching_near(pair[0], pair[1], 0.5 * (contact.points[0] + contact.points[1])).distance;

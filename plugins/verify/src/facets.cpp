@@ -70,7 +70,7 @@ std::vector<std::array<Vec3, 2>> frames_along(const Primitive& tube)
   std::vector<std::array<Vec3, 2>> out;
   for (int i = 0; i < n; ++i) {
     // A positive angle turns the first vector to the second one, against the tangent.
-    const Vec3 a = Eigen::AngleAxisd(missed * i / n, tangent(i)) * carried[static_cast<std::size_t>(i)];
+    const Vec3 a = Eigen::AngleAxisd(missed * i / n, tangent(i)) * carried[i];
     out.push_back({a, a.cross(tangent(i))});
   }
   return out;
@@ -84,7 +84,7 @@ std::vector<Sector> tube_sectors(const Primitive& torus)
   const auto corner = [&](int i, int j) -> Vec3 {
     const double u = (i + 0.5) * step, v = std::numbers::pi + (j + 0.5) * step;
     if (torus.curve.empty()) return surface_point(torus, u, v);
-    const auto& [a, b] = frames[static_cast<std::size_t>(i % n)];
+    const auto& [a, b] = frames[i % n];
     return core_point(torus, u) + torus.r0 * (std::cos(v) * a + std::sin(v) * b);
   };
   std::vector<Sector> out;
@@ -132,8 +132,7 @@ std::vector<Sector> sectors(const Primitive& torus)
   for (const auto& t : torus.surface->triangles) {
     Triangle& placed = triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
-      placed[k] = torus.place.position +
-                  torus.place.rotation * (torus.R * torus.surface->points[static_cast<std::size_t>(t[k])]);
+      placed[k] = torus.place.position + torus.place.rotation * (torus.R * torus.surface->points[t[k]]);
   }
   std::vector<Sector> out;
   add_sectors(std::move(triangles), out);

@@ -35,7 +35,7 @@ Macros scaled(const Macro& macro, double length)
 PositionDerivatives derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
                                 int element, const Image& image)
 {
-  const auto k = static_cast<std::size_t>(element);
+  const std::size_t k = element;
   PositionDerivatives out{Eigen::MatrixXd::Zero(3, macros(scene)), Mat3::Identity()};
   const Vec3 X = (rest_of(scene, k).position + translation(scene, Mat3::Identity(), image)) / scene.length;
   if (setting.load == Load::solid) {

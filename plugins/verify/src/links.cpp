@@ -81,8 +81,7 @@ std::vector<std::vector<Vec3>> loops_of(const Primitive& torus)
     corners.reserve(loop.size());
     for (const int k : loop)
       corners.emplace_back(torus.place.position +
-                           torus.place.rotation *
-                               (torus.R * torus.surface->points[static_cast<std::size_t>(k)]));
+                           torus.place.rotation * (torus.R * torus.surface->points[k]));
   }
   return out;
 }
@@ -180,7 +179,7 @@ std::vector<Link> links(const Scene& scene, const std::vector<Place>& places, co
 {
   std::vector<Link> out;
   for (const Neighbour& pair : neighbours(scene, places, F, 0.0)) {
-    const auto k = static_cast<std::size_t>(pair.first), l = static_cast<std::size_t>(pair.second);
+    const std::size_t k = pair.first, l = pair.second;
     Place image = places[l];
     image.position += translation(scene, F, pair.image);
     const auto &first = scene.elements[k].tori, &second = scene.elements[l].tori;

@@ -44,8 +44,8 @@ Forest forest(std::size_t count, const std::vector<std::array<int, 2>>& edges,
   std::vector<std::vector<std::pair<int, std::size_t>>> ways(count);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (!usable[e]) continue;
-    ways[static_cast<std::size_t>(edges[e][0])].emplace_back(edges[e][1], e);
-    ways[static_cast<std::size_t>(edges[e][1])].emplace_back(edges[e][0], e);
+    ways[edges[e][0]].emplace_back(edges[e][1], e);
+    ways[edges[e][1]].emplace_back(edges[e][0], e);
   }
   Forest out{std::vector<int>(count, -1), std::vector<int>(count, -1),
              std::vector<bool>(edges.size(), false)};
@@ -57,7 +57,7 @@ Forest forest(std::size_t count, const std::vector<std::array<int, 2>>& edges,
       const std::size_t at = open.front();
       open.pop_front();
       for (const auto& [to, edge] : ways[at]) {
-        const auto next = static_cast<std::size_t>(to);
+        const std::size_t next = to;
         if (out.depth[next] >= 0) continue;
         out.depth[next] = out.depth[at] + 1;
         out.before[next] = static_cast<int>(at);
@@ -72,11 +72,11 @@ Forest forest(std::size_t count, const std::vector<std::array<int, 2>>& edges,
 /// From a to b along the forest.
 std::vector<int> path(const Forest& tree, int a, int b)
 {
-  const auto depth = [&tree](int k) { return tree.depth[static_cast<std::size_t>(k)]; };
+  const auto depth = [&tree](int k) { return tree.depth[k]; };
   std::vector<int> from{a}, to{b};
   while (from.back() != to.back()) {
     std::vector<int>& deeper = depth(from.back()) >= depth(to.back()) ? from : to;
-    deeper.push_back(tree.before[static_cast<std::size_t>(deeper.back())]);
+    deeper.push_back(tree.before[deeper.back()]);
   }
   from.insert(from.end(), to.rbegin() + 1, to.rend());
   return from;

@@ -20,18 +20,18 @@ struct PlacedPair {
 PlacedPair placed_pair(const Scene& scene, const MovedState& state, int k, int l, int p, int q,
                        const Image& image)
 {
-  Place at = state.places[static_cast<std::size_t>(l)];
+  Place at = state.places[l];
   at.position += translation(scene, state.macro.deformation(), image);
-  const auto& a = scene.elements[static_cast<std::size_t>(k)].tori[static_cast<std::size_t>(p)];
-  const auto& b = scene.elements[static_cast<std::size_t>(l)].tori[static_cast<std::size_t>(q)];
-  return {placed(a, state.places[static_cast<std::size_t>(k)]), placed(b, at)};
+  const auto& a = scene.elements[k].tori[p];
+  const auto& b = scene.elements[l].tori[q];
+  return {placed(a, state.places[k]), placed(b, at)};
 }
 
 GapRow pair_row(const Scene& scene, const Setting& setting, const MovedState& state, int k, int l,
                 const Image& image, const Touching& touching)
 {
   const double L = scene.length;
-  const auto a = static_cast<std::size_t>(k), b = static_cast<std::size_t>(l);
+  const std::size_t a = k, b = l;
   const Vec3& n = touching.normal;
   const Vec3 FT = translation(scene, state.macro.deformation(), image);
   const PositionDerivatives da = derivatives(scene, setting, state, k, {});
@@ -85,7 +85,7 @@ std::vector<GapRow> all_rows(const Scene& scene, const Setting& setting, const M
   const double reach = setting.clearance + range * scene.length;
   std::vector<GapRow> rows;
   for (const Neighbour& n : neighbours(scene, state.places, state.macro.deformation(), reach)) {
-    const auto k = static_cast<std::size_t>(n.first), l = static_cast<std::size_t>(n.second);
+    const std::size_t k = n.first, l = n.second;
     for (std::size_t p = 0; p < scene.elements[k].tori.size(); ++p)
       for (std::size_t q = 0; q < scene.elements[l].tori.size(); ++q) {
         const PlacedPair pair =

@@ -21,8 +21,8 @@ void add_images(std::vector<Neighbour>& out, const Mat3& A, const Mat3& inverse,
   Image low{}, high{};
   for (int r = 0; r < (solid ? 3 : 2); ++r) {
     const double radius = inverse.row(r).norm() * reach;
-    low[static_cast<std::size_t>(r)] = static_cast<int>(std::floor(centre[r] - radius));
-    high[static_cast<std::size_t>(r)] = static_cast<int>(std::ceil(centre[r] + radius));
+    low[r] = static_cast<int>(std::floor(centre[r] - radius));
+    high[r] = static_cast<int>(std::ceil(centre[r] + radius));
   }
   for (int i = low[0]; i <= high[0]; ++i)
     for (int j = low[1]; j <= high[1]; ++j)
@@ -83,7 +83,7 @@ std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>
   };
   std::vector<Candidate> candidates;
   for (const Neighbour& pair : neighbours(scene, places, F, margin)) {
-    const auto k = static_cast<std::size_t>(pair.first), l = static_cast<std::size_t>(pair.second);
+    const std::size_t k = pair.first, l = pair.second;
     Place image = places[l];
     image.position += translation(scene, F, pair.image);
     const auto &first = scene.elements[k].tori, &second = scene.elements[l].tori;

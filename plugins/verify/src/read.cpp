@@ -86,9 +86,7 @@ double thickness(const Surface& surface)
 {
   double six = 0.0, twice = 0.0;
   for (const auto& t : surface.triangles) {
-    const Vec3 &a = surface.points[static_cast<std::size_t>(t[0])],
-               &b = surface.points[static_cast<std::size_t>(t[1])],
-               &c = surface.points[static_cast<std::size_t>(t[2])];
+    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
     six += a.dot(b.cross(c));
     twice += (b - a).cross(c - a).norm();
   }
@@ -103,7 +101,7 @@ void read_mesh(const json::value& v, const std::vector<std::shared_ptr<const Sur
   const bool known = number.is_int64() && number.get_int64() >= 0 &&
                      static_cast<std::size_t>(number.get_int64()) < surfaces.size();
   if (!known) throw Malformed(where + "/surface: the index of one of the scene's surfaces expected");
-  out.surface = surfaces[static_cast<std::size_t>(number.get_int64())];
+  out.surface = surfaces[number.get_int64()];
   constexpr double rounding = 1e-9;  // of sums over many triangles
   if (!(out.R > 0.0) || out.r0 != out.r1 ||
       !(std::abs(out.r0 - out.R * thickness(*out.surface)) <= rounding * out.R))

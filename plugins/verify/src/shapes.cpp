@@ -81,7 +81,7 @@ class Core {
  private:
   Vec3& term(int k, std::size_t which)
   {
-    const auto n = static_cast<std::size_t>(k);
+    const std::size_t n = k;
     while (curve.size() < n) curve.push_back({Vec3::Zero(), Vec3::Zero()});
     return curve[n - 1][which];
   }

@@ -45,7 +45,7 @@ Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>&
   out.curvature =
       widest * Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(second).eigenvalues().cwiseAbs().maxCoeff();
   for (const auto& [i, j] : linked) {
-    const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+    const std::size_t k = i, l = j;
     const double at_rest = (scene.elements[l].rest.position - scene.elements[k].rest.position).norm();
     const double unit = std::max(at_rest, 0.5 * (scene.elements[k].reach + scene.elements[l].reach));
     out.apart = std::max(out.apart, length_above(macro, places[k].position, places[l].position) / unit);

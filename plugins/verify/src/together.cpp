@@ -85,12 +85,12 @@ void spread(const Grid& grid, const std::vector<double>& depth, double most, int
             std::vector<int>& parts)
 {
   std::vector<int> open{from};
-  parts[static_cast<std::size_t>(from)] = part;
+  parts[from] = part;
   while (!open.empty()) {
     const int n = open.back();
     open.pop_back();
     for (const int other : grid.beside(n)) {
-      const auto o = static_cast<std::size_t>(other);
+      const std::size_t o = other;
       if (parts[o] >= 0 || depth[o] > most) continue;
       parts[o] = part;
       open.push_back(other);
@@ -143,7 +143,7 @@ bool find_way(const std::vector<Way>& tree, int from, int to, int came_by, std::
 {
   if (from == to) return true;
   for (int k = 0; k < static_cast<int>(tree.size()); ++k) {
-    Way way = tree[static_cast<std::size_t>(k)];
+    Way way = tree[k];
     if (k == came_by || (way.from != from && way.to != from)) continue;
     if (way.to == from) {
       std::swap(way.from, way.to);
@@ -162,8 +162,7 @@ Loop closed(const std::vector<Primitive>& tori, const std::vector<Way>& ways)
   for (std::size_t k = 0; k < ways.size(); ++k) {
     const Way &enters = ways[k], &leaves = ways[(k + 1) % ways.size()];
     loop.corners.push_back(enters.at.point);
-    for (const Vec3& x : arc(tori[static_cast<std::size_t>(enters.to)], enters.at.v, leaves.at.u))
-      loop.corners.push_back(x);
+    for (const Vec3& x : arc(tori[enters.to], enters.at.v, leaves.at.u)) loop.corners.push_back(x);
     loop.primitives.push_back(enters.to);
   }
   std::sort(loop.primitives.begin(), loop.primitives.end());
@@ -198,19 +197,18 @@ std::vector<Overlap> overlaps(const Primitive& a, const Primitive& b)
   };
   int part = 0;
   for (int n = 0; n < grid.count(); ++n) {
-    const auto k = static_cast<std::size_t>(n);
+    const std::size_t k = n;
     if (depth[k] > most || parts[k] >= 0) continue;
     spread(grid, depth, most, n, part++, parts);
     add(grid.at(n));
   }
   for (int n = 0; n < grid.count(); ++n) {
-    const auto k = static_cast<std::size_t>(n);
+    const std::size_t k = n;
     if (depth[k] <= most || depth[k] > most + spacing) continue;
     const std::vector<int> beside = grid.beside(n);
     // Beside a part it leads into that.
-    if (std::any_of(beside.begin(), beside.end(), [&](int o) {
-          return parts[static_cast<std::size_t>(o)] >= 0 || depth[static_cast<std::size_t>(o)] < depth[k];
-        }))
+    if (std::any_of(beside.begin(), beside.end(),
+                    [&](int o) { return parts[o] >= 0 || depth[o] < depth[k]; }))
       continue;
     Inside at = grid.at(n);
     const double low = lowest([&](const Inside& i) { return signed_distance(b, solid_point(a, i)); }, at,
@@ -227,8 +225,7 @@ std::vector<Loop> loops_together(const std::vector<Primitive>& tori)
   const int count = static_cast<int>(tori.size());
   for (int a = 0; a < count; ++a) {
     for (int b = a + 1; b < count; ++b) {
-      for (const Overlap& o :
-           overlaps(tori[static_cast<std::size_t>(a)], tori[static_cast<std::size_t>(b)])) {
+      for (const Overlap& o : overlaps(tori[a], tori[b])) {
         std::vector<Way> ways{{a, b, o}};
         if (find_way(tree, b, a, -1, ways)) {
           out.push_back(closed(tori, ways));

@@ -143,7 +143,7 @@ std::vector<Touching> touchings(const Primitive& a, const Primitive& b, double r
   std::vector<double> f(static_cast<std::size_t>(around * nv));
   const auto at = [&](int i, int j) -> double& {
     const int k = (i + around) % around * nv + (j + nv) % nv;
-    return f[static_cast<std::size_t>(k)];
+    return f[k];
   };
   // A minimum between samples is lower than they are by at most half a cell.
   const double cell = 0.5 * (core_speed(a) + a.r0) * full_turn / around;

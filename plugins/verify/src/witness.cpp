@@ -116,7 +116,7 @@ class Piece {
     const double far = (reaches + relative * own + half * (change + turning)) / (1.0 - relative);
     Motion out = Motion::free;
     for (const Neighbour& pair : neighbours(scene_, s.places, F, std::max(0.0, far - least))) {
-      const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
+      const std::size_t i = pair.first, j = pair.second;
       const Element &a = scene_.elements[i], &b = scene_.elements[j];
       Place other = s.places[j];
       other.position += translation(scene_, F, pair.image);

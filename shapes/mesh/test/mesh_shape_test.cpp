@@ -121,7 +121,7 @@ std::string binary(const MeshFile& mesh, const std::string& begin = "binary")
   for (const auto& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) out += bytes_of(0.0);
     for (const int k : t) {
-      for (const double x : mesh.points[static_cast<std::size_t>(k)]) out += bytes_of(x);
+      for (const double x : mesh.points[k]) out += bytes_of(x);
     }
     out += std::string(2, '\0');
   }
@@ -135,7 +135,7 @@ std::string text(const MeshFile& mesh, double noise = 0.0)
   for (const auto& t : mesh.triangles) {
     out += "  facet normal nan 0 1\n    outer loop\n";
     for (const int i : t) {
-      const Vec3& x = mesh.points[static_cast<std::size_t>(i)];
+      const Vec3& x = mesh.points[i];
       out += "      vertex " + std::to_string(x.x() + noise * (k++ % 3)) + " " + std::to_string(x.y()) + " " +
              std::to_string(x.z()) + "\n";
     }
@@ -151,10 +151,7 @@ void expect_same(const MeshFile& found, const MeshFile& mesh)
   ASSERT_EQ(found.triangles.size(), mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_LT((found.points[static_cast<std::size_t>(found.triangles[t][k])] -
-                 mesh.points[static_cast<std::size_t>(mesh.triangles[t][k])])
-                    .norm(),
-                1e-5);
+      EXPECT_LT((found.points[found.triangles[t][k]] - mesh.points[mesh.triangles[t][k]]).norm(), 1e-5);
   }
 }
 
@@ -267,8 +264,7 @@ TEST(Mesh, FilesThatCannotBeReadAreRefused)
   EXPECT_EQ(problem(folder.write("a.stl", text(obj(tetrahedron + faces)))), "");
   EXPECT_EQ(problem(folder.path("b.obj")),
             folder.path("b.obj") +
-                ": cannot be read: there is no such file; paths are relative to the "
-                "experiment's folder");
+                ": cannot be read: there is no such file; paths are relative to the experiment's folder");
   EXPECT_EQ(problem("/dev/zero.obj/"), "/dev/zero.obj/: expected a file .obj or .stl");
   EXPECT_EQ(problem(folder.path("a.ply")), folder.path("a.ply") + ": expected a file .obj or .stl");
   std::filesystem::create_directories(folder.path("c.stl"));

@@ -126,7 +126,7 @@ class Mutant final : public LoadCase {
   {
     std::vector<LinearEquality> held{{"mean x", {}}, {"mean y", {}}};
     for (int i = 0; i < static_cast<int>(X.size()); ++i) {
-      for (int k = 0; k < 2; ++k) held[static_cast<std::size_t>(k)].terms.push_back({i, k, 1.0});
+      for (int k = 0; k < 2; ++k) held[k].terms.push_back({i, k, 1.0});
     }
     if (is("condition_twice")) held.push_back(held.front());
     return held;

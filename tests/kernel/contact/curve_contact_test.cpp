@@ -128,11 +128,10 @@ TEST_P(CurveContact, DerivativesInGeometry)
     }
     for (Eigen::Index i = 0; i < 3; ++i) {
       // F lies at the origin, so its frame is the world's; P's element is turned.
-      check("position of P", now.dP[static_cast<std::size_t>(i)], [&](Primitive& p, Primitive&, double h) {
+      check("position of P", now.dP[i], [&](Primitive& p, Primitive&, double h) {
         p.position += h * c.pose.rotation.transpose().col(i);
       });
-      check("position of F", now.dF[static_cast<std::size_t>(i)],
-            [&](Primitive&, Primitive& q, double h) { q.position[i] += h; });
+      check("position of F", now.dF[i], [&](Primitive&, Primitive& q, double h) { q.position[i] += h; });
     }
   }
   EXPECT_EQ(tried, 3);

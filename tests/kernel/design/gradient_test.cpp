@@ -46,9 +46,9 @@ TEST_P(DesignGradient, ResolvedDifferencesConvergeToIt)
         y[v] += side == 0 ? h : -h;
         const auto e = problem.evaluate(y, false);
         ASSERT_TRUE(e.ok) << e.why;
-        f[static_cast<std::size_t>(side)] = e.value;
+        f[side] = e.value;
       }
-      error[static_cast<std::size_t>(j)] = std::abs((f[0] - f[1]) / (2.0 * h) - at.gradient[v]);
+      error[j] = std::abs((f[0] - f[1]) / (2.0 * h) - at.gradient[v]);
     }
     const double scale = std::abs(at.gradient[v]);
     EXPECT_GT(scale, 1e-4) << "variable " << v;
@@ -89,7 +89,7 @@ TEST(DesignConstraints, HolesAreThePublishedOnes)
   LimitSettings limits;
   DesignProblem problem({scene, load, 0.0, limits, design, 1, [] { return true; }});
   const std::vector<double> x = problem.scene_variables();
-  std::vector<double> c(static_cast<std::size_t>(problem.constraint_count())), J(c.size() * x.size());
+  std::vector<double> c(problem.constraint_count()), J(c.size() * x.size());
   problem.constraints(x, c, J);
   // First link: ring 0's hole against ring 1's section, R_0 - r0_0 - r_1 - eps, both half-widths equal.
   EXPECT_NEAR(c[0] * 4.9, 4.85 - 1.10 - 1.14 - 0.3, 1e-12);
@@ -128,7 +128,7 @@ TEST(DesignConstraints, RestGapsFollowTheirLinearisation)
   const std::vector<double> x = problem.scene_variables();
   ASSERT_TRUE(problem.evaluate(x, true).ok);
   problem.accept(x);
-  const auto n = static_cast<std::size_t>(problem.constraint_count());
+  const std::size_t n = problem.constraint_count();
   std::vector<double> c0(n), c(n), J(n * x.size());
   problem.constraints(x, c0, J);
   const std::vector<double> d = {-0.3, 1.0, 0.5, -0.8};

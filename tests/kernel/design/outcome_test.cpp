@@ -53,8 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Designs, RecomputedTargets,
                                                 "recomputed, 2 of 2 are off by more, up to 4.0 %"},
                                            Case{{0.1, 0.0},
                                                 "the search met every target to within design.tolerance; "
-                                                "recomputed, 1 of 2 is off by more, up to no "
-                                                "limit at all"}));
+                                                "recomputed, 1 of 2 is off by more, up to no limit at all"}));
 
 }  // namespace
 }  // namespace hauberk::test

@@ -62,10 +62,9 @@ TEST_P(Derivatives, GradientAndHessian)
       const double h = 4e-4 / (1 << j);
       const ContactEnergy p = contact_energy(m, advanced(m, s, dy, h), pairs, settings, {1, false, false});
       const ContactEnergy q = contact_energy(m, advanced(m, s, dy, -h), pairs, settings, {1, false, false});
-      eg[static_cast<std::size_t>(j)] = std::abs((p.energy - q.energy) / (2 * h) - e.gradient.dot(dy));
+      eg[j] = std::abs((p.energy - q.energy) / (2 * h) - e.gradient.dot(dy));
       // Second derivative along the path exp(h w): its Hessian form is w^T H w.
-      eh[static_cast<std::size_t>(j)] =
-          std::abs((p.energy - 2 * e.energy + q.energy) / (h * h) - dy.dot(e.hessian * dy));
+      eh[j] = std::abs((p.energy - 2 * e.energy + q.energy) / (h * h) - dy.dot(e.hessian * dy));
     }
     const double slope = std::abs(e.gradient.dot(dy)), bend = std::abs(dy.dot(e.hessian * dy));
     largest = std::max(largest, slope);
@@ -102,7 +101,7 @@ TEST_P(Derivatives, HessianColumns)
       Vector d = Vector::Unit(m.dofs(), k);
       const Vector p = contact_energy(m, advanced(m, s, d, h), pairs, settings, {1, false, false}).gradient;
       const Vector q = contact_energy(m, advanced(m, s, d, -h), pairs, settings, {1, false, false}).gradient;
-      error[static_cast<std::size_t>(j)] = ((p - q) / (2 * h) - e.hessian.col(k)).norm();
+      error[j] = ((p - q) / (2 * h) - e.hessian.col(k)).norm();
     }
     expect_second_order(error, std::max(e.hessian.col(k).norm(), 1.0), 2e-5);
   }
@@ -137,7 +136,7 @@ TEST_P(Derivatives, ParametersAndClearance)
     }
     for (const auto& d : directions) {
       double expected = 0.0;
-      for (int k = 0; k < 3; ++k) expected += e.parameters(k, element) * d[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 3; ++k) expected += e.parameters(k, element) * d[k];
       std::array<double, 3> error{};
       for (int j = 0; j < 3; ++j) {
         const double h = 2e-3 / (1 << j);
@@ -145,13 +144,12 @@ TEST_P(Derivatives, ParametersAndClearance)
         for (int sign = 0; sign < 2; ++sign) {
           SceneSpec moved = spec;
           for (std::size_t k = 0; k < 3; ++k) {
-            moved.elements[static_cast<std::size_t>(element)].parameters[k] += (sign == 0 ? h : -h) * d[k];
+            moved.elements[element].parameters[k] += (sign == 0 ? h : -h) * d[k];
           }
           const Model mm = make_model(moved, load, 0.01);
-          v[static_cast<std::size_t>(sign)] =
-              contact_energy(mm, s, pairs, settings, {0, false, false}).energy;
+          v[sign] = contact_energy(mm, s, pairs, settings, {0, false, false}).energy;
         }
-        error[static_cast<std::size_t>(j)] = std::abs((v[0] - v[1]) / (2 * h) - expected);
+        error[j] = std::abs((v[0] - v[1]) / (2 * h) - expected);
       }
       expect_second_order(error, scale, 5e-6);
     }
@@ -165,7 +163,7 @@ TEST_P(Derivatives, ParametersAndClearance)
     const double d = (contact_energy(m, s, pairs, p, {0, false, false}).energy -
                       contact_energy(m, s, pairs, q, {0, false, false}).energy) /
                      (2 * h);
-    error[static_cast<std::size_t>(j)] = std::abs(d - e.d_clearance);
+    error[j] = std::abs(d - e.d_clearance);
   }
   expect_second_order(error, std::abs(e.d_clearance), 5e-6);
 }

@@ -36,8 +36,7 @@ TEST(Rest, NothingLinkedIsSaid)
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0],
             "nothing is linked: no ring passes through another, so no direction has a limit; check "
-            "positions, rotations and "
-            "the cell's vectors");
+            "positions, rotations and the cell's vectors");
 }
 
 TEST(Rest, RelaxationMakesRoomAndKeepsLinks)

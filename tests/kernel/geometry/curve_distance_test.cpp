@@ -12,7 +12,7 @@
 namespace hauberk::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(ClosedCurve, DerivativesAndBounds)
 {
@@ -137,7 +137,7 @@ std::vector<double> grid(const PairFrame& frame, int count)
 {
   const Probe<2> probe(frame);
   std::vector<double> out;
-  out.reserve(static_cast<std::size_t>(count * count));
+  out.reserve(count * count);
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < count; ++j) {
       const ProbePoint q = probe.at(2.0 * pi * i / count, 2.0 * pi * j / count);
@@ -177,9 +177,7 @@ TEST(CurveTubes, NothingIsNearerThanTheBoundAndNoMinimumIsMissed)
       EXPECT_LT(std::abs(v.n.dot(q.pu)) + std::abs(v.n.dot(q.pv)), 1e-9);
       EXPECT_GE(m.distance, s.lower);
     }
-    const auto at = [&f](int i, int j) {
-      return f[static_cast<std::size_t>((i + count) % count * count + (j + count) % count)];
-    };
+    const auto at = [&f](int i, int j) { return f[(i + count) % count * count + (j + count) % count]; };
     for (int i = 0; i < count; ++i) {
       for (int j = 0; j < count; ++j) {
         if (at(i, j) > threshold - 0.01) continue;

@@ -13,7 +13,7 @@
 namespace hauberk::test {
 namespace {
 
-const Vec3& point(const Facets& f, int k) { return f.points()[static_cast<std::size_t>(k)]; }
+const Vec3& point(const Facets& f, int k) { return f.points()[k]; }
 
 double volume(const Facets& f)
 {
@@ -58,11 +58,11 @@ TEST(Facets, EveryFeatureHasOneOwner)
     for (std::size_t k = 0; k < 3; ++k) {
       if (t.own_points[k] >= 0) {
         EXPECT_EQ(t.own_points[k], t.points[k]);
-        ++points[static_cast<std::size_t>(t.own_points[k])];
+        ++points[t.own_points[k]];
       }
       if (t.own_edges[k] < 0) continue;
-      ++edges[static_cast<std::size_t>(t.own_edges[k])];
-      const std::array<int, 2>& edge = f.edges()[static_cast<std::size_t>(t.own_edges[k])];
+      ++edges[t.own_edges[k]];
+      const std::array<int, 2>& edge = f.edges()[t.own_edges[k]];
       EXPECT_EQ(edge, (std::array<int, 2>{t.points[k], t.points[(k + 1) % 3]}));
     }
   }
@@ -105,7 +105,7 @@ TEST(Facets, SizeDerivatives)
                                     Facets(5.0, 0.7, 0.9 + h, 8)};
   for (int q = 0; q < 3; ++q) {
     for (int k = 0; k < static_cast<int>(f.points().size()); ++k) {
-      const Vec3 by = (point(moved[static_cast<std::size_t>(q)], k) - point(f, k)) / h;
+      const Vec3 by = (point(moved[q], k) - point(f, k)) / h;
       EXPECT_LT((by - f.size_derivative(k).col(q)).norm(), 1e-11);
     }
   }

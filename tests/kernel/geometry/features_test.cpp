@@ -27,14 +27,13 @@ double hull_distance(const std::array<Vec3, 3>& p, int np, const std::array<Vec3
     for (int mf = 1; mf < (1 << nf); ++mf) {
       std::vector<Vec3> a, b;
       for (int k = 0; k < np; ++k)
-        if ((mp >> k & 1) != 0) a.push_back(p[static_cast<std::size_t>(k)]);
+        if ((mp >> k & 1) != 0) a.push_back(p[k]);
       for (int k = 0; k < nf; ++k)
-        if ((mf >> k & 1) != 0) b.push_back(f[static_cast<std::size_t>(k)]);
+        if ((mf >> k & 1) != 0) b.push_back(f[k]);
       // Minimise |sum w a - sum v b|^2 with sum w = sum v = 1 by its equations of first order.
       const auto na = static_cast<Eigen::Index>(a.size()), n = na + static_cast<Eigen::Index>(b.size());
       Eigen::MatrixXd C(3, n), K = Eigen::MatrixXd::Zero(n + 2, n + 2);
-      for (Eigen::Index k = 0; k < n; ++k)
-        C.col(k) = k < na ? a[static_cast<std::size_t>(k)] : Vec3(-b[static_cast<std::size_t>(k - na)]);
+      for (Eigen::Index k = 0; k < n; ++k) C.col(k) = k < na ? a[k] : Vec3(-b[k - na]);
       K.topLeftCorner(n, n) = C.transpose() * C;
       for (Eigen::Index k = 0; k < n; ++k) K(k, k < na ? n : n + 1) = K(k < na ? n : n + 1, k) = 1.0;
       Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n + 2);
@@ -66,7 +65,7 @@ TEST(NearestFeatures, AgreeWithHulls)
     const NearestFeatures n = nearest_features(pair, p, f);
     const double expected = hull_distance(p, pair.p_count, f, pair.f_count);
     EXPECT_NEAR(n.distance, expected, 1e-11) << trial;
-    ++seen[static_cast<std::size_t>(n.free)];
+    ++seen[n.free];
     Vec3 on_p = Vec3::Zero(), on_f = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
       if (static_cast<int>(k) < n.p.count) on_p += n.p.weights[k] * p[k];
@@ -123,9 +122,9 @@ TEST(NearFeatures, MissNothing)
       if (nearest_features(pair, p, f).distance < range) found.insert(key_of(pair));
     });
     const auto in_f = [&](int k) -> Vec3 {
-      return bodies.pose.position + bodies.pose.rotation * P.points()[static_cast<std::size_t>(k)];
+      return bodies.pose.position + bodies.pose.rotation * P.points()[k];
     };
-    const auto of_f = [&](int k) -> Vec3 { return F.points()[static_cast<std::size_t>(k)]; };
+    const auto of_f = [&](int k) -> Vec3 { return F.points()[k]; };
     std::multiset<Key> expected;
     const auto check = [&](const FeaturePair& pair) {
       std::array<Vec3, 3> p, f;

@@ -15,7 +15,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Body torus(double R, double r0, double r1, const Vec3& center, const Vec3& axis = Vec3::UnitZ())
 {
@@ -150,7 +150,7 @@ TEST(Spine, ViewsAgreeWithGaussAndWithCircles)
   const auto polygon = [](const Spine& s, const SpineLoop& loop, const Pose& pose) {
     std::vector<Vec3> out;
     for (const auto& [piece, sense] : loop.pieces) {
-      std::vector<Vec3> corners = s.pieces[static_cast<std::size_t>(piece)];
+      std::vector<Vec3> corners = s.pieces[piece];
       if (sense < 0) std::reverse(corners.begin(), corners.end());
       for (std::size_t k = 0; k + 1 < corners.size(); ++k)
         out.emplace_back(pose.position + pose.rotation * corners[k]);

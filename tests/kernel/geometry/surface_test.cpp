@@ -35,7 +35,7 @@ double volume(const TriangleSurface& s)
 {
   double six = 0.0;
   for (const auto& t : s.triangles()) {
-    const auto at = [&s, &t](std::size_t k) { return s.points()[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&s, &t](std::size_t k) { return s.points()[t[k]]; };
     six += at(0).dot(at(1).cross(at(2)));
   }
   return six / 6.0;
@@ -194,7 +194,7 @@ TEST(TriangleSurface, LoopsGenerateTheHomologyOfATorus)
   const auto turns = [&s](const std::vector<int>& loop) {
     double around_ring = 0.0, around_bar = 0.0;
     const auto angles = [&s](int k) {
-      const Vec3 x = s.mean_distance() * s.points()[static_cast<std::size_t>(k)];
+      const Vec3 x = s.mean_distance() * s.points()[k];
       return std::array{std::atan2(x.y(), x.x()), std::atan2(x.z(), std::hypot(x.x(), x.y()) - 5.001)};
     };
     for (std::size_t k = 0; k < loop.size(); ++k) {

@@ -51,7 +51,7 @@ TEST(DirectionSphere, IsAClosedSurfaceOfUnitVectorsInTheMetric)
       std::array<Vec3, 3> x;
       for (std::size_t k = 0; k < 3; ++k) {
         ++edges[{t[k], t[(k + 1) % 3]}];
-        x[k] = metric_vector(s.directions[static_cast<std::size_t>(t[k])]);
+        x[k] = metric_vector(s.directions[t[k]]);
       }
       for (std::size_t k = 0; k < 3; ++k) {
         const double length = (x[k] - x[(k + 1) % 3]).norm();

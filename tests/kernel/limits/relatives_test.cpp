@@ -31,7 +31,7 @@ SceneSpec loose(int m, int n)
   SceneSpec s = chainmail(1, 1, 36.5, 0.7);
   for (PlacedElement& e : s.elements) e.parameters[1] = 0.7;
   s = repeated(s, m, n);
-  for (int k = 2; k < 2 * m * n; ++k) s.elements[static_cast<std::size_t>(k)].copy_of = k % 2;
+  for (int k = 2; k < 2 * m * n; ++k) s.elements[k].copy_of = k % 2;
   return s;
 }
 

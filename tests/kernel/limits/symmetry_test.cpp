@@ -51,9 +51,9 @@ void expect_group(const Model& m, const std::vector<SceneSymmetry>& group)
     EXPECT_LT((g.O.transpose() * g.O - Mat3::Identity()).norm(), 1e-14);
     std::vector<int> to = g.to;
     std::sort(to.begin(), to.end());
-    for (int i = 0; i < m.element_count(); ++i) EXPECT_EQ(to[static_cast<std::size_t>(i)], i);
+    for (int i = 0; i < m.element_count(); ++i) EXPECT_EQ(to[i], i);
     for (std::size_t i = 0; i < g.to.size(); ++i) {
-      const auto j = static_cast<std::size_t>(g.to[i]);
+      const std::size_t j = g.to[i];
       const Vec3 X = g.O * m.rest[i].position + g.t;
       EXPECT_LT((X - m.rest[j].position - m.translation(g.image[i])).norm(), symmetry_tolerance(X));
       EXPECT_LT((g.O * m.rest[i].rotation - m.rest[j].rotation * g.local[i]).norm(), 1e-13);

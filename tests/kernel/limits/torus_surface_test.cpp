@@ -173,7 +173,7 @@ TEST(Frames, LimitIsExactAndSoIsItsDerivative)
 std::pair<double, double> sum_of_gaps(const Model& m, const State& s)
 {
   constexpr double range = 0.4;
-  const auto first = [&m](int body) { return m.bodies[static_cast<std::size_t>(body)].element == 0; };
+  const auto first = [&m](int body) { return m.bodies[body].element == 0; };
   std::pair<double, double> out{0.0, 0.0};
   for (const Gap& g : find_gaps(m, s, range, true)) {
     const double left = range - g.gap;
@@ -297,11 +297,10 @@ TEST(LinksOfSurfaces, DoNotDependOnTheChoiceOfLoops)
     std::shuffle(order.begin(), order.end(), rng);
     Triangles other;
     other.points.resize(t.points.size());
-    for (std::size_t k = 0; k < order.size(); ++k)
-      other.points[static_cast<std::size_t>(order[k])] = t.points[k];
+    for (std::size_t k = 0; k < order.size(); ++k) other.points[order[k]] = t.points[k];
     for (const auto& triangle : t.triangles) {
       auto& placed = other.triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) placed[k] = order[static_cast<std::size_t>(triangle[k])];
+      for (std::size_t k = 0; k < 3; ++k) placed[k] = order[triangle[k]];
     }
     std::shuffle(other.triangles.begin(), other.triangles.end(), rng);
     EXPECT_EQ(linking_number(solid(other), {}, core, {}), 3);

@@ -30,7 +30,7 @@ std::vector<Key> one_by_one(const Model& m, const State& s, double margin, int i
   for (int i = 0; i < m.element_count(); ++i) {
     const Vec3 at = image_pose(m, s, i, {0, 0}).position;
     for (int j = i; j < m.element_count(); ++j) {
-      const double r = m.reach[static_cast<std::size_t>(i)] + m.reach[static_cast<std::size_t>(j)] + margin;
+      const double r = m.reach[i] + m.reach[j] + margin;
       for (int k = -images; k <= images; ++k) {
         for (int l = -images; l <= images; ++l) {
           if (i == j && (k < 0 || (k == 0 && l <= 0))) continue;

@@ -41,11 +41,9 @@ double smallest(const Model& m, const State& s)
 {
   double out = std::numeric_limits<double>::infinity();
   for (const ElementPair& pair : near_pairs(m, s, 0.5)) {
-    out =
-        std::min(out, separation(m.bodies[static_cast<std::size_t>(pair.i)], image_pose(m, s, pair.i, {0, 0}),
-                                 m.bodies[static_cast<std::size_t>(pair.j)],
-                                 image_pose(m, s, pair.j, pair.image), 0.0, 1e300, 0.95)
-                          .lower);
+    out = std::min(out, separation(m.bodies[pair.i], image_pose(m, s, pair.i, {0, 0}), m.bodies[pair.j],
+                                   image_pose(m, s, pair.j, pair.image), 0.0, 1e300, 0.95)
+                            .lower);
   }
   return out;
 }

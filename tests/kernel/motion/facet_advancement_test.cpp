@@ -20,8 +20,8 @@ double smallest(const Model& m, const State& s)
 {
   double out = std::numeric_limits<double>::infinity();
   for (const ElementPair& pair : near_pairs(m, s, 0.5)) {
-    const PairFrame frame(m.bodies[static_cast<std::size_t>(pair.i)], image_pose(m, s, pair.i, {0, 0}),
-                          m.bodies[static_cast<std::size_t>(pair.j)], image_pose(m, s, pair.j, pair.image));
+    const PairFrame frame(m.bodies[pair.i], image_pose(m, s, pair.i, {0, 0}), m.bodies[pair.j],
+                          image_pose(m, s, pair.j, pair.image));
     if (facets_intersect(frame)) return 0.0;
     out = std::min(out, smallest_feature_distance(frame, 0.5));
   }

@@ -24,7 +24,7 @@
 namespace hauberk::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Gradually moving states of a scene.
 class Walk {
@@ -69,22 +69,20 @@ double at_least(const GapBounds& bounds, const Model& m, int a, const Pose& pa, 
 {
   const KnownGap* known = bounds.known(a, b, image);
   if (known == nullptr) return 0.0;
-  return known->at_least(m.bodies[static_cast<std::size_t>(a)], pa, m.bodies[static_cast<std::size_t>(b)],
-                         pb);
+  return known->at_least(m.bodies[a], pa, m.bodies[b], pb);
 }
 
 double bound(const GapBounds& bounds, const Model& m, const State& s, const BodiesInImage& pair)
 {
   const auto& [a, b, image] = pair;
-  const int i = m.bodies[static_cast<std::size_t>(a)].element,
-            j = m.bodies[static_cast<std::size_t>(b)].element;
+  const int i = m.bodies[a].element, j = m.bodies[b].element;
   return at_least(bounds, m, a, image_pose(m, s, i, {}), b, image, image_pose(m, s, j, image));
 }
 
 /// Known of two bodies: one gap over all of the probe set.
 KnownGap of_all(const Model& m, int a, const Pose& pa, int b, const Pose& pb, double gap)
 {
-  const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+  const Body &A = m.bodies[a], &B = m.bodies[b];
   KnownGap known;
   known.place = second_probes(A, B) ? RelativePlace(B, pb, A, pa) : RelativePlace(A, pa, B, pb);
   known.panels = {{{pi, pi, pi, pi}, gap}};
@@ -101,7 +99,7 @@ TEST(GapBounds, FallByWhatMoves)
   const Pose pa{Vec3(0.1, 0.2, 0.3), Mat3::Identity()}, pb{Vec3(1.0, 0.4, -0.2), Mat3::Identity()};
   // The centre ring is the largest: the first two are alike, of the others the second one probes.
   for (const auto& [a, b] : {std::pair(1, 2), std::pair(0, 3)}) {
-    const Body &A = m.bodies[static_cast<std::size_t>(a)], &B = m.bodies[static_cast<std::size_t>(b)];
+    const Body &A = m.bodies[a], &B = m.bodies[b];
     ASSERT_EQ(second_probes(A, B), a == 0);
     GapBounds bounds;
     EXPECT_LE(at_least(bounds, m, a, pa, b, image, pb), 0.0);

@@ -65,8 +65,7 @@ TEST(Directions, ExcludeAnglesSensesAndDesigns)
 {
   EXPECT_EQ(
       problems_of(strains(R"("directions": [[1, 0, 0]], "directions_deg": [0], "senses": ["stretch"])")),
-      "t.json:13: /load_case/directions: directions and directions_deg are both given: expected one of "
-      "them\n"
+      "t.json:13: /load_case/directions: directions and directions_deg are both given: expected one of them\n"
       "t.json:13: /load_case/senses: directions have one sense, further along them: leave out senses, "
       "and give the opposite direction for the other one");
   EXPECT_EQ(

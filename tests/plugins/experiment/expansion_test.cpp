@@ -23,7 +23,7 @@ TEST(Expansion, RepeatsTheCellInTheOrderOfTheContract)
     for (int i = 0; i < 3; ++i) {
       for (int index = 0; index < 2; ++index) {
         const int k = (j * 3 + i) * 2 + index;
-        const PlacedElement& element = e.scene.elements[static_cast<std::size_t>(k)];
+        const PlacedElement& element = e.scene.elements[k];
         EXPECT_EQ(element.rest.position, Vec3(12.0 * i + 6.0 * index, 100.0 * j, 0.0));
         EXPECT_EQ(element.type, 0);
         EXPECT_EQ(element.parameters, (std::vector<double>{5.0, 0.7, 1.0}));

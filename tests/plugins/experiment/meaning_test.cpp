@@ -45,8 +45,7 @@ TEST(Meaning, Elements)
   EXPECT_EQ(after("\"link\": { \"shape\"",
                   "\"3/x\": { \"shape\": \"rings\", \"rings\": [{\"name\": \"a\"}] }, \"link\": { \"shape\""),
             "t.json:4: /elements/3~1x: expected a name that starts with a letter and has only letters, "
-            "digits, '_', '-' "
-            "and '.', found '3/x'");
+            "digits, '_', '-' and '.', found '3/x'");
 }
 
 TEST(Meaning, AMistakeInAShapeHidesNoOther)
@@ -77,8 +76,7 @@ TEST(Meaning, Cell)
 {
   EXPECT_EQ(after("[[12, 0], [0, 100]]", "[[12, 1], [-24, -2]]"),
             "t.json:8: /cell/vectors: expected two vectors that span the plane, found [12, 1] and [-24, -2], "
-            "which are "
-            "linearly dependent");
+            "which are linearly dependent");
   EXPECT_EQ(after("\"vectors\": [[12, 0], [0, 100]],", ""),
             "t.json:7: /cell: missing key 'vectors': expected an array of 2 arrays of 2 numbers");
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [1000, 1000], \"place\": ["),
@@ -127,8 +125,7 @@ TEST(Meaning, TaskAndLoadCase)
   EXPECT_EQ(problems_of(with(text, "\"design\": {", "\"x\": {")),
             "t.json:1: missing key 'design': task design needs it\n"
             "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
-            "'seed', "
-            "'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
+            "'seed', 'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
             "'transition', 'expect'");
 }
 
@@ -136,8 +133,7 @@ TEST(Meaning, DesignQuantityAndTargets)
 {
   EXPECT_EQ(after("\"quantity\": \"eta\"", "\"quantity\": \"curvature\""),
             "t.json:16: /design/quantity: 'curvature' needs a load case that bends; this one reports "
-            "'tensor' in the senses "
-            "stretch and compress");
+            "'tensor' in the senses stretch and compress");
   EXPECT_EQ(
       after("\"plugin\": \"plane\"", "\"plugin\": \"bend\""),
       "t.json:13: /load_case/plugin: 'bend' loads a finite patch: use cell.patch instead of cell.vectors and "
@@ -157,8 +153,7 @@ TEST(Meaning, DesignClearances)
   const std::string text = with(valid_text(), "\"tolerance\": 1e-3", "\"clearance\": 0.2");
   EXPECT_EQ(
       problems_of(with(text, "\"quantity\": \"eta\",",
-                       "\"quantity\": \"eta\", \"hole_clearance\": 0.1, "
-                       "\"rest_clearance\": 0.15,")),
+                       "\"quantity\": \"eta\", \"hole_clearance\": 0.1, \"rest_clearance\": 0.15,")),
       "t.json:16: /design/hole_clearance: expected at least solver.clearance, which is 0.2, found 0.1\n"
       "t.json:16: /design/rest_clearance: expected at least solver.clearance, which is 0.2, found 0.15");
   const Experiment experiment = read_ok(text);
@@ -185,8 +180,7 @@ TEST(Meaning, DesignVariables)
             "2000000");
   EXPECT_EQ(design("{ \"parameters\": \"count\", \"lower\": 1, \"upper\": 2 }"),
             "t.json:17: /design/variables/0/parameters: parameter 'count' of element 'link' cannot be "
-            "designed: the shape does "
-            "not depend on it smoothly");
+            "designed: the shape does not depend on it smoothly");
 }
 
 TEST(Meaning, OverlappingVariables)
@@ -197,8 +191,7 @@ TEST(Meaning, OverlappingVariables)
   EXPECT_EQ(design("{ \"parameters\": \"ring.R\", \"per\": \"all\", \"lower\": 4, \"upper\": 6 },\n"
                    "{ \"parameters\": \"ring.R\", \"per\": \"type\", \"lower\": 4, \"upper\": 6 }"),
             "t.json:18: /design/variables/1/parameters: parameter 'ring.R' of placed element 0 is already "
-            "varied by "
-            "/design/variables/0");
+            "varied by /design/variables/0");
 }
 
 TEST(Meaning, TiedElementsMustStartEqual)
@@ -208,8 +201,7 @@ TEST(Meaning, TiedElementsMustStartEqual)
   EXPECT_EQ(problems_of(text), "");
   EXPECT_EQ(problems_of(with(text, "\"lower\": 4.0", "\"per\": \"type\", \"lower\": 4.0")),
             "t.json:17: /design/variables/0/parameters: 'link/ring.R' varies elements whose values differ: "
-            "5.25 (placed element "
-            "0) and 5 (1); give them one value, or use per element");
+            "5.25 (placed element 0) and 5 (1); give them one value, or use per element");
 }
 
 TEST(Meaning, Expectations)

@@ -141,8 +141,7 @@ TEST(Structure, NumbersThatAreNotFiniteAreReportedOnce)
             "t.json:5: /elements/link/parameters/ring.R: expected a finite number, found NaN");
   EXPECT_EQ(after("[6, 0, 0]", "[6, 1e999, 0]"),
             "t.json:11: /cell/place/1/position/1: expected a finite number, found 1e999, which is beyond the "
-            "largest "
-            "double (about 1.8e308)");
+            "largest double (about 1.8e308)");
 }
 
 TEST(Structure, ProblemsStayOnOneLineEach)

@@ -118,8 +118,7 @@ TEST(PluginLibrary, Table)
             quote(bad("bad_kind")) + " is of kind 7; expected 1 (shape), 2 (load case) or 3 (optimizer)");
   EXPECT_EQ(error_of(bad("bad_id")),
             quote(bad("bad_id")) +
-                " calls itself 'something_else'; rename the file to 'something_else.so' "
-                "or change the id");
+                " calls itself 'something_else'; rename the file to 'something_else.so' or change the id");
   EXPECT_EQ(error_of(bad("null_summary")),
             quote(bad("null_summary")) +
                 ": 'summary' is null; id, version, summary, citation and fields must all be set");
@@ -128,8 +127,7 @@ TEST(PluginLibrary, Table)
                 ": 'fields' is null; id, version, summary, citation and fields must all be set");
   EXPECT_EQ(error_of(bad("no_factory")),
             quote(bad("no_factory")) +
-                " is a shape but does not set 'make_shape'; set exactly the factory "
-                "of its kind");
+                " is a shape but does not set 'make_shape'; set exactly the factory of its kind");
   EXPECT_EQ(error_of(bad("wrong_kind")),
             quote(bad("wrong_kind")) +
                 " is a load case but also sets 'make_shape'; set exactly the factory of its kind");
@@ -256,10 +254,7 @@ TEST(PluginLibrary, NotALibrary)
   fs::create_symlink("nowhere.so", folder / "c.so");
   EXPECT_EQ(error_of(folder / "c.so"),
             quote(folder / "c.so") + " is a link to 'nowhere.so', which does not exist; remove or mend it");
-  for (const std::string content : {"",
-                                    "\x7f"
-                                    "EL",
-                                    "#!/bin/sh\nexit 0\n"}) {
+  for (const std::string content : {"", "\x7fEL", "#!/bin/sh\nexit 0\n"}) {
     EXPECT_EQ(error_of(folder.file("d.so", content)),
               quote(folder / "d.so") + " is not a shared library; build it with hauberk_add_plugin");
   }
@@ -268,10 +263,8 @@ TEST(PluginLibrary, NotALibrary)
 TEST(PluginLibrary, OtherProcessor)
 {
   const TemporaryFolder folder;
-  std::string header(
-      "\x7f"
-      "ELF\x01\x02\x01",
-      7);  // 32 bits, most significant byte first
+  std::string header("\x7fELF\x01\x02\x01",
+                     7);  // 32 bits, most significant byte first
   header.resize(128, '\0');
   EXPECT_EQ(
       error_of(folder.file("a.so", header)),

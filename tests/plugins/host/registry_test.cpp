@@ -102,8 +102,7 @@ TEST_F(RegistryTest, BrokenPluginIsReportedNotPassedOver)
   fs::create_symlink("gone.so", one_ / "link.so");
   EXPECT_EQ(find_error(PluginKind::shape, "link"),
             "plugin '" + (one_ / "link.so").native() +
-                "' is a link to 'gone.so', which does not exist; remove "
-                "or mend it");
+                "' is a link to 'gone.so', which does not exist; remove or mend it");
 }
 
 /// All bad plugins in one folder: each is listed with what is wrong with it, and the good one among them

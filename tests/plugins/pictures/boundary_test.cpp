@@ -3,6 +3,7 @@
 #include "pictures/boundary.hpp"
 
 #include "document/json_text.hpp"
+#include "occurrences.hpp"
 #include "results/csv.hpp"
 #include "results/direction_json.hpp"
 #include "results/document.hpp"
@@ -14,6 +15,8 @@
 
 namespace hauberk {
 namespace {
+
+using test::occurrences;
 
 const std::vector<std::string> names{"exx", "eyy", "exy"};
 
@@ -112,7 +115,7 @@ TEST(BoundaryPly, HasEveryLimitAndTriangle)
   double volume = 0.0;
   for (const auto& f : ply.faces) {
     const auto at = [&](int k) {
-      const auto& v = ply.vertices[static_cast<std::size_t>(k)];
+      const auto& v = ply.vertices[k];
       return Vec3(v[0], v[1], v[2]);
     };
     volume += at(f[0]).dot(at(f[1]).cross(at(f[2]))) / 6.0;
@@ -134,15 +137,8 @@ TEST(BoundaryPly, LeavesOutWhatIsNotLocked)
   EXPECT_EQ(ply.vertices[3][8], 4.0) << "index among the limits";
   ASSERT_EQ(ply.faces.size(), 2U);
   for (const auto& face : ply.faces) {
-    for (const int k : face) EXPECT_EQ(ply.vertices[static_cast<std::size_t>(k)][4], 0.0);
+    for (const int k : face) EXPECT_EQ(ply.vertices[k][4], 0.0);
   }
-}
-
-std::size_t count(const std::string& text, const std::string& what)
-{
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
-  return n;
 }
 
 TEST(BoundarySvg, ShowsEveryTriangleInFourViews)
@@ -150,16 +146,16 @@ TEST(BoundarySvg, ShowsEveryTriangleInFourViews)
   RunResult run = octahedron();
   PlotLabels labels{"a <b>", "metric", "stretch", "compress", "strain"};
   std::string svg = boundary_svg(run, labels, names);
-  EXPECT_EQ(count(svg, "<polygon "), 32U);
-  EXPECT_EQ(count(svg, "a &lt;b&gt;"), 1U);
-  EXPECT_EQ(count(svg, "6 directions, 0 of them without a locked limit"), 1U);
+  EXPECT_EQ(occurrences(svg, "<polygon "), 32);
+  EXPECT_EQ(occurrences(svg, "a &lt;b&gt;"), 1);
+  EXPECT_EQ(occurrences(svg, "6 directions, 0 of them without a locked limit"), 1);
   EXPECT_EQ(svg, boundary_svg(run, labels, names));
   run.boundary->triangles.clear();
   svg = boundary_svg(run, labels, names);
-  EXPECT_EQ(count(svg, "<polygon "), 0U);
-  EXPECT_EQ(count(svg, "<circle "), 24U) << "a list is shown as dots";
+  EXPECT_EQ(occurrences(svg, "<polygon "), 0);
+  EXPECT_EQ(occurrences(svg, "<circle "), 24) << "a list is shown as dots";
   for (LimitResult& l : run.limits) l.value.reset();
-  EXPECT_EQ(count(boundary_svg(run, labels, names), "No direction has a limit to show."), 1U);
+  EXPECT_EQ(occurrences(boundary_svg(run, labels, names), "No direction has a limit to show."), 1);
 }
 
 TEST(BoundaryDocument, HoldsTheSurface)

@@ -1,4 +1,5 @@
 #include "document/json_text.hpp"
+#include "occurrences.hpp"
 #include "pictures/polar_svg.hpp"
 #include "sample_run.hpp"
 #include "tasks/sweep/sweep_results.hpp"
@@ -11,32 +12,27 @@
 namespace hauberk {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& what)
-{
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
-  return n;
-}
+using test::occurrences;
 
 TEST(PolarPlot, DesignShowsBeforeAfterAndTargets)
 {
   const std::string svg = polar_svg(test::sample_design(), {"chain <1>", "tensor & clearance 0"});
-  EXPECT_EQ(count(svg, "<path "), 6u) << "eta, stretch, compression; before and after";
-  EXPECT_EQ(count(svg, R"(r="5.00" fill="#c00000")"), 13u) << "six targets twice, and the legend";
-  EXPECT_EQ(count(svg, "chain &lt;1&gt;"), 1u);
-  EXPECT_EQ(count(svg, "tensor &amp; clearance 0"), 1u);
-  EXPECT_EQ(count(svg, "<svg "), 1u);
-  EXPECT_EQ(count(svg, "</svg>"), 1u);
+  EXPECT_EQ(occurrences(svg, "<path "), 6) << "eta, stretch, compression; before and after";
+  EXPECT_EQ(occurrences(svg, R"(r="5.00" fill="#c00000")"), 13) << "six targets twice, and the legend";
+  EXPECT_EQ(occurrences(svg, "chain &lt;1&gt;"), 1);
+  EXPECT_EQ(occurrences(svg, "tensor &amp; clearance 0"), 1);
+  EXPECT_EQ(occurrences(svg, "<svg "), 1);
+  EXPECT_EQ(occurrences(svg, "</svg>"), 1);
 }
 
 TEST(PolarPlot, ClosedCurvesOnlyWithoutHoles)
 {
   RunResult run = test::sample_run();
-  EXPECT_EQ(count(polar_svg(run, {}), " Z\""), 3u);
+  EXPECT_EQ(occurrences(polar_svg(run, {}), " Z\""), 3);
   run.profiles[4].eta.reset();
   const std::string holed = polar_svg(run, {});
-  EXPECT_EQ(count(holed, " Z\""), 2u);
-  EXPECT_EQ(count(holed, "<path "), 4u) << "eta in two halves";
+  EXPECT_EQ(occurrences(holed, " Z\""), 2);
+  EXPECT_EQ(occurrences(holed, "<path "), 4) << "eta in two halves";
 }
 
 TEST(PolarPlot, SingleDirectionIsDotsAndEmptyResultsSaySo)
@@ -44,10 +40,10 @@ TEST(PolarPlot, SingleDirectionIsDotsAndEmptyResultsSaySo)
   RunResult run = test::sample_run();
   run.profiles = {{0.0, 0.43, std::nullopt, std::nullopt}};
   const std::string svg = polar_svg(run, {});
-  EXPECT_EQ(count(svg, "<path "), 0u);
-  EXPECT_EQ(count(svg, R"(r="2.40")"), 3u) << "0 and 180 degrees, and the legend";
+  EXPECT_EQ(occurrences(svg, "<path "), 0);
+  EXPECT_EQ(occurrences(svg, R"(r="2.40")"), 3) << "0 and 180 degrees, and the legend";
   run.profiles = {{0.0, std::nullopt, std::nullopt, std::nullopt}};
-  EXPECT_EQ(count(polar_svg(run, {}), "No direction has a limit to show."), 1u);
+  EXPECT_EQ(occurrences(polar_svg(run, {}), "No direction has a limit to show."), 1);
 }
 
 TEST(PolarPlot, UnboundedDirectionsAreMarked)
@@ -56,14 +52,14 @@ TEST(PolarPlot, UnboundedDirectionsAreMarked)
   PlotLabels labels;
   labels.positive = "stretch";
   labels.negative = "compress";
-  EXPECT_EQ(count(polar_svg(run, labels), "\u221e"), 0u);
+  EXPECT_EQ(occurrences(polar_svg(run, labels), "\u221e"), 0);
   run.limits[0].sense = "stretch";
   run.limits[0].direction = Direction::at_degrees(200.0);  // the same as 20
   run.limits[0].status = LimitStatus::unbounded;
   const std::string svg = polar_svg(run, labels);
-  EXPECT_EQ(count(svg, "fill=\"#1f4e79\">\u221e</text>"), 2u) << "stretch, at 20 and 200 degrees";
-  EXPECT_EQ(count(svg, "fill=\"#111\">\u221e</text>"), 2u) << "eta";
-  EXPECT_EQ(count(svg, "(\u221e: no limit)"), 2u) << "both legends";
+  EXPECT_EQ(occurrences(svg, "fill=\"#1f4e79\">\u221e</text>"), 2) << "stretch, at 20 and 200 degrees";
+  EXPECT_EQ(occurrences(svg, "fill=\"#111\">\u221e</text>"), 2) << "eta";
+  EXPECT_EQ(occurrences(svg, "(\u221e: no limit)"), 2) << "both legends";
 }
 
 TEST(SweepPlot, RowsThatFailedAreGaps)

@@ -1,5 +1,5 @@
 #pragma once
-#include "limits/results.hpp"
+#include "design/run_result.hpp"
 #include "results/document.hpp"
 
 #include <string>

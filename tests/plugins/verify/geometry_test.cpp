@@ -14,7 +14,7 @@
 namespace hauberk::verification {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Primitive torus(double R, double r0, double r1, const Vec3& centre = Vec3::Zero(),
                 const Vec3& turn = Vec3::Zero())

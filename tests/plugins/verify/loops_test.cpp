@@ -69,7 +69,7 @@ TEST(Loops, GenerateWhatACircleThroughTheHoleIsLinkedWith)
   std::array<std::array<int, 2>, 2> seen{};
   for (std::size_t k = 0; k < 2; ++k) {
     std::vector<Vec3> loop;
-    for (const int i : loops[k]) loop.push_back(surface.points[static_cast<std::size_t>(i)]);
+    for (const int i : loops[k]) loop.push_back(surface.points[i]);
     seen[k] = {crossing_number(loop, through).value(), crossing_number(loop, axis).value()};
   }
   EXPECT_EQ(std::abs(seen[0][0] * seen[1][1] - seen[0][1] * seen[1][0]), 1);

@@ -1,6 +1,7 @@
 /// Errors, Pareto fronts, table and pictures of a chart.
 
 #include "document/json_text.hpp"
+#include "occurrences.hpp"
 #include "tasks/chart/chart_results.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 
 namespace hauberk {
 namespace {
+
+using test::occurrences;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -221,13 +224,6 @@ TEST(PrecisionChart, TableIsWhatTheDocumentSays)
   EXPECT_EQ(document.at_pointer("/counts/failed").as_int64(), 1);
 }
 
-int count(const std::string& text, const std::string& what)
-{
-  int n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
-
 TEST(PrecisionChart, PictureShowsLinesMarkersFrontAndWhatFailed)
 {
   const PrecisionChart chart = complete();
@@ -236,19 +232,19 @@ TEST(PrecisionChart, PictureShowsLinesMarkersFrontAndWhatFailed)
   EXPECT_NE(text.find("ring &lt;a&gt;"), std::string::npos);
   EXPECT_NE(text.find(">slow, but<"), std::string::npos);
   // In the legend and at the points: circles of the first method, squares of the second.
-  EXPECT_EQ(count(text, "r=\"4.00\""), 1 + 3);
-  EXPECT_EQ(count(text, "width=\"7.20\" height=\"7.20\""), 1 + 1);
-  EXPECT_EQ(count(text, "stroke-width=\"2.20\""), 1 + 3) << "rings";
-  EXPECT_EQ(count(text, "stroke-dasharray=\"8,4\""), 1) << "a line of one point is none";
+  EXPECT_EQ(occurrences(text, "r=\"4.00\""), 1 + 3);
+  EXPECT_EQ(occurrences(text, "width=\"7.20\" height=\"7.20\""), 1 + 1);
+  EXPECT_EQ(occurrences(text, "stroke-width=\"2.20\""), 1 + 3) << "rings";
+  EXPECT_EQ(occurrences(text, "stroke-dasharray=\"8,4\""), 1) << "a line of one point is none";
   // From the point with most error to the one with none, which stands at the bottom: 1e-16 to 1e-2.
   for (const char* tick : {">1e-16<", ">1e-2<", ">1e0<", ">1e1<"})
     EXPECT_NE(text.find(tick), std::string::npos) << tick;
-  EXPECT_EQ(count(text, ">1e-17<") + count(text, ">1e-1<"), 0);
-  EXPECT_EQ(count(text, "ring &lt;a&gt;, slow, but, 4: failed: lost its way, &quot;there&quot;<"), 1);
+  EXPECT_EQ(occurrences(text, ">1e-17<") + occurrences(text, ">1e-1<"), 0);
+  EXPECT_EQ(occurrences(text, "ring &lt;a&gt;, slow, but, 4: failed: lost its way, &quot;there&quot;<"), 1);
   // In the order of time: 2, 4 and 8 seconds on an axis from 1 to 10, of which 380 units are a decade.
   EXPECT_NE(text.find("<path d=\"M170.39,"), std::string::npos) << text;
   const std::string work = chart_svg(chart, PrecisionCost::evaluations, "a & b");
-  EXPECT_EQ(count(work, "stroke-width=\"2.20\""), 1 + 3);
+  EXPECT_EQ(occurrences(work, "stroke-width=\"2.20\""), 1 + 3);
   EXPECT_NE(work.find(">evaluations of closest points<"), std::string::npos);
   EXPECT_NE(work.find(">1e2<"), std::string::npos);
   EXPECT_NE(work, text);
@@ -259,7 +255,7 @@ TEST(PrecisionChart, PictureOfNothingIsWhole)
 {
   const std::string text = chart_svg(sample(), PrecisionCost::seconds, "none");
   EXPECT_TRUE(text.ends_with("</svg>\n"));
-  EXPECT_EQ(count(text, ": interrupted<"), 5);
+  EXPECT_EQ(occurrences(text, ": interrupted<"), 5);
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 

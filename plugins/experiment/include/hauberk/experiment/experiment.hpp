@@ -2,7 +2,7 @@
 /// An experiment, read, checked and expanded: everything resolved into plain types and kernel structs.
 
 #include "document/diagnostics.hpp"
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 #include "model/scene.hpp"
 
 #include <hauberk/experiment/expect.hpp>

@@ -1,4 +1,4 @@
-#include "limits/results.hpp"
+#include "limits/limit_result.hpp"
 
 namespace hauberk {
 

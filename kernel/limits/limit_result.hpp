@@ -1,6 +1,6 @@
 #pragma once
-/// Plain results, as written to results.json (design contract "hauberk-results/1"). Lengths, curvatures and
-/// forces are in file units here; conversion from scaled quantities happens where these are filled.
+/// What is told of a limit, as written to results.json (format "hauberk-results/1"). Lengths, curvatures and
+/// forces are in file units; conversion from scaled quantities happens where these are filled.
 
 #include "model/scene.hpp"
 
@@ -129,46 +129,6 @@ struct ProfilePoint {
   std::optional<double> e_s, e_c, eta;
 };
 
-struct DesignVariableResult {
-  std::string name;
-  double initial = 0.0, final = 0.0, lower = 0.0, upper = 0.0;
-  std::vector<int> elements;  ///< those whose parameter it is, ascending
-};
-
-struct DesignTargetResult {
-  double direction_deg = 0.0;
-  double target = 0.0, weight = 1.0;
-  std::optional<double> initial, provisional, recomputed;
-  bool better_state = false;
-  bool met = false;  ///< |recomputed - target| <= 5 % of |target|
-};
-
-struct DesignIterate {
-  int iteration = 0;
-  double objective = 0.0, step = 0.0, optimality = 0.0, constraint_violation = 0.0;
-  double min_gap = 0.0;  ///< smallest surface distance at the relaxed rest state
-  bool links_kept = true;
-  double seconds = 0.0;
-  std::vector<double> values;  ///< the designed quantity per target
-  /// Limits whose locked state is not the continuation of the iterate before, e.g. "30 degrees, stretch".
-  std::vector<std::string> changed;
-};
-
-struct DesignResult {
-  std::string quantity, status, message;
-  std::vector<DesignVariableResult> variables;
-  std::vector<DesignTargetResult> targets;
-  std::vector<DesignIterate> history;
-  double objective_initial = 0.0, objective = 0.0;  ///< both recomputed from rest
-  int iterations = 0;
-  long evaluations = 0;
-  double seconds = 0.0;
-  int start = 0;                               ///< which perturbed start gave the design
-  std::vector<std::pair<int, double>> starts;  ///< (start, final objective) of all
-  SceneSpec initial_scene;                     ///< rest as used, after relaxation
-  std::vector<LimitResult> initial_limits;
-};
-
 /// Indices of three limits, counter-clockwise seen from outside.
 using Triangle = std::array<int, 3>;
 
@@ -182,15 +142,6 @@ struct BoundarySurface {
   std::vector<Triangle> triangles;    ///< between neighbouring directions of a sphere; empty for a list
   double margin = 0.0;                ///< what falls short by no more is left out
   std::vector<Shortfall> shortfalls;  ///< ascending by limit, each with the furthest of such states
-};
-
-/// Everything a run produces except the resolved experiment and provenance.
-struct RunResult {
-  SceneSpec scene;  ///< rest as used, after relaxation; the final design's
-  std::vector<LimitResult> limits;
-  std::vector<ProfilePoint> profiles;
-  std::optional<DesignResult> design;
-  std::optional<BoundarySurface> boundary;  ///< when there are limits along components
 };
 
 }  // namespace hauberk

@@ -1,5 +1,6 @@
 #include "design/design_point.hpp"
 
+#include "equilibrium/relaxation.hpp"
 #include "geometry/closed_curve.hpp"
 #include "geometry/separation.hpp"
 #include "model/held_model.hpp"

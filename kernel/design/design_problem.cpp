@@ -1,5 +1,7 @@
 #include "design/design_problem.hpp"
 
+#include "equilibrium/relaxation.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <algorithm>

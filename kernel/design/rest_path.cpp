@@ -1,5 +1,6 @@
 #include "design/rest_path.hpp"
 
+#include "equilibrium/relaxation.hpp"
 #include "motion/advancement.hpp"
 
 #include <algorithm>

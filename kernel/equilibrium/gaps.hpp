@@ -1,6 +1,5 @@
 #pragma once
-/// Gaps of close pairs with their derivatives, and what is built on them: checks of the rest state and its
-/// relaxation.
+/// Gaps of close pairs with their derivatives.
 
 #include "equilibrium/contact_energy.hpp"
 
@@ -38,23 +37,5 @@ std::string pair_name(const SceneSpec& spec, const Model& model, const Gap& gap)
 
 /// "; the tightest are ...", for messages; empty where no pair is closer than one L.
 std::string tightest_pair(const SceneSpec& spec, const Model& model, const State& state);
-
-/// Outcome of `relax`.
-struct Relaxed {
-  State state;
-  bool moved = false;
-  double smallest = 0.0;        ///< smallest gap afterwards
-  double largest_motion = 0.0;  ///< L
-  std::string problem;          ///< empty when every gap reached the target and links are kept
-};
-
-/// Whether the macroscopic unknowns may move too.
-enum class Cell { fixed, free };
-
-/// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2
-/// by Levenberg-Marquardt. Elements may overlap at the start (not deeper
-/// than their tubes).
-Relaxed relax(const Model& model, const State& start, double target, Cell cell = Cell::fixed,
-              int most_iterations = 200);
 
 }  // namespace hauberk

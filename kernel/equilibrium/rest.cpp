@@ -1,6 +1,7 @@
 #include "equilibrium/rest.hpp"
 
 #include "equilibrium/gaps.hpp"
+#include "equilibrium/relaxation.hpp"
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"

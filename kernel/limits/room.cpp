@@ -1,5 +1,6 @@
 #include "limits/room.hpp"
 
+#include "equilibrium/gaps.hpp"
 #include "model/links.hpp"
 #include "numerics/parallel.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// How much room a fabric has: how far apart its linked elements can be at the same time.
 
-#include "equilibrium/gaps.hpp"
+#include "equilibrium/relaxation.hpp"
 #include "limits/limits.hpp"
 
 #include <vector>

@@ -3,6 +3,7 @@
 #include "equilibrium/rest.hpp"
 
 #include "equilibrium/gaps.hpp"
+#include "equilibrium/relaxation.hpp"
 #include "model/links.hpp"
 #include "scenes.hpp"
 

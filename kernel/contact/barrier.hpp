@@ -20,6 +20,11 @@ struct BarrierValue {
 /// Near a regular contact the gap is g0 + s^2/(2 r), and each of the three, summed or integrated, grows like
 /// ln(1/g0) and pushes with a force proportional to 1/g0. So all three are barriers in energy, their gaps
 /// fall in proportion to the stiffness, and one stage schedule serves them all.
+///
+/// b has no unit, db that of 1/g and ddb that of 1/g^2. At x = 1/4 the third has b = 27/16; the second 27/32.
+///
+/// g must be positive: below zero dimensions 0 and 1 give not-a-number, and dimension 2 a finite, negative b.
+/// Callers skip such gaps; their smallest gap tells that the state is not admissible.
 template <int dimension>
 BarrierValue barrier(double g, double g_hat)
 {

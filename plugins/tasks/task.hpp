@@ -32,6 +32,11 @@ struct ResultFile {
 /// `enter`, `files`, `summary`, `failed`. `enter` and `files` are called from within `run`, too, whenever the
 /// context saves: they give what there is. A task has to have the pure ones; the defaults of the others are
 /// those of a task that solves the limits of its experiment.
+///
+/// `enter` and `files` run in the thread that calls `save` or `save_sometimes` of the context. A task that
+/// computes in several threads holds one lock while it changes what these two read, and while it saves. They
+/// are also called after a `run` that threw ComputationError or InputError, and give what was finished. Where
+/// `resume` returns true, only `failed` is called after it.
 class TaskRun {
  public:
   explicit TaskRun(const Prepared& prepared) : prepared_(prepared) {}

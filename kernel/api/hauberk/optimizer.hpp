@@ -11,6 +11,9 @@ namespace hauberk {
 ///
 /// The objective is only defined where the path from the current accepted point is free of intersections:
 /// ask `largest_safe_step` before evaluating at x + alpha d, and call `accept` on every new iterate.
+///
+/// A problem is not thread safe: an optimizer makes one call at a time. Every x that it evaluates lies within
+/// the bounds, which stay valid and unchanged while it runs.
 class OptimizationProblem {
  public:
   virtual ~OptimizationProblem() = default;
@@ -33,11 +36,12 @@ class OptimizationProblem {
 
   /// Residuals r (size residual_count) at the point that was evaluated last, and their Jacobian, row-major
   /// residual_count x size of x: f = 1/2 sum r_i^2. False when they are not known there. Residuals may have
-  /// kinks; an optimizer sees more of them through residuals than through the gradient of their sum.
+  /// kinks; an optimizer sees more of them through residuals than through the gradient of their sum. Entry
+  /// i * n + k of the Jacobian is d r_i/d x_k, n the size of x. Neither span may be empty.
   virtual bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) = 0;
 
-  /// Inequality constraints c (size constraint_count) and their Jacobian, row-major count x size of x;
-  /// an empty span means not wanted.
+  /// Inequality constraints c (size constraint_count, never empty where there are any) and their Jacobian,
+  /// row-major count x size of x; an empty `jacobian` means that it is not wanted.
   virtual void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) = 0;
 
   /// Largest alpha in [0, 1] such that x + s d stays free of intersections for all s in [0, alpha], where x

@@ -80,6 +80,7 @@ void FunctionProblem::constraints(std::span<const double> x, std::span<double> c
 bool FunctionProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)
 {
   breaks(!is_latest(as_vector(x)), "it asked for residuals at another point than the one evaluated last");
+  breaks(r.empty() || jacobian.empty(), "it asked for residuals or their Jacobian with an empty span");
   fill(residual_functions, residual_number, as_vector(x), r, jacobian);
   return true;
 }

@@ -84,7 +84,7 @@ OutcomeCounts count_outcomes(const StabilityMap& map, std::optional<std::size_t>
   OutcomeCounts out{};
   for (const StabilityCase& c : map.cases) {
     if ((family && c.family != *family) || (method && c.method != *method)) continue;
-    ++out[c.outcome];
+    ++out[static_cast<std::size_t>(c.outcome)];
   }
   return out;
 }

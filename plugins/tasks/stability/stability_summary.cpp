@@ -12,7 +12,7 @@ constexpr std::size_t longest_reason = 160;
 std::string row(const std::string& family, const std::string& method, const OutcomeCounts& n, std::size_t w1,
                 std::size_t w2)
 {
-  const auto count = [&n](Outcome o) { return n[o]; };
+  const auto count = [&n](Outcome o) { return n[static_cast<std::size_t>(o)]; };
   std::string text =
       fmt::format("{:<{}}  {:<{}} {:>9} {:>6} {:>8} {:>7}", family, w1, method, w2, count(Outcome::verified),
                   count(Outcome::local), count(Outcome::honest_failure), count(Outcome::silent_wrong));

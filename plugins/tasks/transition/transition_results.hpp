@@ -1,6 +1,6 @@
 #pragma once
 /// What a transition experiment found: contact of two elements along a rigid motion of one of them, by
-/// several formulations.
+/// several formulations. Lengths are in the unit of the experiment.
 
 #include <hauberk/linalg.hpp>
 

@@ -4,6 +4,7 @@
 #include <scenes.hpp>
 #include "contact/body_pair.hpp"
 #include "curve_pairs.hpp"
+#include "differences.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,13 +31,6 @@ class CurveContact : public ::testing::TestWithParam<Case> {
   }
   static ContactSettings settings() { return {GetParam().formulation, 0.3, 0.01}; }
 };
-
-void expect_second_order(const std::array<double, 3>& error, double scale, double small)
-{
-  if (error[2] < small * scale) return;
-  for (std::size_t k = 0; k < 2; ++k)
-    EXPECT_NEAR(error[k] / error[k + 1], 4.0, 0.8) << error[0] << " " << error[1] << " " << error[2];
-}
 
 Couple moved(const Couple& c, const Vec9& y, double h)
 {

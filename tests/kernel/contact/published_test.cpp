@@ -2,8 +2,8 @@
 /// sizes, with active fade, at a double eigenvalue and on the way to a merge of minima.
 
 #include "contact/published.hpp"
-
 #include "contact/formulation.hpp"
+#include "differences.hpp"
 
 #include <gtest/gtest.h>
 
@@ -62,16 +62,6 @@ SideTerms terms(const Pair& p, double g_hat, double clearance, const Request& re
     add_published<2>(p.frame(), settings, request, t);
   }
   return t;
-}
-
-/// Errors of central differences at h, h/2, h/4 fall by four each, or the last is `small` (rounding).
-void expect_second_order(const std::array<double, 3>& error, double scale, double small, const char* what)
-{
-  if (error[2] < small * scale) return;
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(error[k] / error[k + 1], 4.0, 0.8)
-        << what << ": " << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
-  }
 }
 
 /// Gradient against energies, Hessian against gradients along exp(h w), in the six unknowns and in sums of

@@ -2,6 +2,7 @@
 /// primitive kinds: central differences at several step sizes must converge with second order.
 
 #include "contact/body_pair.hpp"
+#include "differences.hpp"
 #include "equilibrium/newton.hpp"
 #include "model/near_pairs.hpp"
 #include "scenes.hpp"
@@ -26,17 +27,6 @@ struct Case {
 };
 
 class Derivatives : public ::testing::TestWithParam<Case> {};
-
-/// Errors of central differences over steps h, h/2, h/4: the last must be `small`, or fall by four each.
-void expect_second_order(const std::array<double, 3>& error, double scale, double small)
-{
-  const double last = error[2] / scale;
-  if (last < small) return;
-  EXPECT_NEAR(error[0] / error[1], 4.0, 0.8)
-      << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
-  EXPECT_NEAR(error[1] / error[2], 4.0, 0.8)
-      << error[0] << " " << error[1] << " " << error[2] << " of " << scale;
-}
 
 TEST_P(Derivatives, GradientAndHessian)
 {

@@ -160,11 +160,10 @@ std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& m, bo
   return out;
 }
 
-PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double clearance)
+PreparedScene prepare_rest(const SceneSpec& spec, const Model& m)
 {
   PreparedScene out;
   out.scene = spec;
-  const Model m = make_model(spec, load, clearance);
   const State rest = rest_state(m);
   const double gap = smallest_gap(m, rest, opened);
   if (gap > touching) return out;

@@ -13,15 +13,15 @@ namespace hauberk {
 /// is. Gaps within touching distance (1e-9 L) of the clearance are fine: relaxation opens them.
 std::vector<std::string> rest_problems(const SceneSpec& spec, const Model& model, bool relax_allowed);
 
-/// Rest state as used: relaxed where gaps touch or overlap (call after `rest_problems` found nothing). Throws
-/// InputError when there is no room. Returns the scene with new rest poses, and how far elements moved (file
-/// units). Where the cell itself leaves no room (it is taut), rest stays as it is and limits start from a
-/// state whose strain gives way: `start`.
+/// Rest state as used of a scene and its model: relaxed where gaps touch or overlap (call after
+/// `rest_problems` found nothing). Throws InputError when there is no room. Returns the scene with new rest
+/// poses, and how far elements moved (file units). Where the cell itself leaves no room (it is taut), rest
+/// stays as it is and limits start from a state whose strain gives way: `start`.
 struct PreparedScene {
   SceneSpec scene;
   double moved = 0.0;
   std::optional<State> start;
 };
-PreparedScene prepare_rest(const SceneSpec& spec, const LoadCase& load, double clearance);
+PreparedScene prepare_rest(const SceneSpec& spec, const Model& model);
 
 }  // namespace hauberk

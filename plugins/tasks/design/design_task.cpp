@@ -311,7 +311,8 @@ class DesignTask final : public TaskRun {
     d.status = "interrupted";
     d.message = "the search was done (" + status + "), its limits were not yet recomputed";
     // Opens gaps that touch, as for any other scene: with rest_clearance = clearance the search closes them.
-    PreparedScene prepared = prepare_rest(run_.scene, *experiment_.load_case, experiment_.solver.clearance);
+    PreparedScene prepared = prepare_rest(
+        run_.scene, make_model(run_.scene, *experiment_.load_case, experiment_.solver.clearance));
     run_.scene = std::move(prepared.scene);
     strained_start_ = std::move(prepared.start);
     run_.limits = limits("limits after", run_.scene, [&](const std::vector<LimitResult>& so_far) {

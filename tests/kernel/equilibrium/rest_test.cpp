@@ -64,7 +64,7 @@ TEST(Rest, TouchingElementsAreOpened)
     e.parameters = {4.9, 1.2, 1.2};
     e.rest.rotation = rotation_exp(Vec3(0, 0.02, 0)) * e.rest.rotation;  // a turn makes room in the row
   }
-  const PreparedScene p = prepare_rest(scene, load, 0.0);
+  const PreparedScene p = prepare_rest(scene, make_model(scene, load, 0.0));
   const Model m = make_model(p.scene, load, 0.0);
   EXPECT_GT(smallest_gap(m, rest_state(m), 0.1), 1e-8);
 }
@@ -75,7 +75,7 @@ TEST(Rest, NoRoomIsSaid)
   SceneSpec scene = chainmail(1, 1);
   for (auto& e : scene.elements) e.parameters = {6.5, 1.4, 1.4};
   try {
-    prepare_rest(scene, load, 0.0);
+    prepare_rest(scene, make_model(scene, load, 0.0));
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("; the tightest are element "), std::string::npos)

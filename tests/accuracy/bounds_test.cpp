@@ -116,7 +116,7 @@ TEST_P(CertifiedBound, NeverExceedsTheDistance)
       d = std::min({d, dense, s[1].upper});
     }
     ++separate;
-    ++families[p.family];
+    ++families[static_cast<std::size_t>(p.family)];
     for (std::size_t r = 0; r < requests.size(); ++r) {
       if (s[r].lower > d + rounding) ++violated;
       EXPECT_LE(s[r].lower, d + rounding) << what << ", " << requests[r].what;
@@ -129,8 +129,8 @@ TEST_P(CertifiedBound, NeverExceedsTheDistance)
     }
     least.offer(s[1].lower - d, k);
     closest.offer(-d, k);
-    figures[0].by_family[p.family].add(s[0].lower / d);
-    figures[1].by_family[p.family].add(time[0]);
+    figures[0].by_family[static_cast<std::size_t>(p.family)].add(s[0].lower / d);
+    figures[1].by_family[static_cast<std::size_t>(p.family)].add(time[0]);
   }
   fmt::print(
       "{}: {} pairs apart, {} overlapping; bound above the distance {}; kernel closer than the samples {}\n",

@@ -302,7 +302,7 @@ TEST(LocalMinima, NearestOfDrawnPairs)
       }
       if (sampled_places(P, F).front().distance > p.distance + same_distance) {
         ++sampled_all;
-        ++sampled[p.family];
+        ++sampled[static_cast<std::size_t>(p.family)];
       }
     }
     fmt::print(

@@ -34,7 +34,7 @@ TEST(Sampled, NearestOfTheSampledMinima)
     EXPECT_GT(distance, exact - same_distance) << "pair " << k;
     if (distance > exact + same_distance) {
       ++further;
-      ++missed[pair.family];
+      ++missed[static_cast<std::size_t>(pair.family)];
     }
   }
   fmt::print("sampled minima: {} pairs, nearest minimum missed {}:", pairs, further);

@@ -254,7 +254,10 @@ TEST(PluginLibrary, NotALibrary)
   fs::create_symlink("nowhere.so", folder / "c.so");
   EXPECT_EQ(error_of(folder / "c.so"),
             quote(folder / "c.so") + " is a link to 'nowhere.so', which does not exist; remove or mend it");
-  for (const std::string content : {"", "\x7fEL", "#!/bin/sh\nexit 0\n"}) {
+  for (const std::string content : {"",
+                                    "\x7f"
+                                    "EL",
+                                    "#!/bin/sh\nexit 0\n"}) {
     EXPECT_EQ(error_of(folder.file("d.so", content)),
               quote(folder / "d.so") + " is not a shared library; build it with hauberk_add_plugin");
   }
@@ -263,8 +266,10 @@ TEST(PluginLibrary, NotALibrary)
 TEST(PluginLibrary, OtherProcessor)
 {
   const TemporaryFolder folder;
-  std::string header("\x7fELF\x01\x02\x01",
-                     7);  // 32 bits, most significant byte first
+  std::string header(
+      "\x7f"
+      "ELF\x01\x02\x01",
+      7);  // 32 bits, most significant byte first
   header.resize(128, '\0');
   EXPECT_EQ(
       error_of(folder.file("a.so", header)),

@@ -2,6 +2,8 @@
 #include "contact/formulation.hpp"
 #include "geometry/panel_field.hpp"
 
+#include <hauberk/solid.hpp>
+
 #include <boost/math/quadrature/gauss.hpp>
 
 #include <algorithm>
@@ -68,15 +70,26 @@ std::array<Angle, n> rule_angles(const Angle& middle, double half)
 /// Half-width of the largest panels in each probe coordinate, radians.
 constexpr double widest_panel = 0.15;
 
+/// The same of a solid, by the larger of both curvatures and by how fast the surface's changes anywhere.
+double solid_level_length(const Body& F, const FieldValue& f)
+{
+  const double bend = std::max({std::abs(f.m.k), std::abs(f.k_azimuth), 1e-300});
+  const double change = F.solid->smoothness().change * F.unit * F.unit;
+  // The change C of the curvature k along a surface lets it grow by itself over k/C.
+  const double length = 0.2 / bend;
+  return std::isfinite(change) && change > 0.0 ? std::min(length, 0.3 / std::sqrt(change)) : length;
+}
+
 /// A length over which the curvature of F's field changes little at the place of `f`: a part of
 /// the radius of curvature of the level surface, and of the arc of F's profile over which that changes, both
 /// seen from where the place is. With w = a^2 sin^2 v + b^2 cos^2 v the curvature a b/w^(3/2) of an ellipse
 /// changes over the arc w/sqrt|a^2 - b^2|: its smallest radius at a sharp end, its length along a flat side.
 double level_length(const Body& F, const FieldValue& f)
 {
+  if (F.solid) return solid_level_length(F, f);
   const double radius = 1.0 / std::max(f.m.k, 1e-300);
   double length = 0.2 * radius;
-  if (!F.is_circle_tube()) {
+  if (F.is_ellipse()) {
     const double a = F.r0 * f.m.s, b = F.r1 * f.m.c, w = a * a + b * b;
     const double eccentric = std::sqrt(std::abs(F.r0 * F.r0 - F.r1 * F.r1));
     const double closer = f.m.k * f.m.phi < 0.5 ? 1.0 / (1.0 - f.m.k * f.m.phi) : 2.0;  // 1 + kappa phi
@@ -282,7 +295,7 @@ class ArcIntegral {
   bool beyond_core_tube(const Vec3& p, double reach) const
   {
     const Body& F = *frame_.F;
-    if (F.is_circle_tube()) return false;
+    if (!F.is_ellipse()) return false;
     const double across = std::sqrt(p.x() * p.x() + p.y() * p.y()) - F.R;
     const double needed =
         settings_.g_hat + probe_.offset + settings_.clearance + std::max(F.r0, F.r1) + reach;

@@ -6,15 +6,22 @@
 
 #include <hauberk/error.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
 namespace hauberk {
 namespace {
 
-[[noreturn]] void refuse_curve(const char* what)
+/// What takes both bodies for tori.
+void refuse_others(const PairFrame& frame, const char* what)
 {
-  throw InputError(std::string(what) + " knows tori only, no tubes around curves; use arc, nearest or auto");
+  const auto torus = [](const Body& b) { return !b.curve && !b.solid; };
+  if (torus(*frame.P) && torus(*frame.F)) return;
+  const bool curve = frame.P->curve != nullptr;
+  throw InputError(fmt::format("{} knows tori only, no {}; use arc, nearest or auto", what,
+                               curve ? "tubes around curves" : "solids"));
 }
 
 /// Everything but contact of meshes takes a body for a torus, or for a tube around its curve.
@@ -32,7 +39,7 @@ void add_terms(const PairFrame& frame, const ContactSettings& settings, const Re
     case Formulation::arc:
       return add_arc<dim>(frame, settings, request, share, near, out);
     case Formulation::published:
-      if (frame.P->curve) refuse_curve("contact 'published'");
+      refuse_others(frame, "contact 'published'");
       return add_published<dim>(frame, settings, request, out);
     case Formulation::nearest:
       return add_nearest<dim>(frame, settings, request, near, out);
@@ -147,7 +154,7 @@ std::vector<ContactMinimum> contact_minima(const Body& A, const Pose& pose_a, co
 {
   const bool swapped = probe_rank(B) < probe_rank(A);
   const PairFrame frame = swapped ? PairFrame(B, pose_b, A, pose_a) : PairFrame(A, pose_a, B, pose_b);
-  if (frame.P->curve) refuse_curve("the list of contact minima");
+  refuse_others(frame, "the list of contact minima");
   refuse_surfaces(frame);
   std::vector<ContactMinimum> out = probe_dimension(frame) == 1
                                         ? minima_of<1>(frame, threshold, clearance, evaluations)

@@ -3,6 +3,7 @@
 #include "geometry/panel_field.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 
 #include <fmt/format.h>
 
@@ -82,6 +83,18 @@ void insert(std::vector<Minimum>& minima, const Minimum& m)
   minima.push_back(m);
 }
 
+/// The one of the coordinates of a folded probe's point whose v, or u of dimension 1, is in [0, pi].
+template <int dim>
+Minimum unfolded(Fold fold, Minimum m)
+{
+  double& turned = dim == 1 ? m.u : m.v;
+  turned = wrapped(turned);
+  if (turned >= 0.0) return m;
+  turned = -turned;
+  if (fold == Fold::pole) m.u = wrapped(m.u + pi);
+  return m;
+}
+
 /// Finds all minima by subdivision.
 template <int dim>
 class StationarySearch {
@@ -138,7 +151,7 @@ class StationarySearch {
     const Local l = local_of(probe_, p.q, p.f);
     // Largest curvature of the field on the panel.
     const FieldCurvature field = field_curvature(*probe_.f.F, l.f, d);
-    if (field.third < std::numeric_limits<double>::infinity()) {
+    if (field.second < std::numeric_limits<double>::infinity()) {
       const double k = field.second;
       const double uu = probe_.Lu * probe_.Lu * k + probe_.Luu;
       if constexpr (dim == 1) {
@@ -166,6 +179,12 @@ class StationarySearch {
       return;
     }
     visit_all(located_halves(probe_, p, longer_along_u(probe_, s)));
+  }
+
+  Minimum canonical(const Minimum& m) const
+  {
+    const Body& P = *probe_.f.P;
+    return P.solid && P.solid->fold() != Fold::none ? unfolded<dim>(P.solid->fold(), m) : m;
   }
 
   [[noreturn]] void give_up() const
@@ -230,7 +249,7 @@ class StationarySearch {
       l = local_at(probe_, u, 0.0);
       if (step < 1e-9 * width + 1e-15 || hi - lo < 4e-16) break;
     }
-    if (l.f.m.phi < threshold_) insert(out_, {u, 0.0, l.f.m.phi - probe_.offset});
+    if (l.f.m.phi < threshold_) insert(out_, canonical({u, 0.0, l.f.m.phi - probe_.offset}));
   }
 
   /// Dimension 2: descends from the centre by damped Newton steps to the minimum whose basin holds it.
@@ -247,7 +266,8 @@ class StationarySearch {
       double dx = -(C * gx - b * gy) / det, dy = -(A * gy - b * gx) / det;
       const double size = std::hypot(dx, dy);
       if (slope < smallest_slope || (size < 1e-12 && shift == 0.0)) {
-        if (lowest > 0.0 && l.f.m.phi < threshold_) insert(out_, {u, v, l.f.m.phi - probe_.offset});
+        if (lowest > 0.0 && l.f.m.phi < threshold_)
+          insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
         return;
       }
       if (size > 2.0 * seed_width) {
@@ -268,7 +288,7 @@ class StationarySearch {
       }
       if (!lower) {
         if (slope < 1e-10 && lowest > 0.0 && l.f.m.phi < threshold_)
-          insert(out_, {u, v, l.f.m.phi - probe_.offset});
+          insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
         return;
       }
     }
@@ -324,8 +344,12 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
       };
       const Vec6 xu = mixed(l.q.pu, true);
       // Of curves, whose speed changes along them, it is that of the place.
-      const double speed_u = frame.P->curve ? l.q.pu.norm() : probe.Lu;
-      const double speed_v = frame.difference != nullptr ? l.q.pv.norm() : probe.Lv;
+      const bool place = frame.P->curve || frame.P->solid;
+      constexpr double slowest = 1e-3;  // of a solid, whose probe stands still at poles and ends
+      const double speed_u = place ? std::max(l.q.pu.norm(), slowest * probe.Lu) : probe.Lu;
+      const double speed_v = frame.difference != nullptr ? l.q.pv.norm()
+                             : frame.P->solid            ? std::max(l.q.pv.norm(), slowest * probe.Lv)
+                                                         : probe.Lv;
       if constexpr (dim == 1) {
         if (l.huu > 0.0) out.hessian.noalias() -= (b.db / l.huu) * xu * xu.transpose();
         out.regularity = std::min(out.regularity, l.huu / (speed_u * speed_u));

@@ -1,5 +1,7 @@
 #include "contact/side_terms.hpp"
 
+#include <hauberk/solid.hpp>
+
 namespace hauberk {
 
 void SideTerms::add(const FieldValue& f, const Vec3& rho, double w1, double w2, int order)
@@ -52,6 +54,17 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
     dP[k] += w1 * f.n[k];
     dF[k] -= w1 * f.n[k];
   }
+  const auto add_field = [&] {
+    if (frame.F->solid)
+      add_solid_field(*frame.F, q.p, w1);
+    else
+      add_field_size(f, w1);
+  };
+  if (frame.P->solid) {
+    add_solid_probe(*frame.P, q, w1, {f.n.dot(frame.e1), f.n.dot(frame.e2), f.n.dot(frame.e3)});
+    add_field();
+    return;
+  }
   if (frame.P->curve) {
     add_harmonics(*frame.P->curve, q.u, w1 * Vec3(f.n.dot(frame.e1), f.n.dot(frame.e2), f.n.dot(frame.e3)),
                   curve_P);
@@ -61,7 +74,7 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
       dF[quantity_r0] -= w1;
       return;
     }
-    add_field_size(f, w1);
+    add_field();
     return;
   }
   const double nr = f.n.dot(q.radial), nz = f.n.dot(frame.e3);
@@ -76,7 +89,7 @@ void SideTerms::add_parameters(const PairFrame& frame, const FieldValue& f, cons
     dP[quantity_r0] += w1 * nr * q.cv;
     dP[quantity_r1] += w1 * nz * q.sv;
   }
-  add_field_size(f, w1);
+  add_field();
 }
 
 void SideTerms::add_field_size(const FieldValue& f, double w1)
@@ -85,6 +98,22 @@ void SideTerms::add_field_size(const FieldValue& f, double w1)
   // At the closest profile point (R + r0 c, r1 s) of F.
   dF[quantity_r0] -= w1 * f.m.nr * f.m.c;
   dF[quantity_r1] -= w1 * f.m.nz * f.m.s;
+}
+
+void SideTerms::add_solid_field(const Body& F, const Vec3& p, double w1)
+{
+  curve_F.resize(F.solid->sizes().size(), 0.0);
+  std::vector<double> d(curve_F.size());
+  F.solid->distance_sizes(F.unit * p, d);
+  for (std::size_t k = 0; k < d.size(); ++k) curve_F[k] += w1 * d[k];
+}
+
+void SideTerms::add_solid_probe(const Body& P, const ProbePoint& q, double w1, const Vec3& n)
+{
+  curve_P.resize(P.solid->sizes().size(), 0.0);
+  std::vector<double> d(curve_P.size());
+  P.solid->probe_sizes({q.u.c, q.u.s, q.v.c, q.v.s}, n, d);
+  for (std::size_t k = 0; k < d.size(); ++k) curve_P[k] += w1 * d[k];
 }
 
 std::vector<double> SideTerms::geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,

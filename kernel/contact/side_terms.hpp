@@ -36,7 +36,8 @@ struct SideTerms {
   double d_clearance = 0.0;
   /// d energy / d(position in the element frame, R, r0, r1) of P and F; positions in F's frame here.
   std::array<double, primitive_dofs> dP{}, dF{};
-  /// d energy / d(harmonics of the core), in the frame of its body; empty for other bodies.
+  /// d energy / d(harmonics of the core, or sizes of a solid), in the frame of its body; empty for other
+  /// bodies.
   std::vector<double> curve_P, curve_F;
   double min_gap = std::numeric_limits<double>::infinity();
   double regularity = std::numeric_limits<double>::infinity();  ///< see `relative_curvature` in nearest
@@ -62,6 +63,10 @@ struct SideTerms {
 
  private:
   void add_field_size(const FieldValue& f, double w1);
+  /// At the point p of F's frame.
+  void add_solid_field(const Body& F, const Vec3& p, double w1);
+  /// w1n: w1 times the field's gradient in P's frame.
+  void add_solid_probe(const Body& P, const ProbePoint& q, double w1, const Vec3& n);
   static std::vector<double> geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,
                                       const std::vector<double>& curve);
 };

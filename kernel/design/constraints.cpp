@@ -33,8 +33,8 @@ DesignConstraints::DesignConstraints(std::shared_ptr<const DesignScene> scene, c
 
 void DesignConstraints::add_hole(const Model& model, int ring, int thread)
 {
-  // Nor how wide the hole of a tube around a curve is; links and rest gaps hold it open.
-  if (model.bodies[ring].curve) return;
+  // Nor how wide the hole of a tube around a curve, or of a solid, is; links and rest gaps hold it open.
+  if (model.bodies[ring].curve || model.bodies[ring].solid || model.bodies[thread].solid) return;
   for (const int k : {quantity_r0, quantity_r1}) {
     const bool known = std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) {
       return h.ring == ring && h.thread == thread && h.size_index == k;

@@ -43,6 +43,10 @@ std::shared_ptr<DesignPoint> DesignProblem::start_point() const
   p->x = scene_variables();
   p->spec = scene_->scene;
   p->model = make_model(scene_->scene, scene_->load, scene_->clearance);
+  if (std::any_of(p->model.bodies.begin(), p->model.bodies.end(),
+                  [](const Body& b) { return b.solid != nullptr; }))
+    throw InputError(
+        "designs of solids are not known: nothing bounds how far their surfaces move on the way");
   const double target = scene_->rest_target(p->model);
   const Relaxed r = relax(p->model, rest_state(p->model), target);
   if (!r.problem.empty())

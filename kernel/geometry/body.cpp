@@ -2,6 +2,7 @@
 
 #include "geometry/closed_curve.hpp"
 
+#include <hauberk/solid.hpp>
 #include <hauberk/triangle_surface.hpp>
 
 #include <algorithm>
@@ -24,6 +25,14 @@ void set_core(Body& body, std::shared_ptr<const ClosedCurve> curve, double r)
   body.curve = std::move(curve);
 }
 
+bool same_solid(const Body& a, const Body& b)
+{
+  if (!a.solid || !b.solid) return !a.solid && !b.solid;
+  return a.solid == b.solid || (a.solid->kind() == b.solid->kind() && a.solid->sizes() == b.solid->sizes());
+}
+
+int solid_probe_dimension(const Body& body) { return body.solid->probe_dimension(); }
+
 Body make_body(const Primitive& primitive, int element, int index, double length)
 {
   Body b;
@@ -42,6 +51,11 @@ Body make_body(const Primitive& primitive, int element, int index, double length
   if (primitive.surface) {
     b.surface = primitive.surface;
     b.bound = b.R * b.surface->bound();
+  }
+  if (primitive.solid) {
+    b.solid = primitive.solid;
+    b.unit = length;
+    b.bound = b.R;
   }
   b.reach = b.center.norm() + b.bound;
   return b;

@@ -10,6 +10,7 @@ namespace hauberk {
 
 class ClosedCurve;
 class Facets;
+class Solid;
 class TriangleSurface;
 
 /// A primitive of a placed element, lengths scaled by L, placed in the element frame.
@@ -31,17 +32,28 @@ struct Body {
   /// Of a triangle mesh: its surface is R times this; else null. Then r0 = r1 is its thickness, which says
   /// how thin it is and nothing else, and only `facets` know where it is.
   std::shared_ptr<const TriangleSurface> surface;
+  /// What is known of a solid, in lengths of its own, `unit` of which are one of the body's; else null. Then
+  /// R is its radius and r0 = r1 its thickness, which say how large it is and nothing else.
+  std::shared_ptr<const Solid> solid;
+  double unit = 1.0;
 
   bool is_circle_tube() const { return kind == PrimitiveKind::circle_tube; }
+  bool is_ellipse() const { return kind == PrimitiveKind::revolved_ellipse; }
   /// A ball of radius r0.
   bool is_point() const { return R == 0.0; }
   /// Radius of a ball about `center` that holds the core
-  /// (of a triangle mesh, which has none, the mesh).
+  /// (of a triangle mesh, which has none, the mesh; of a solid all of it).
   double core_bound() const { return curve ? bound - r0 : surface ? bound : R; }
 };
 
 /// Gives a body the core `curve` (scaled lengths) of a tube of radius r.
 void set_core(Body& body, std::shared_ptr<const ClosedCurve> curve, double r);
+
+/// True of two solids of one kind with the same sizes, and of two bodies that are none.
+bool same_solid(const Body& a, const Body& b);
+
+/// 1 or 2.
+int solid_probe_dimension(const Body& body);
 
 /// Scales a primitive by 1/length.
 Body make_body(const Primitive& primitive, int element, int index, double length);

@@ -1,5 +1,7 @@
-#include "geometry/closed_curve.hpp"
+#include "geometry/core.hpp"
 #include "geometry/spine.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,16 +24,9 @@ constexpr double same_point = 1e-3;
 /// Point of a core with its derivatives, element frame.
 CurvePoint core_at(const Body& b, double u)
 {
-  const Angle angle(u);
-  if (b.curve) {
-    const CurvePoint p = b.curve->at(angle);
-    return {b.center + b.axes * p.x, b.axes * p.xu, b.axes * p.xuu};
-  }
-  const Vec3 radial = b.R * (angle.c * b.axes.col(0) + angle.s * b.axes.col(1));
-  return {b.center + radial, b.R * (angle.c * b.axes.col(1) - angle.s * b.axes.col(0)), -radial};
+  const CurvePoint p = core_at(b, Angle(u));
+  return {b.center + b.axes * p.x, b.axes * p.xu, b.axes * p.xuu};
 }
-
-int degree(const Body& b) { return b.curve ? static_cast<int>(b.curve->size()) : 1; }
 
 /// Parts of a set of cells, each joined with the neighbours that are named to it.
 class Parts {
@@ -107,7 +102,7 @@ double nearest_cores(const Body& A, const Body& B, double& u, double& v)
 
 std::vector<Join> joins_of_tubes(const Body& A, const Body& B)
 {
-  const int na = points_per_degree * degree(A), nb = points_per_degree * degree(B);
+  const int na = points_per_degree * core_degree(A), nb = points_per_degree * core_degree(B);
   std::vector<Vec3> a, b;
   for (int i = 0; i < na; ++i) a.push_back(core_at(A, full_turn * i / na).x);
   for (int j = 0; j < nb; ++j) b.push_back(core_at(B, full_turn * j / nb).x);
@@ -119,8 +114,7 @@ std::vector<Join> joins_of_tubes(const Body& A, const Body& B)
   for (int i = 0; i < na; ++i)
     for (int j = 0; j < nb; ++j) distance[cell(i, j)] = (a[i] - b[j]).norm();
   const double together = A.r0 + B.r0 + touching;
-  const double slack =
-      0.5 * full_turn * ((A.curve ? A.curve->first() : A.R) / na + (B.curve ? B.curve->first() : B.R) / nb);
+  const double slack = 0.5 * full_turn * (core_bounds(A).first / na + core_bounds(B).first / nb);
   Parts parts(distance.size());
   for (int i = 0; i < na; ++i) {
     for (int j = 0; j < nb; ++j) {
@@ -166,9 +160,11 @@ double angle_about(const Body& torus, const Vec3& x)
 Vec3 solid_point(const Body& b, double u, double s, double w)
 {
   const CurvePoint p = core_at(b, u);
-  if (!b.curve)
+  if (!b.curve && !b.solid)
     return p.x + s * (b.r0 * std::cos(w) * (p.x - b.center) / b.R + b.r1 * std::sin(w) * b.axes.col(2));
-  const Vec3 t = p.xu.normalized();
+  const double speed = p.xu.norm();
+  const Vec3 t =
+      speed > 0.0 ? Vec3(p.xu / speed) : Vec3(Vec3::UnitZ());  // a segment stands still at its ends
   Eigen::Index least = 0;
   t.cwiseAbs().minCoeff(&least);
   const Vec3 n = t.cross(Vec3::Unit(least)).normalized();
@@ -205,7 +201,7 @@ double lowest_level(const Body& b, const Body& field, std::array<double, 3>& at,
 std::vector<Join> joins_by_points(const Body& b, const Body& field)
 {
   constexpr int rings = 3, around = 12;  // of a section
-  const int along = points_per_degree * degree(b);
+  const int along = points_per_degree * core_degree(b);
   const auto cell = [=](int i, int ring, int k) {
     return static_cast<std::size_t>(((i + along) % along * rings + ring) * around + (k + around) % around);
   };
@@ -244,7 +240,7 @@ std::vector<Join> joins_by_points(const Body& b, const Body& field)
   });
   // A level changes along a way by no more than the way over the smaller half-axis.
   const double slack = full_turn *
-                       ((b.curve ? b.curve->first() : b.R + b.r0) / along +
+                       ((is_round(b) && !b.is_circle_tube() ? core_bounds(b).first : b.R + b.r0) / along +
                         std::max(b.r0, b.r1) * (1.0 / around + 1.0 / full_turn)) /
                        std::min(field.r0, field.r1);
   each([&](int i, int ring, int k) {
@@ -269,9 +265,10 @@ std::vector<Join> joins(const Body& A, const Body& B)
 {
   if (A.surface || B.surface) return {};
   if ((A.center - B.center).norm() > A.bound + B.bound + touching) return {};
-  const auto round = [](const Body& b) { return b.curve != nullptr || b.is_circle_tube(); };
-  if (round(A) && round(B)) return joins_of_tubes(A, B);
-  if (!B.curve) return joins_by_points(A, B);
+  if (is_round(A) && is_round(B)) return joins_of_tubes(A, B);
+  if ((A.solid && !is_round(A)) || (B.solid && !is_round(B)))
+    throw InputError("an element of several primitives has a solid that is no tube: its loops are not known");
+  if (!B.curve && !B.solid) return joins_by_points(A, B);
   std::vector<Join> out = joins_by_points(B, A);
   for (Join& j : out) std::swap(j.u, j.v);
   return out;

@@ -171,7 +171,7 @@ void some_fields_at(const Body& body, std::span<const PointField> points)
 
 void fields_at(const Body& body, std::span<const PointField> points)
 {
-  if (body.is_point() || body.kind == PrimitiveKind::circle_tube) {
+  if (!body.is_ellipse()) {
     for (const PointField& at : points) *at.f = field_at(body, *at.p);
     return;
   }

@@ -47,13 +47,15 @@ inline MeridianDistance meridian_distance(const Body& body, double rho, double z
   return {d - body.r0, x / d, z / d, 1.0 / d, x / d, z / d};
 }
 
-/// Distance field of a body, evaluated at a point in the body's own frame.
+/// Distance field of a body, evaluated at a point in the body's own frame. Of a solid only `phi` and `k` of
+/// `m` are known, and `meridian` is the first principal direction.
 struct FieldValue {
   MeridianDistance m;
-  double rho = 0.0;
-  Vec3 n;         ///< gradient of phi
-  Vec3 meridian;  ///< unit, perpendicular to n in the meridian plane; curvature m.k
-  Vec3 azimuth;   ///< unit, perpendicular to both; curvature k_azimuth
+  double rho = 0.0;    ///< the field's Hessian is nowhere below -1/(rho - d) within d of the point
+  double doubt = 0.0;  ///< by how much the distance may be less than phi: of solids, beyond their reach
+  Vec3 n;              ///< gradient of phi
+  Vec3 meridian;       ///< unit, perpendicular to n in the meridian plane; curvature m.k
+  Vec3 azimuth;        ///< unit, perpendicular to both; curvature k_azimuth
   double k_azimuth = 0.0;
 };
 
@@ -79,8 +81,12 @@ inline FieldValue field_from_meridian(const MeridianDistance& m, double rho, con
 /// Distance of a point from the axis; not zero.
 inline double radius_of(const Vec3& p) { return std::max(std::sqrt(p.x() * p.x() + p.y() * p.y()), 1e-300); }
 
+/// The field of a solid.
+FieldValue solid_field(const Body& body, const Vec3& p);
+
 inline FieldValue field_at(const Body& body, const Vec3& p)
 {
+  if (body.solid) return solid_field(body, p);
   if (body.is_point()) return ball_field(body.r0, p);
   const double rho = radius_of(p);
   return field_from_meridian(meridian_distance(body, rho, p.z()), rho, p);

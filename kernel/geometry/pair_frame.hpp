@@ -35,9 +35,9 @@ struct PairFrame {
 struct ProbePoint {
   Vec3 p, pu, pv;
   Vec3 on_p;    ///< point that rides on P; p itself, unless it is a difference
-  Vec3 radial;  ///< outward in the ring's plane of P, at angle u; of a curve -p_uu/R
+  Vec3 radial;  ///< outward in the ring's plane of P, at angle u; of a curve -p_uu/R; of solids not known
   Vec3 pvv;     ///< of differences only
-  Angle u, v;   ///< of curves only
+  Angle u, v;   ///< of curves and solids only
   double cv = 0.0, sv = 0.0;
 };
 
@@ -57,6 +57,10 @@ struct Probe {
   double frequency = 1.0;  ///< how much faster than on a torus the probe set turns
 
   explicit Probe(const PairFrame& frame);
+  /// Of a solid.
+  void set_bounds();
+  void locate_on_solid(const Angle& u, const Angle& v, ProbePoint& q) const;
+  SecondDerivatives solid_second(const ProbePoint& q, const Vec3& n) const;
   ProbePoint at(const Angle& u, const Angle& v) const;
   ProbePoint at(double u, double v) const { return at(Angle(u), dim == 1 ? Angle() : Angle(v)); }
   SecondDerivatives second(const ProbePoint& q, const Vec3& n) const;
@@ -78,7 +82,9 @@ template <int dim>
 Probe<dim>::Probe(const PairFrame& frame) : f(frame)
 {
   const Body& b = *f.P;
-  if (b.curve) {
+  if (b.solid) {
+    set_bounds();
+  } else if (b.curve) {
     Lu = b.curve->first();
     Luu = b.curve->second();
     Luuu = b.curve->third();
@@ -108,6 +114,10 @@ ProbePoint Probe<dim>::at(const Angle& u, const Angle& v) const
 {
   const Body& b = *f.P;
   ProbePoint q;
+  if (b.solid) {
+    locate_on_solid(u, v, q);
+    return q;
+  }
   if (b.curve) {
     const CurvePoint c = core(u);
     q.p = q.on_p = c.x;
@@ -147,6 +157,7 @@ template <int dim>
 SecondDerivatives Probe<dim>::second(const ProbePoint& q, const Vec3& n) const
 {
   const Body& P = *f.P;
+  if (P.solid) return solid_second(q, n);
   const double nr = n.dot(q.radial);
   if constexpr (dim == 1) {
     return {-P.R * nr};
@@ -180,7 +191,11 @@ inline std::array<Panel, 2> halves(const Panel& s, bool along_u)
 
 /// Which body of a pair probes the other: the one of the lower rank. A curve always does, as its field has no
 /// closed form; a surface does only where both are.
-inline int probe_rank(const Body& b) { return b.curve ? 0 : b.is_circle_tube() ? 1 : 2; }
+inline int probe_rank(const Body& b)
+{
+  if (b.solid) return solid_probe_dimension(b) == 1 ? 2 : 4;
+  return b.curve ? 0 : b.is_circle_tube() ? 1 : 3;
+}
 
 /// True where of two bodies the second one probes the first: of equal kinds the smaller ring, as the field of
 /// the larger one is smooth around it, while a ring that is threaded through a small one runs along its axis,
@@ -194,6 +209,7 @@ inline bool second_probes(const Body& a, const Body& b)
 /// Dimension of the probe set of a frame.
 inline int probe_dimension(const PairFrame& frame)
 {
+  if (frame.P->solid) return solid_probe_dimension(*frame.P);
   if (frame.P->curve) return frame.difference != nullptr ? 2 : 1;
   return frame.P->is_circle_tube() ? 1 : 2;
 }

@@ -19,6 +19,11 @@ inline FieldCurvature curvature_bounds(double k, double ks, double rho)
   return {std::max(k, 1.0 / rho), ks + c * (k * k + k / rho + 1.0 / (rho * rho))};
 }
 
+/// The same of a solid, from what is known of its surface: where nothing is beyond its reach t, level
+/// surfaces at the distance phi bend by k/(1 + k phi), at most 1/(t - phi) the concave way, and with the
+/// change C of the surface's normal curvature along geodesics |D^3 phi| <= C/(1 + k phi)^3 + c k^2 (above).
+FieldCurvature solid_curvature(const Body& F, const FieldValue& f, double d);
+
 /// Bounds over all points within `d` of the point where `f` was evaluated.
 ///
 /// In the meridian half-plane, with the normal n and the tangent t of the level curve, D^2 phi = k t t^T and
@@ -34,6 +39,7 @@ inline FieldCurvature curvature_bounds(double k, double ks, double rho)
 /// largest where w^3 = 5/4 a b phi: far from a sharp edge the field is smoother than the edge.
 inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double d)
 {
+  if (F.solid) return solid_curvature(F, f, d);
   constexpr double unknown = std::numeric_limits<double>::infinity();
   const double rho = f.rho - d;
   if (!(rho > 0.0)) return {unknown, unknown};
@@ -124,9 +130,13 @@ struct PanelSize {
   double first, second, third;
 };
 
+/// Of a part of a solid's probe.
+PanelSize solid_panel_size(const Body& P, const Panel& s);
+
 template <int dim>
 PanelSize panel_size(const Probe<dim>& probe, const Panel& s)
 {
+  if (probe.f.P->solid) return solid_panel_size(*probe.f.P, s);
   PanelSize r{probe.Lu * s.hu, probe.Luu * s.hu * s.hu, probe.Luuu * s.hu * s.hu * s.hu};
   if constexpr (dim == 2) {
     r.first += probe.Lv * s.hv;
@@ -202,6 +212,18 @@ double curved_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q
   return f.m.phi + least_to_second_order(probe, s, q, f) - third_order(field, panel_size(probe, s));
 }
 
+/// The field as if its level surfaces were flat. With rho_min as in taylor_bound(),
+///   phi(x) >= phi_mid + n . (x - x_mid) - |x - x_mid|^2/(2 rho_min),
+/// whatever else is known of its curvature, so what paths do to n . (x - x_mid) may be expanded exactly. Of a
+/// convex solid nothing is lost where curvature jumps.
+inline FieldValue flattened(const FieldValue& f)
+{
+  FieldValue flat = f;
+  flat.m.k = flat.k_azimuth = 0.0;
+  return flat;
+}
+inline constexpr FieldCurvature flat_curvature{0.0, 0.0};
+
 /// What is known of the field over a panel.
 struct PanelBound {
   double value = 0.0;  ///< phi at the centre
@@ -215,14 +237,19 @@ PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint
                        double needed)
 {
   const double gu = f.n.dot(q.pu), gv = dim == 2 ? f.n.dot(q.pv) : 0.0;
-  PanelBound r{f.m.phi, taylor_bound(probe, s, f.m.phi, f.rho, gu, gv)};
+  PanelBound r{f.m.phi, taylor_bound(probe, s, f.m.phi, f.rho, gu, gv) - f.doubt};
   if (r.bound >= needed || f.m.phi < needed) return r;
   const double d = panel_size(probe, s).first;
   const auto raise = [&](const FieldValue& at, const FieldCurvature& field) {
     if (field.third < std::numeric_limits<double>::infinity())
       r.bound = std::max(r.bound, curved_bound(probe, s, q, at, field));
   };
-  if (!probe.f.F->is_circle_tube()) {
+  if (probe.f.F->solid && f.rho > d) {
+    const double bent = 0.5 * d * d / (f.rho - d);
+    r.bound = std::max(r.bound, curved_bound(probe, s, q, flattened(f), flat_curvature) - bent - f.doubt);
+    if (r.bound >= needed) return r;
+  }
+  if (probe.f.F->is_ellipse()) {
     const RolledField rolled(*probe.f.F, f);
     raise(rolled.f, rolled.curvature(d));
     if (r.bound >= needed) return r;

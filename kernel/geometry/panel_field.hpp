@@ -30,7 +30,7 @@ constexpr std::size_t most_together = 4;  ///< fields that are looked at in one 
 /// The field of a body for these panels, at most `most_together`, whose places `q` are known.
 inline void fill_fields(const Body& F, std::span<PanelField> panels)
 {
-  if (F.is_point() || F.is_circle_tube()) {
+  if (!F.is_ellipse()) {
     for (PanelField& p : panels) p.f = field_at(F, p.q.p);
     return;
   }

@@ -1,11 +1,12 @@
 #include "geometry/separation.hpp"
 
-#include "geometry/closed_curve.hpp"
+#include "geometry/core.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/panel_field.hpp"
 #include "geometry/spine.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 
 #include <algorithm>
 #include <array>
@@ -90,15 +91,14 @@ Separation bound_over_panels(const PairFrame& frame, double clearance, double en
 std::vector<Vec3> core_polygon(const Body& body, const Pose& pose, double near)
 {
   // A chord over h radians of a curve is |x_uu| h^2/8 from it at most.
-  const double second = body.curve ? body.curve->second() : body.R;
+  const double second = core_bounds(body).second;
   const int count = std::max(6, static_cast<int>(std::ceil(2.0 * pi / std::sqrt(8.0 * near / second))));
   const Frame frame = world_frame(body, pose);
   std::vector<Vec3> corners;
   corners.reserve(count);
   for (int i = 0; i < count; ++i) {
     const Angle u(2.0 * pi * i / count);
-    const Vec3 local = body.curve ? body.curve->at(u).x : Vec3(body.R * u.c, body.R * u.s, 0.0);
-    corners.emplace_back(frame.center + frame.axes * local);
+    corners.emplace_back(frame.center + frame.axes * core_at(body, u).x);
   }
   return corners;
 }
@@ -155,6 +155,30 @@ int linking_of_meshes(const Body& A, const Pose& pose_a, const Body& B, const Po
   return divisor;
 }
 
+/// Closed polygons inside of a body that is no mesh: what a closed curve outside of it is linked with, it is
+/// linked with one of them.
+std::vector<std::vector<Vec3>> core_polygons(const Body& body, const Pose& pose)
+{
+  constexpr double within = 0.4;  // of the thickness
+  if (!body.solid || is_round(body)) return {core_polygon(body, pose, within * std::min(body.r0, body.r1))};
+  const Frame frame = world_frame(body, pose);
+  std::vector<std::vector<Vec3>> out = body.solid->cores();
+  for (std::vector<Vec3>& core : out)
+    for (Vec3& x : core) x = frame.center + frame.axes * (x / body.unit);
+  return out;
+}
+
+/// As linking_of_meshes().
+int linking_of_cores(const Body& A, const Pose& pose_a, const Body& B, const Pose& pose_b)
+{
+  if (ball_gap(A, pose_a, B, pose_b, 0.0) > 0.0) return 0;
+  const auto a = core_polygons(A, pose_a), b = core_polygons(B, pose_b);
+  int divisor = 0;
+  for (const std::vector<Vec3>& p : a)
+    for (const std::vector<Vec3>& q : b) divisor = std::gcd(divisor, linking_of_polygons(p, q));
+  return divisor;
+}
+
 }  // namespace
 
 double gap_rounding(const PairFrame& frame)
@@ -203,6 +227,7 @@ int linking_number(const Body& A, const Pose& pose_a, const Body& B, const Pose&
       throw InputError("links of triangle meshes are those of facets: set solver.contact to \"mesh\"");
     return linking_of_meshes(A, pose_a, B, pose_b);
   }
+  if (A.solid || B.solid) return linking_of_cores(A, pose_a, B, pose_b);
   if (A.curve || B.curve) return linking_of_curves(A, pose_a, B, pose_b);
   // In B's frame the disc is z = 0, rho < R_B. The core of A is a + R (cos u e1 + sin u e2), so
   // z(u) = a_z + R h cos(u - u0) with h = hypot(e1_z, e2_z).

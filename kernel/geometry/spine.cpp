@@ -1,6 +1,6 @@
 #include "geometry/spine.hpp"
 
-#include "geometry/closed_curve.hpp"
+#include "geometry/core.hpp"
 #include "geometry/facets.hpp"
 
 #include <Eigen/Geometry>
@@ -32,14 +32,14 @@ double from_cut(double u)
 Vec3 core_point(const Body& b, double u)
 {
   const Angle angle(u);
-  return b.center + b.axes * (b.curve ? b.curve->at(angle).x : Vec3(b.R * angle.c, b.R * angle.s, 0.0));
+  return b.center + b.axes * core_at(b, angle).x;
 }
 
 /// Corners from u to u + length along a core, both ends included. A chord over h radians is |x_uu| h^2/8 from
 /// its arc at most.
 std::vector<Vec3> arc(const Body& b, double u, double length)
 {
-  const double second = b.curve ? b.curve->second() : b.R;
+  const double second = core_bounds(b).second;
   const double most = std::min(1.0, std::sqrt(8.0 * within * std::min(b.r0, b.r1) / second));
   const int count = std::max(1, static_cast<int>(std::ceil(length / most)));
   std::vector<Vec3> out;

@@ -2,6 +2,7 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/shape.hpp>
+#include <hauberk/solid.hpp>
 #include <hauberk/triangle_surface.hpp>
 
 #include <fmt/format.h>
@@ -59,6 +60,8 @@ std::string defect(const Primitive& primitive)
       !(Q.determinant() > 0.0)) {
     return "has axes that are no rotation";
   }
+  if ((primitive.kind == PrimitiveKind::solid) != (primitive.solid != nullptr))
+    return primitive.solid ? "has a solid, but is none" : "is a solid without one";
   for (const double s : primitive.size) {
     if (!std::isfinite(s) || s <= 0.0) return "has a size that is not finite and positive";
   }
@@ -77,6 +80,13 @@ std::string defect(const Primitive& primitive)
 
 }  // namespace
 
+int geometric_dofs(const Primitive& primitive)
+{
+  const std::size_t further =
+      primitive.solid ? primitive.solid->sizes().size() : harmonic_dofs * primitive.curve.size();
+  return primitive_dofs + static_cast<int>(further);
+}
+
 std::vector<Primitive> Shape::primitives(std::span<const double> p) const
 {
   check_parameters(do_parameters(), p);
@@ -87,6 +97,10 @@ std::vector<Primitive> Shape::primitives(std::span<const double> p) const
     if (!primitive.curve.empty()) primitive.size[0] = mean_radius(primitive.curve);
     if (primitive.surface)
       primitive.size[1] = primitive.size[2] = primitive.R() * primitive.surface->thickness();
+    if (primitive.solid) {
+      const double thickness = primitive.solid->thickness();
+      primitive.size = {primitive.solid->radius(), thickness, thickness};
+    }
     const std::string what = defect(primitive);
     if (!what.empty()) throw PluginError("shape: primitive '" + primitive.name + "' " + what);
   }

@@ -83,10 +83,17 @@ bool carries_mesh(const Body& a, const Body& b, const Mat3& S)
   return a.surface ? same_surface(*a.surface, *b.surface) : !a.curve || same_harmonics(*a.curve, *b.curve);
 }
 
+/// Nor is anything known of a solid's own symmetry.
+bool carries_solid(const Body& a, const Body& b, const Mat3& S)
+{
+  return (S * a.axes - b.axes).norm() <= same_geometry && same_solid(a, b);
+}
+
 bool carries(const Body& a, const Body& b, const Mat3& S)
 {
   if (!same_sizes(a, b) || (S * a.center - b.center).norm() > same_geometry) return false;
   if (a.facets || b.facets) return carries_mesh(a, b, S);
+  if (a.solid || b.solid) return carries_solid(a, b, S);
   if (a.curve) return same_curve(*a.curve, *b.curve, b.axes.transpose() * S * a.axes);
   if (a.is_point() && same_length(a.r0, a.r1)) return true;  // a ball
   const Vec3 axis = S * a.axes.col(2);
@@ -124,8 +131,8 @@ bool same_invariants(const std::vector<std::array<double, 5>>& a, const std::vec
   });
 }
 
-/// Whether the body is a torus, whose axis says how it lies; balls, curves and meshes have none.
-bool has_axis(const Body& b) { return !b.curve && !b.surface && !b.is_point(); }
+/// Whether the body is a torus, whose axis says how it lies; balls, curves, meshes and solids have none.
+bool has_axis(const Body& b) { return !b.curve && !b.surface && !b.solid && !b.is_point(); }
 
 /// How two bodies lie to each other, as a number that no isometry changes, seen from the first.
 double mutual(const Body& a, const Frame& at_a, const Body& b, const Frame& at_b)

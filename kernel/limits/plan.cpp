@@ -20,6 +20,7 @@ constexpr double tight_range = 0.3;  ///< L: farther pairs are not listed
 Reduction reduction(const Body& a, const Body& b)
 {
   if (a.facets || b.facets) return Reduction::meshes;
+  if (a.solid || b.solid) return Reduction::solids;
   if (a.curve && b.curve) return Reduction::two_curves;
   if (a.curve || b.curve) return Reduction::curve_and_torus;
   if (a.is_circle_tube() && b.is_circle_tube()) return Reduction::two_circles;
@@ -33,7 +34,7 @@ bool spins(const Model& m, std::size_t element)
   for (int k = m.first_body[element]; k < m.first_body[element + 1]; ++k) {
     const Body& b = m.bodies[k];
     const Vec3 axis = first.axes.col(2);
-    if (b.curve || b.surface || b.axes.col(2).cross(axis).norm() > 1e-12 ||
+    if (b.curve || b.surface || b.solid || b.axes.col(2).cross(axis).norm() > 1e-12 ||
         (b.center - first.center).cross(axis).norm() > 1e-12)
       return false;
   }

@@ -17,6 +17,7 @@ enum class Reduction {
   curve_and_torus,     ///< the curve's coordinate searched in the torus's field
   two_circles,         ///< one angle searched, the other in closed form
   circle_and_surface,  ///< one angle searched in the field of a revolved ellipse
+  solids,              ///< the probe of one searched in the field of the other, at least one of them a solid
   two_surfaces         ///< two angles of one surface searched in the field of the other
 };
 

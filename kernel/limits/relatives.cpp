@@ -65,6 +65,7 @@ bool same_body(const Body& a, const Body& b)
       std::hypot(a.R - b.R, a.r0 - b.r0, a.r1 - b.r1) > same || (a.center - b.center).norm() > same ||
       (a.axes - b.axes).norm() > same)
     return false;
+  if (a.solid || b.solid) return same_solid(a, b);
   if (!a.curve) return true;
   return std::ranges::equal(
       a.curve->harmonics(), b.curve->harmonics(),

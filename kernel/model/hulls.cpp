@@ -11,12 +11,13 @@
 namespace hauberk {
 namespace {
 
-/// Support function of a body, the largest d . x, or slightly more; of a triangle mesh that of a ball.
+/// Support function of a body, the largest d . x, or slightly more; of a triangle mesh and of a solid that of
+/// a ball.
 double support(const Body& b, const Pose& pose, const Vec3& d)
 {
   const Frame f = world_frame(b, pose);
   const Vec3 local = f.axes.transpose() * d;
-  if (b.surface) return f.center.dot(d) + b.bound * d.norm();
+  if (b.surface || b.solid) return f.center.dot(d) + b.bound * d.norm();
   if (!b.curve) {
     const double across = std::hypot(local.x(), local.y());
     return f.center.dot(d) + b.R * across + std::hypot(b.r0 * across, b.r1 * local.z());

@@ -5,6 +5,7 @@
 #include "model/links.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -164,6 +165,8 @@ std::vector<std::array<int, 2>> linked_elements(const Model& m)
 
 std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 {
+  if (b.solid)
+    throw InputError("contact \"mesh\" knows no solids: use another solver.contact, or the shape \"mesh\"");
   if (b.surface) return std::make_shared<const Facets>(*b.surface, b.R);
   if (b.curve) return std::make_shared<const Facets>(*b.curve, b.r0, count);
   return std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
@@ -173,6 +176,7 @@ std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 std::vector<double> mesh_key(const Body& b)
 {
   std::vector<double> key{b.R, b.r0, b.r1};
+  if (b.solid) key.insert(key.end(), b.solid->sizes().begin(), b.solid->sizes().end());
   if (!b.curve) return key;
   for (const Harmonic& h : b.curve->harmonics()) {
     key.insert(key.end(), h.c.begin(), h.c.end());

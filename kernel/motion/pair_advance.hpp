@@ -251,7 +251,7 @@ class PairAdvance {
     const Panel& s = p.s;
     const ProbePoint& q = p.q;
     const FieldValue& f = p.f;
-    const double g = gap_at(probe, p);
+    const double g = gap_at(probe, p) - f.doubt;
     const double travel = speed_ * tau;
     const PanelSize size = panel_size(probe, s);
     const double d = size.first;
@@ -269,15 +269,18 @@ class PairAdvance {
       if (g - slope - time - angular_ * d * tau - 0.5 * second >= target_) return Verdict::holds;
     }
     const PanelSize path = path_size(size, tau);
-    const auto stays = [&](const FieldValue& of, const FieldCurvature& field) {
-      const double left = g - lost(motion, of, field, path, tau);
+    const auto stays = [&](const FieldValue& of, const FieldCurvature& field, double bent = 0.0) {
+      const double left = g - bent - lost(motion, of, field, path, tau);
       if (left < target_) return false;
       const double least = least_to_second_order(probe, s, q, of);
       if (left + least - mixed(q, of, motion, s, tau) < target_) return false;
-      bound = std::max(bound, g + least - third_order(field, size));
+      bound = std::max(bound, g + least - third_order(field, size) - bent);
       return true;
     };
-    if (!frame_.F->is_circle_tube()) {
+    const FieldValue flat = flattened(f);
+    if (frame_.F->solid && rho > 0.0 && stays(flat, flat_curvature, 0.5 * path.first * path.first / rho))
+      return Verdict::holds;
+    if (frame_.F->is_ellipse()) {
       const RolledField rolled(*frame_.F, f);
       if (stays(rolled.f, rolled.curvature(path.first))) return Verdict::holds;
     }
@@ -286,7 +289,10 @@ class PairAdvance {
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
     const PanelSize moved = path_size({}, tau);
-    if (g - std::min(alone, travel) < target_ &&
+    const bool flat_holds =
+        frame_.F->solid && rho > 0.0 &&
+        g - lost(motion, flat, flat_curvature, moved, tau) - 0.5 * moved.first * moved.first / rho >= target_;
+    if (!flat_holds && g - std::min(alone, travel) < target_ &&
         g - lost(motion, f, field_curvature(*frame_.F, f, moved.first), moved, tau) < target_)
       return Verdict::too_long;
     return s.hu < smallest_panel || given_up() ? Verdict::too_long : Verdict::too_wide;

@@ -1,5 +1,6 @@
 #include "results/json_parts.hpp"
 
+#include <hauberk/solid.hpp>
 #include <hauberk/triangle_surface.hpp>
 
 #include <Eigen/Geometry>
@@ -46,6 +47,12 @@ json::object primitive_json(const Primitive& primitive, Surfaces& surfaces)
   out["kind"] = name_of(primitive.kind);
   out["parameters"] = {
       {"R", number(primitive.R())}, {"r0", number(primitive.r0())}, {"r1", number(primitive.r1())}};
+  if (primitive.solid) {
+    out["solid"] = primitive.solid->kind();
+    json::object& sizes = out["parameters"].emplace_object();
+    const std::vector<std::string> names = primitive.solid->size_names();
+    for (std::size_t k = 0; k < names.size(); ++k) sizes[names[k]] = number(primitive.solid->sizes()[k]);
+  }
   out["position"] = vector_json(primitive.position);
   out["quaternion"] = quaternion_json(primitive.rotation);
   if (primitive.surface) out["surface"] = surfaces.number(primitive.surface);

@@ -60,6 +60,8 @@ std::string words(Reduction reduction)
     case Reduction::circle_and_surface:
       return "distance of a circle to a revolved ellipse: one angle searched, point-ellipse in the meridian "
              "plane";
+    case Reduction::solids:
+      return "the probe of one searched in the distance field of the other; a solid's are its plugin's";
     case Reduction::two_surfaces:
       break;
   }

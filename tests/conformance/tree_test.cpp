@@ -30,6 +30,12 @@ HAUBERK_CONFORMANCE_TESTS(ClosedTubeKnot, folder + "closed_tube.so",
                           R"({ "shape": "closed_tube", "curve": "knot" })");
 HAUBERK_CONFORMANCE_TESTS(ClosedTubeFourier, folder + "closed_tube.so",
                           R"({ "shape": "closed_tube", "curve": "fourier" })");
+HAUBERK_CONFORMANCE_TESTS(StrutFrameOctahedron, folder + "strut_frame.so",
+                          R"({ "shape": "strut_frame", "polyhedron": "octahedron",
+                               "parameters": { "size": 10, "r": 0.5 } })");
+HAUBERK_CONFORMANCE_TESTS(StrutFrameListed, folder + "strut_frame.so",
+                          R"({ "shape": "strut_frame", "nodes": [[0, 0, 0], [2, 0, 0], [1, 3, 1]],
+                               "struts": [[0, 1], [1, 2], [2, 0]], "parameters": { "size": 1, "r": 0.1 } })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicEquation12, folder + "in_plane_periodic.so",
                           R"({ "measure": "equation_12", "hold": [] })");

@@ -11,6 +11,7 @@
 
 namespace hauberk {
 
+class Solid;
 class TriangleSurface;
 
 /// One design parameter of a shape. Lengths are in the unit of the experiment file.
@@ -40,6 +41,8 @@ enum class PrimitiveKind {
   /// 1, so R is the mean distance of its points from `position`. Contact "mesh" knows it, and nothing else.
   /// The kernel sets size[1] = size[2] to R times the surface's thickness.
   triangle_mesh,
+  /// What `solid` says, by its own sizes. The kernel sets size to its radius and, twice, to its thickness.
+  solid,
 };
 
 /// Its name in results.
@@ -54,6 +57,8 @@ inline const char* name_of(PrimitiveKind kind)
       return "curve_tube";
     case PrimitiveKind::triangle_mesh:
       return "triangle_mesh";
+    case PrimitiveKind::solid:
+      return "solid";
   }
   return "";
 }
@@ -72,6 +77,7 @@ struct Primitive {
   std::array<double, 3> size{};      ///< R, r0, r1
   std::vector<Harmonic> curve;       ///< of a curve tube: k = 1, 2, ...; its mean point is `position`
   std::shared_ptr<const TriangleSurface> surface;  ///< of a triangle mesh; else null
+  std::shared_ptr<const Solid> solid;              ///< of a solid; else null
 
   double R() const { return size[0]; }
   double r0() const { return size[1]; }
@@ -85,15 +91,12 @@ enum SizeQuantity : int { quantity_R = 3, quantity_r0 = 4, quantity_r1 = 5 };
 /// Number of those of a harmonic of its curve: c (3), then s (3).
 inline constexpr int harmonic_dofs = 6;
 
-/// All geometric quantities of a primitive, harmonics last.
-inline int geometric_dofs(const Primitive& primitive)
-{
-  return primitive_dofs + harmonic_dofs * static_cast<int>(primitive.curve.size());
-}
+/// All geometric quantities of a primitive; harmonics, or the sizes of a solid, last.
+int geometric_dofs(const Primitive& primitive);
 
-/// d(position, size, curve)/d(parameters), row-major geometric_dofs x parameter count. Rotations of
-/// primitives do not depend on parameters. The row of R of a curve tube is not used, nor are
-/// those of r0 and r1 of a triangle mesh.
+/// d(position, size, curve or sizes of a solid)/d(parameters), row-major geometric_dofs x parameter count.
+/// Rotations of primitives do not depend on parameters. The row of R of a curve tube is not used, nor are
+/// those of r0 and r1 of a triangle mesh, nor the three of a solid's `size`.
 using PrimitiveJacobian = std::vector<double>;
 
 /// A parametric element: a union of primitives. Immutable after construction, so all calls are thread safe.
@@ -107,9 +110,9 @@ class Shape {
   const std::vector<ParameterInfo>& parameters() const { return do_parameters(); }
 
   /// Primitives at parameters p (lengths in file units). Number, kind-independent names and order must not
-  /// depend on p, nor must the number of harmonics or the surface of a triangle mesh. A primitive that is a
-  /// circle_tube for r0 == r1 may change its kind with p. Throws InputError naming the parameter when p is
-  /// inadmissible (for instance r0 >= R).
+  /// depend on p, nor must the number of harmonics, the surface of a triangle mesh or the kind of a solid. A
+  /// primitive that is a circle_tube for r0 == r1 may change its kind with p. Throws InputError naming the
+  /// parameter when p is inadmissible (for instance r0 >= R).
   std::vector<Primitive> primitives(std::span<const double> p) const;
 
   /// Jacobian of each primitive's (position, size, curve) with respect to p.

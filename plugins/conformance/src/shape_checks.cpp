@@ -2,6 +2,7 @@
 
 #include "checks.hpp"
 #include "differences.hpp"
+#include "solid_checks.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -149,7 +150,7 @@ void jacobians(Trial& trial)
           return quantities(shape.primitives(p).at(i));
         };
         for (const Deviation& wrong : deviations(moved, column, point.margin[k]))
-          fail("d({} of '{}')/d {} at {} = {:.6g}: {}", quantity_name(wrong.component), here[i].name,
+          fail("d({} of '{}')/d {} at {} = {:.6g}: {}", quantity_name(here[i], wrong.component), here[i].name,
                shape.parameters()[k].name, shape.parameters()[k].name, point.p[k], text_of(wrong));
       }
     }
@@ -196,10 +197,13 @@ void scaling(Trial& trial)
       for (std::size_t i = 0; i < std::min(small.size(), large.size()); ++i) {
         const Values a = quantities(small[i]), b = quantities(large[i]);
         const double largest = factor * std::max(small[i].position.norm(), small[i].R());
-        for (std::size_t row = 0; row < std::min(a.size(), b.size()); ++row)
+        // Sizes of a solid may have any unit; its distances are lengths.
+        const std::size_t rows = small[i].solid ? primitive_dofs : std::min(a.size(), b.size());
+        if (small[i].solid && large[i].solid) require_scaled(small[i], large[i], factor, trial.random);
+        for (std::size_t row = 0; row < rows; ++row)
           require(std::abs(b[row] - factor * a[row]) <= rounding * largest,
                   "with all lengths times {}, {} of '{}' goes from {:.12g} to {:.12g}; expected {:.12g}",
-                  factor, quantity_name(row), small[i].name, a[row], b[row], factor * a[row]);
+                  factor, quantity_name(small[i], row), small[i].name, a[row], b[row], factor * a[row]);
       }
       ++compared;
     }

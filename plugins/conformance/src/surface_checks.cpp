@@ -7,6 +7,7 @@
 #include "geometry/body.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
+#include "solid_checks.hpp"
 
 #include <hauberk/triangle_surface.hpp>
 
@@ -87,6 +88,7 @@ std::vector<Station> stations(const Primitive& primitive, int count)
 /// Points of the surface in the primitive's frame, n stations of n points.
 std::vector<Vec3> surface_points(const Primitive& primitive, int n)
 {
+  if (primitive.solid) return solid_points(*primitive.solid, n);
   std::vector<Vec3> out;
   out.reserve(n * n);
   for (const Station& s : stations(primitive, n)) {
@@ -215,6 +217,10 @@ void check_surfaces(Trial& trial)
     for (const Primitive& primitive : object.shape->primitives(draw_point(*object.shape, trial).p)) {
       if (primitive.surface) {
         check_triangles(primitive, trial);
+        continue;
+      }
+      if (primitive.solid) {
+        check_solid(primitive, trial.random);
         continue;
       }
       const double exact = exact_volume(primitive);

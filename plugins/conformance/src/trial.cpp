@@ -2,6 +2,7 @@
 
 #include <hauberk/error.hpp>
 #include <hauberk/host/factories.hpp>
+#include <hauberk/solid.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,10 @@ std::vector<double> quantities(const Primitive& primitive)
   out.insert(out.end(), primitive.size.begin(), primitive.size.end());
   // What the kernel sets has no row of a Jacobian.
   if (primitive.surface) out[4] = out[5] = 0.0;
+  if (primitive.solid) {
+    out[3] = out[4] = out[5] = 0.0;
+    out.insert(out.end(), primitive.solid->sizes().begin(), primitive.solid->sizes().end());
+  }
   if (primitive.curve.empty()) return out;
   out[3] = 0.0;
   for (const Harmonic& h : primitive.curve) {
@@ -157,10 +162,11 @@ std::optional<std::string> refused(const Shape& shape, const std::vector<double>
   return std::nullopt;
 }
 
-std::string quantity_name(std::size_t row)
+std::string quantity_name(const Primitive& primitive, std::size_t row)
 {
   constexpr const char* names[] = {"position x", "position y", "position z", "size 0", "size 1", "size 2"};
   if (row < std::size(names)) return names[row];
+  if (primitive.solid) return "the solid's " + primitive.solid->size_names().at(row - primitive_dofs);
   const std::size_t harmonic = (row - primitive_dofs) / harmonic_dofs,
                     at = (row - primitive_dofs) % harmonic_dofs;
   return fmt::format("{} {} of harmonic {}", at < 3 ? "cosine" : "sine", "xyz"[at % 3], harmonic + 1);

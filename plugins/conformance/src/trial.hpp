@@ -43,10 +43,11 @@ class Trial {
 
 // ----- shapes -----
 
-/// The numbers of a primitive that the rows of its Jacobian belong to: position, then size.
+/// The numbers of a primitive that the rows of its Jacobian belong to: position, size, then harmonics or the
+/// sizes of a solid. Those that the kernel sets are 0.
 std::vector<double> quantities(const Primitive& primitive);
 /// Their names.
-std::string quantity_name(std::size_t row);
+std::string quantity_name(const Primitive& primitive, std::size_t row);
 
 /// Parameters that the shape accepts, also when each of them is moved by +-margin[k]: around the defaults, or
 /// around the parameters of the setup. `margin` is 0.05 of the range that is drawn from. A Failure that tells

@@ -115,6 +115,8 @@ Primitive read_torus(const json::value& v, const std::vector<std::shared_ptr<con
   out.name = text(member(v, "name", where), where + "/name");
   out.place = read_place(v, where);
   const std::string kind = text(member(v, "kind", where), where + "/kind");
+  if (kind == "solid")
+    throw Malformed(where + "/kind: solids are not known here; their states are not checked");
   if (kind != "circle_tube" && kind != "revolved_ellipse" && kind != "curve_tube" && kind != "triangle_mesh")
     throw Malformed(
         where + "/kind: circle_tube, revolved_ellipse, curve_tube or triangle_mesh expected, found " + kind);

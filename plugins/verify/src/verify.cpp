@@ -130,6 +130,25 @@ void check_unknown_load(const json::value& results, const std::string& prefix, c
   work.lines.push_back(check_scene(check, work.tolerances, work.record));
 }
 
+/// Whether an element of the scene has a solid, of which a plugin alone knows where its surface is.
+bool has_solids(const json::value& scene, const std::string& where)
+{
+  const std::string at = where + "/elements";
+  for (const json::value& element : array(member(scene, "elements", where), at))
+    for (const json::value& primitive : array(member(element, "primitives", at), at + "/primitives"))
+      if (text(member(primitive, "kind", at), at + "/kind") == "solid") return true;
+  return false;
+}
+
+/// Nothing of a scene with solids is checked.
+void skip_solids(const std::string& prefix, const Work& work)
+{
+  const char* why = "the surfaces of solids are known to their plugins alone";
+  for (const char* part : {"/scene", "/limits", "/profiles", "/boundary", "/design", "/experiment"})
+    work.record.skip(prefix + part, why);
+  work.lines.push_back({true, fmt::format("{}/scene: {}", prefix, why), false});
+}
+
 /// One document's limits, profiles and scene; `prefix` is its place in the file.
 void check_scene_and_limits(const json::value& results, const std::string& prefix, const Work& work)
 {
@@ -141,6 +160,7 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
     return check_unknown_load(results, prefix, unknown.what(), work);
   }
   setting.where = prefix + "/experiment";
+  if (has_solids(member(results, "scene", prefix), prefix + "/scene")) return skip_solids(prefix, work);
   const Scene scene = read_placed_scene(member(results, "scene", prefix), prefix, setting);
   check_length(scene, scene.length, prefix + "/scene");
   const auto limits =

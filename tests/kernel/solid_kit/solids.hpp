@@ -65,10 +65,11 @@ struct PlainTorus {
   static std::vector<std::vector<Vec3>> cores(const double* q) { return Torus::cores(q); }
 };
 
-/// Points within r of the segment from -h to h on the axis z; curvature jumps where the cylinder meets the caps.
+/// Points within r of the segment from -h to h on the axis z; curvature jumps where the cylinder meets the
+/// caps.
 ///
-/// Of the chart's height 2 cos v the part beyond [-1, 1] is the sine e of the latitude on a cap, where the cosine is
-/// sqrt(1 - e^2) = sin v sqrt(2 (1 + |e|)/(1 + |cos v|)), which is smooth at the poles.
+/// Of the chart's height 2 cos v the part beyond [-1, 1] is the sine e of the latitude on a cap, where the
+/// cosine is sqrt(1 - e^2) = sin v sqrt(2 (1 + |e|)/(1 + |cos v|)), which is smooth at the poles.
 struct Capsule {
   static constexpr const char* kind = "test_capsule";
   static constexpr std::array size_names{"h", "r"};

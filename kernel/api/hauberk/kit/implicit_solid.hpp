@@ -1,0 +1,217 @@
+#pragma once
+/// A solid made of an author's chart and field; see author.hpp for what is written, solid.hpp for what it
+/// gives.
+
+#include <hauberk/kit/reach.hpp>
+#include <hauberk/kit/steepness.hpp>
+
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+namespace hauberk::kit {
+
+/// A value that is made by the first call that asks for it, in any thread.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(const Make& make) const
+  {
+    std::call_once(once_, [&] { value_.emplace(make()); });
+    return *value_;
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::optional<T> value_;
+};
+
+template <class Author>
+class ImplicitSolid final : public Solid {
+  using Say = Statements<Author>;
+  using Surface = Chart<Author, false>;
+  using Probe = Chart<Author, Say::has_core>;
+
+ public:
+  /// Throws std::invalid_argument unless there is one finite size for each name.
+  explicit ImplicitSolid(std::vector<double> sizes) : sizes_(std::move(sizes))
+  {
+    if (sizes_.size() != Say::sizes)
+      throw std::invalid_argument(std::string(Author::kind) + ": number of sizes");
+    for (const double x : sizes_)
+      if (!std::isfinite(x))
+        throw std::invalid_argument(std::string(Author::kind) + ": a size is not finite");
+    // The field's scale where lengths are compared with rounding; no bound is taken from it.
+    for (int k = 0; k < 16; ++k)
+      scale_ = std::max(scale_, chart_point<Author>(turn(2.4 * k), turn(1.7 * k + 0.3), q()).norm());
+  }
+
+  std::string kind() const override { return Author::kind; }
+  std::vector<std::string> size_names() const override
+  {
+    return {Author::size_names.begin(), Author::size_names.end()};
+  }
+  const std::vector<double>& sizes() const override { return sizes_; }
+  double radius() const override { return surface().largest_distance(); }
+  double thickness() const override
+  {
+    if constexpr (Say::has_core)
+      return offset();
+    else
+      return std::min(radius(), 1.0 / curvature().convex);
+  }
+
+  int probe_dimension() const override { return Probe::dimension; }
+  double offset() const override
+  {
+    if constexpr (Say::has_core)
+      return Author::template radius<double>(q());
+    else
+      return 0.0;
+  }
+  Fold fold() const override { return Say::fold; }
+
+  ProbeDerivatives probe(const ProbeAngles& at) const override
+  {
+    const auto x =
+        Probe::template jet<2>(Turn<double>{at.cos_u, at.sin_u}, Turn<double>{at.cos_v, at.sin_v}, q());
+    const auto vector = [&](std::size_t m, double factor) {
+      return Vec3(x[0].c[m] * factor, x[1].c[m] * factor, x[2].c[m] * factor);
+    };
+    const Vec3 none = Vec3::Zero();
+    if constexpr (Say::has_core)
+      return {vector(0, 1.0), vector(1, 1.0), none, vector(2, 2.0), none, none};
+    else
+      return {vector(0, 1.0), vector(1, 1.0), vector(2, 1.0), vector(3, 2.0), vector(4, 1.0), vector(5, 2.0)};
+  }
+
+  ProbeBounds probe_bounds(double at_u, double at_v, double half_u, double half_v) const override
+  {
+    if constexpr (Say::has_core) {
+      const auto make = [&] { return ChartBounds<Probe>(q()); };
+      return core_.get(make).over(at_u, at_v, half_u, half_v);
+    } else {
+      return surface().over(at_u, at_v, half_u, half_v);
+    }
+  }
+
+  Vec3 surface_point(const ProbeAngles& at) const override
+  {
+    return chart_point<Author>({at.cos_u, at.sin_u}, {at.cos_v, at.sin_v}, q());
+  }
+
+  SolidDistance distance(const Vec3& x) const override
+  {
+    const FieldAt f = regular_field<Author>(x, q(), scale_);
+    if constexpr (Say::field_is_distance) {
+      SolidDistance s = level_surface(f);
+      s.distance = s.at_least = f.value;
+      return s;
+    } else {
+      const Foot foot = FootSearch<Author>(x, q(), scale_).from(f);
+      if (!foot.found) return from_field(x, f);
+      SolidDistance s = parallel_surface(x, foot.y, FieldAt(field_jet<Author, 2>(foot.y, q())));
+      // Inside, any point of the surface bounds the depth; outside, a foot nearer than the reach is the
+      // nearest.
+      const bool certain = s.distance <= 0.0 || s.distance < reach();
+      s.at_least = certain ? s.distance : std::min(s.distance, least_outside(x, f));
+      return s;
+    }
+  }
+
+  SolidSmoothness smoothness() const override
+  {
+    return smoothness_.get([&] {
+      return SolidSmoothness{curvature().convex, reach(), change_bound<Author>(q())};
+    });
+  }
+
+  /// Of the implicit surface f(y, q) = 0 the distance changes by (df/dq)/|grad f| at the foot.
+  void distance_sizes(const Vec3& x, std::span<double> out) const override
+  {
+    Vec3 y = x;
+    FieldAt f = regular_field<Author>(x, q(), scale_);
+    if constexpr (!Say::field_is_distance) {
+      const Foot foot = FootSearch<Author>(x, q(), scale_).from(f);
+      if (foot.found) y = foot.y, f = FieldAt(field_jet<Author, 2>(y, q()));
+    }
+    using J = Jet<double, Say::sizes, 1>;
+    const auto sizes = size_jets();
+    const J value = Author::template field<J>({J(y.x()), J(y.y()), J(y.z())}, sizes.data());
+    for (std::size_t k = 0; k < Say::sizes; ++k) out[k] = value.slope(k) / f.steep;
+  }
+
+  void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override
+  {
+    using J = Jet<double, Say::sizes, 1>;
+    const auto sizes = size_jets();
+    const Turn<J> u{J(at.cos_u), J(at.sin_u)}, v{J(at.cos_v), J(at.sin_v)};
+    const Point<J> x = Probe::at(u, v, sizes.data());
+    J moves = x[0] * n.x() + x[1] * n.y() + x[2] * n.z();
+    if constexpr (Say::has_core) moves -= Author::template radius<J>(sizes.data());
+    for (std::size_t k = 0; k < Say::sizes; ++k) out[k] = moves.slope(k);
+  }
+
+  std::vector<std::vector<Vec3>> cores() const override { return Author::cores(q()); }
+
+ private:
+  const double* q() const { return sizes_.data(); }
+
+  const CurvatureBounds& curvature() const
+  {
+    return curvature_.get([&] { return curvature_bounds<Author>(q()); });
+  }
+  double reach() const
+  {
+    return reach_.get([&] { return ReachSearch<Author>(q(), curvature().concave).bound(); });
+  }
+  const ChartBounds<Surface>& surface() const
+  {
+    return surface_.get([&] { return ChartBounds<Surface>(q()); });
+  }
+
+  std::array<Jet<double, Say::sizes, 1>, Say::sizes> size_jets() const
+  {
+    std::array<Jet<double, Say::sizes, 1>, Say::sizes> list;
+    for (std::size_t k = 0; k < Say::sizes; ++k)
+      list[k] = Jet<double, Say::sizes, 1>::variable(sizes_[k], static_cast<int>(k));
+    return list;
+  }
+
+  /// The distance to first order of the field, where no foot was found.
+  SolidDistance from_field(const Vec3& x, const FieldAt& f) const
+  {
+    SolidDistance s = level_surface(f);
+    s.distance = s.at_least = f.value / f.steep;
+    if (f.value >= 0.0) {
+      s.at_least = std::min(least_outside(x, f), s.distance);
+    } else {
+      // No point inside is deeper than the ball that holds the surface is wide.
+      s.at_least = -(radius() + x.norm());
+      s.distance = std::max(s.distance, s.at_least);
+    }
+    return s;
+  }
+
+  /// A lower bound of the distance at a point outside: from that of the ball that holds the surface, and from
+  /// the field, which is not steeper than `steepness` on the way to the nearest point.
+  double least_outside(const Vec3& x, const FieldAt& f) const
+  {
+    const double ball = radius(),
+                 steepest = steepness_.get([&] { return steepness<Author>(q(), 2.0 * ball); });
+    const double by_field = x.cwiseAbs().maxCoeff() <= 2.0 * ball ? f.value / steepest : 0.0;
+    return std::max(std::max(0.0, x.norm() - ball), by_field);
+  }
+
+  std::vector<double> sizes_;
+  double scale_ = 0.0;
+  Lazy<ChartBounds<Surface>> surface_;
+  Lazy<ChartBounds<Probe>> core_;
+  Lazy<CurvatureBounds> curvature_;
+  Lazy<double> reach_;
+  Lazy<SolidSmoothness> smoothness_;
+  Lazy<double> steepness_;
+};
+
+}  // namespace hauberk::kit

@@ -1,0 +1,265 @@
+#include "solid_checks.hpp"
+
+#include "verdict.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hauberk::conformance {
+namespace {
+
+using std::numbers::pi;
+/// Of distances, relative to the solid's radius: what an iteration leaves.
+constexpr double rounding = 1e-9;
+/// Of central differences with the step below.
+constexpr double coarse = 1e-5;
+constexpr double step = 1e-4;
+constexpr int samples = 40;
+
+ProbeAngles angles(double u, double v) { return {std::cos(u), std::sin(u), std::cos(v), std::sin(v)}; }
+
+/// Everything of one solid that is compared with the rest of it.
+class SolidCheck {
+ public:
+  SolidCheck(const Primitive& primitive, Random& random)
+      : name_(primitive.name), solid_(*primitive.solid), random_(random), size_(solid_.radius())
+  {
+    require(size_ > 0.0 && std::isfinite(size_), "the solid '{}' has a radius of {}", name_, size_);
+  }
+
+  void run()
+  {
+    surface_is_zero();
+    distances_are_those_of_samples();
+    derivatives_of_the_distance();
+    probe();
+    probe_bounds();
+    smoothness();
+  }
+
+ private:
+  double angle() { return random_.between(0.0, 2.0 * pi); }
+
+  void surface_is_zero()
+  {
+    for (int k = 0; k < samples; ++k) {
+      const double u = angle(), v = angle();
+      const Vec3 x = solid_.surface_point(angles(u, v));
+      require(x.norm() <= size_ * (1.0 + rounding),
+              "a surface point of '{}' is {:.9g} from its origin, its radius {:.9g}", name_, x.norm(), size_);
+      const SolidDistance d = solid_.distance(x);
+      require(
+          std::abs(d.distance) <= rounding * size_,
+          "the distance of '{}' is {:.3g} at the point of its surface u = {:.6g}, v = {:.6g}: chart and field do "
+          "not agree",
+          name_, d.distance, u, v);
+      // Chart and normal are perpendicular, and the surface turns to the outside.
+      const double h = step;
+      const Vec3 along_u = solid_.surface_point(angles(u + h, v)) - solid_.surface_point(angles(u - h, v));
+      const Vec3 along_v = solid_.surface_point(angles(u, v + h)) - solid_.surface_point(angles(u, v - h));
+      for (const Vec3& t : {along_u, along_v})
+        require(std::abs(t.dot(d.normal)) <= coarse * (t.norm() + h * size_),
+                "the normal of '{}' is not perpendicular to its chart at u = {:.6g}, v = {:.6g}", name_, u,
+                v);
+      const double out = 1e-3 * solid_.thickness();
+      const double beyond = solid_.distance(x + out * d.normal).distance;
+      const double within = solid_.distance(x - out * d.normal).distance;
+      require(
+          std::abs(beyond - out) <= rounding * size_ && std::abs(within + out) <= rounding * size_,
+          "{:.3g} from the surface of '{}' along its normal the distance is {:.9g}, and as deep inside {:.9g}",
+          out, name_, beyond, within);
+    }
+  }
+
+  void distances_are_those_of_samples()
+  {
+    constexpr int n = 192;
+    const std::vector<Vec3> points = solid_points(solid_, n);
+    double longest = 0.0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        longest = std::max({longest, (points[(i + 1) % n * n + j] - points[i * n + j]).norm(),
+                            (points[i * n + (j + 1) % n] - points[i * n + j]).norm()});
+    for (int k = 0; k < samples; ++k) {
+      const Vec3 x = random_.vector(1.5 * size_);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vec3& y : points) nearest = std::min(nearest, (x - y).norm());
+      const SolidDistance d = solid_.distance(x);
+      require(d.at_least <= d.distance + rounding * size_,
+              "'{}' is certain of {:.6g}, which is more than its distance {:.6g}", name_, d.at_least,
+              d.distance);
+      require(
+          d.at_least <= nearest + rounding * size_,
+          "the distance of '{}' from a point is at least {:.9g}, it says, and a point of its surface is {:.9g} from it",
+          name_, d.at_least, nearest);
+      const bool certain = d.distance > 0.0 && d.at_least >= d.distance - rounding * size_;
+      require(
+          !certain || d.distance >= nearest - longest,
+          "the distance of '{}' from a point is {:.6g}, it says, and samples of its surface are {:.6g} away, known to "
+          "{:.2g}",
+          name_, d.distance, nearest, longest);
+    }
+  }
+
+  /// A point off the surface with one foot.
+  Vec3 near_surface()
+  {
+    const Vec3 x = solid_.surface_point(angles(angle(), angle()));
+    const double far = std::min(0.5 * solid_.smoothness().reach, size_);
+    return x + random_.between(0.05, 0.4) * far * solid_.distance(x).normal;
+  }
+
+  void derivatives_of_the_distance()
+  {
+    for (int k = 0; k < samples; ++k) {
+      const Vec3 x = near_surface();
+      const SolidDistance d = solid_.distance(x);
+      const double h = 1e-4 * solid_.thickness();
+      Vec3 gradient;
+      Mat3 hessian;
+      for (int i = 0; i < 3; ++i) {
+        const SolidDistance a = solid_.distance(x + h * Vec3::Unit(i)),
+                            b = solid_.distance(x - h * Vec3::Unit(i));
+        gradient[i] = (a.distance - b.distance) / (2.0 * h);
+        hessian.col(i) = (a.normal - b.normal) / (2.0 * h);
+      }
+      require((gradient - d.normal).norm() <= coarse,
+              "the normal of '{}' is not the gradient of its distance", name_);
+      const Vec3 across = d.normal.cross(d.along);
+      const Mat3 own =
+          d.bend_along * d.along * d.along.transpose() + d.bend_across * across * across.transpose();
+      jumps_ = jumps_ || !std::isfinite(solid_.smoothness().change);
+      const double bend = 1.0 / solid_.thickness();
+      require(
+          jumps_ || (hessian - own).norm() <= 100.0 * coarse * bend,
+          "the curvatures of '{}' are not those of its distance: {:.6g} and {:.6g}, differences give {:.6g} more",
+          name_, d.bend_along, d.bend_across, (hessian - own).norm());
+    }
+  }
+
+  void probe()
+  {
+    const int dimension = solid_.probe_dimension();
+    require(dimension == 1 || dimension == 2, "the probe of '{}' has dimension {}", name_, dimension);
+    require(dimension == 1 ? solid_.offset() > 0.0 : solid_.offset() == 0.0,
+            "the probe of '{}' has dimension {} and the offset {}", name_, dimension, solid_.offset());
+    for (int k = 0; k < samples; ++k) {
+      const double u = angle(), v = dimension == 2 ? angle() : 0.0;
+      const auto at = [&](double a, double b) { return solid_.probe(angles(u + a, v + b)); };
+      const ProbeDerivatives here = at(0.0, 0.0);
+      require(std::abs(solid_.distance(here.x).distance + solid_.offset()) <= rounding * size_,
+              "a point of the probe of '{}' has the distance {:.9g}, its offset is {:.9g}", name_,
+              solid_.distance(here.x).distance, solid_.offset());
+      const Vec3 u_by = (at(step, 0.0).x - at(-step, 0.0).x) / (2.0 * step);
+      const Vec3 uu_by = (at(step, 0.0).u - at(-step, 0.0).u) / (2.0 * step);
+      const Vec3 v_by = (at(0.0, step).x - at(0.0, -step).x) / (2.0 * step);
+      const Vec3 uv_by = (at(0.0, step).u - at(0.0, -step).u) / (2.0 * step);
+      const Vec3 vv_by = (at(0.0, step).v - at(0.0, -step).v) / (2.0 * step);
+      const double off =
+          std::max({(u_by - here.u).norm(), (v_by - here.v).norm(), jumps_ ? 0.0 : (uu_by - here.uu).norm(),
+                    jumps_ ? 0.0 : (uv_by - here.uv).norm(), jumps_ ? 0.0 : (vv_by - here.vv).norm()});
+      require(
+          off <= 10.0 * coarse * size_,
+          "derivatives of the probe of '{}' are not those of differences at u = {:.6g}, v = {:.6g}: {:.3g}",
+          name_, u, v, off);
+      folded(u, v, here.x);
+    }
+  }
+
+  void folded(double u, double v, const Vec3& x)
+  {
+    if (solid_.fold() == Fold::none) return;
+    const bool pole = solid_.fold() == Fold::pole, line = solid_.probe_dimension() == 1;
+    const Vec3 other = solid_.probe(line ? angles(-u, 0.0) : angles(pole ? u + pi : u, -v)).x;
+    require((other - x).norm() <= rounding * size_,
+            "the probe of '{}' does not fold as it says at u = {:.6g}, v = {:.6g}", name_, u, v);
+  }
+
+  void probe_bounds()
+  {
+    const bool line = solid_.probe_dimension() == 1;
+    for (int k = 0; k < samples; ++k) {
+      const double u = angle(), v = line ? 0.0 : angle();
+      const double hu = random_.scale(1e-3, pi), hv = line ? 0.0 : random_.scale(1e-3, pi);
+      const ProbeBounds b = solid_.probe_bounds(u, v, hu, hv);
+      for (int j = 0; j < samples; ++j) {
+        const ProbeDerivatives d =
+            solid_.probe(angles(u + random_.between(-hu, hu), v + (line ? 0.0 : random_.between(-hv, hv))));
+        const double over = std::max(
+            {d.u.norm() - b.u, d.v.norm() - b.v, d.uu.norm() - b.uu, d.uv.norm() - b.uv, d.vv.norm() - b.vv});
+        require(over <= rounding * size_,
+                "a derivative of the probe of '{}' is longer than its bound by {:.3g}", name_, over);
+      }
+    }
+  }
+
+  void smoothness()
+  {
+    const SolidSmoothness s = solid_.smoothness();
+    require(s.convex >= 0.0 && s.reach > 0.0 && s.change >= 0.0, "'{}' has smoothness {}, {}, {}", name_,
+            s.convex, s.reach, s.change);
+    constexpr int n = 48;
+    const std::vector<Vec3> points = solid_points(solid_, n);
+    std::vector<Vec3> normals;
+    for (const Vec3& x : points) {
+      const SolidDistance d = solid_.distance(x);
+      normals.push_back(d.normal);
+      const double most = std::max(d.bend_along, d.bend_across),
+                   least = std::min(d.bend_along, d.bend_across);
+      require(most <= s.convex * (1.0 + 1e-6) + rounding / size_, "'{}' bends by {:.6g}, its bound is {:.6g}",
+              name_, most, s.convex);
+      require(!std::isfinite(s.reach) ? least >= -1e-6 * s.convex : -least <= (1.0 + 1e-6) / s.reach,
+              "'{}' bends the concave way by {:.6g}, its reach is {:.6g}", name_, -least, s.reach);
+    }
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+      for (std::size_t j = 1; j < points.size(); j += 2) {
+        const Vec3 d = points[j] - points[i];
+        const double height = d.dot(normals[i]), square = d.squaredNorm();
+        const bool within = std::isfinite(s.reach)
+                                ? 2.0 * s.reach * height > square * (1.0 + 1e-6) + rounding * size_ * size_
+                                : height > 1e-6 * size_;
+        require(
+            !within,
+            "a ball of radius {:.6g} that touches '{}' from outside holds another point of it, {:.6g} away",
+            s.reach, name_, d.norm());
+      }
+    }
+  }
+
+  const std::string& name_;
+  const Solid& solid_;
+  Random& random_;
+  double size_;
+  bool jumps_ = false;
+};
+
+}  // namespace
+
+std::vector<Vec3> solid_points(const Solid& solid, int n)
+{
+  std::vector<Vec3> out;
+  out.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      out.push_back(solid.surface_point(angles(2.0 * pi * i / n, 2.0 * pi * j / n)));
+  return out;
+}
+
+void check_solid(const Primitive& primitive, Random& random) { SolidCheck(primitive, random).run(); }
+
+void require_scaled(const Primitive& small, const Primitive& large, double factor, Random& random)
+{
+  const double size = small.solid->radius();
+  for (int k = 0; k < samples; ++k) {
+    const Vec3 x = random.vector(1.5 * size);
+    const double a = small.solid->distance(x).distance, b = large.solid->distance(factor * x).distance;
+    require(std::abs(b - factor * a) <= rounding * factor * size,
+            "with all lengths times {}, a distance of '{}' goes from {:.12g} to {:.12g}; expected {:.12g}",
+            factor, small.name, a, b, factor * a);
+  }
+}
+
+}  // namespace hauberk::conformance

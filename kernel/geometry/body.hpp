@@ -39,6 +39,8 @@ struct Body {
 
   bool is_circle_tube() const { return kind == PrimitiveKind::circle_tube; }
   bool is_ellipse() const { return kind == PrimitiveKind::revolved_ellipse; }
+  /// One of the two kinds that have an axis, or a ball.
+  bool is_torus() const { return kind <= PrimitiveKind::revolved_ellipse; }
   /// A ball of radius r0.
   bool is_point() const { return R == 0.0; }
   /// Radius of a ball about `center` that holds the core

@@ -86,8 +86,8 @@ FieldValue solid_field(const Body& body, const Vec3& p);
 
 inline FieldValue field_at(const Body& body, const Vec3& p)
 {
-  if (body.solid) return solid_field(body, p);
   if (body.is_point()) return ball_field(body.r0, p);
+  if (!body.is_torus() && body.solid) return solid_field(body, p);
   const double rho = radius_of(p);
   return field_from_meridian(meridian_distance(body, rho, p.z()), rho, p);
 }

@@ -114,11 +114,11 @@ ProbePoint Probe<dim>::at(const Angle& u, const Angle& v) const
 {
   const Body& b = *f.P;
   ProbePoint q;
-  if (b.solid) {
-    locate_on_solid(u, v, q);
-    return q;
-  }
-  if (b.curve) {
+  if (!b.is_torus()) {
+    if (b.solid) {
+      locate_on_solid(u, v, q);
+      return q;
+    }
     const CurvePoint c = core(u);
     q.p = q.on_p = c.x;
     q.pu = c.xu;
@@ -157,7 +157,7 @@ template <int dim>
 SecondDerivatives Probe<dim>::second(const ProbePoint& q, const Vec3& n) const
 {
   const Body& P = *f.P;
-  if (P.solid) return solid_second(q, n);
+  if (!P.is_torus() && P.solid) return solid_second(q, n);
   const double nr = n.dot(q.radial);
   if constexpr (dim == 1) {
     return {-P.R * nr};

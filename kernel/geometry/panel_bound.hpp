@@ -39,7 +39,7 @@ FieldCurvature solid_curvature(const Body& F, const FieldValue& f, double d);
 /// largest where w^3 = 5/4 a b phi: far from a sharp edge the field is smoother than the edge.
 inline FieldCurvature field_curvature(const Body& F, const FieldValue& f, double d)
 {
-  if (F.solid) return solid_curvature(F, f, d);
+  if (!F.is_torus() && F.solid) return solid_curvature(F, f, d);
   constexpr double unknown = std::numeric_limits<double>::infinity();
   const double rho = f.rho - d;
   if (!(rho > 0.0)) return {unknown, unknown};
@@ -136,7 +136,7 @@ PanelSize solid_panel_size(const Body& P, const Panel& s);
 template <int dim>
 PanelSize panel_size(const Probe<dim>& probe, const Panel& s)
 {
-  if (probe.f.P->solid) return solid_panel_size(*probe.f.P, s);
+  if (!probe.f.P->is_torus() && probe.f.P->solid) return solid_panel_size(*probe.f.P, s);
   PanelSize r{probe.Lu * s.hu, probe.Luu * s.hu * s.hu, probe.Luuu * s.hu * s.hu * s.hu};
   if constexpr (dim == 2) {
     r.first += probe.Lv * s.hv;
@@ -244,7 +244,7 @@ PanelBound panel_bound(const Probe<dim>& probe, const Panel& s, const ProbePoint
     if (field.third < std::numeric_limits<double>::infinity())
       r.bound = std::max(r.bound, curved_bound(probe, s, q, at, field));
   };
-  if (probe.f.F->solid && f.rho > d) {
+  if (!probe.f.F->is_torus() && f.rho > d) {
     const double bent = 0.5 * d * d / (f.rho - d);
     r.bound = std::max(r.bound, curved_bound(probe, s, q, flattened(f), flat_curvature) - bent - f.doubt);
     if (r.bound >= needed) return r;

@@ -277,8 +277,8 @@ class PairAdvance {
       bound = std::max(bound, g + least - third_order(field, size) - bent);
       return true;
     };
-    const FieldValue flat = flattened(f);
-    if (frame_.F->solid && rho > 0.0 && stays(flat, flat_curvature, 0.5 * path.first * path.first / rho))
+    const bool solid = !frame_.F->is_torus() && rho > 0.0;
+    if (solid && stays(flattened(f), flat_curvature, 0.5 * path.first * path.first / rho))
       return Verdict::holds;
     if (frame_.F->is_ellipse()) {
       const RolledField rolled(*frame_.F, f);
@@ -289,9 +289,9 @@ class PairAdvance {
     // Time alone already fails: a shorter advance is needed.
     const double alone = rho > 0.0 ? time + 0.5 * travel * travel / rho : travel;
     const PanelSize moved = path_size({}, tau);
-    const bool flat_holds =
-        frame_.F->solid && rho > 0.0 &&
-        g - lost(motion, flat, flat_curvature, moved, tau) - 0.5 * moved.first * moved.first / rho >= target_;
+    const bool flat_holds = solid && g - lost(motion, flattened(f), flat_curvature, moved, tau) -
+                                             0.5 * moved.first * moved.first / rho >=
+                                         target_;
     if (!flat_holds && g - std::min(alone, travel) < target_ &&
         g - lost(motion, f, field_curvature(*frame_.F, f, moved.first), moved, tau) < target_)
       return Verdict::too_long;

@@ -83,13 +83,15 @@ double nearest_cores(const Body& A, const Body& B, double& u, double& v)
     Eigen::Matrix2d hessian;
     hessian << a.xu.squaredNorm() + d.dot(a.xuu), -a.xu.dot(b.xu), -a.xu.dot(b.xu),
         b.xu.squaredNorm() - d.dot(b.xuu);
-    Eigen::Vector2d step = -gradient / (a.xu.squaredNorm() + b.xu.squaredNorm());
+    const double speeds = a.xu.squaredNorm() + b.xu.squaredNorm();
+    if (!(speeds > 0.0)) break;  // segments stand still at their ends
+    Eigen::Vector2d step = -gradient / speeds;
     if (hessian(0, 0) > 0.0 && hessian.determinant() > 1e-12 * hessian.squaredNorm())
       step = -hessian.inverse() * gradient;
     bool fell = false;
     for (double part = 1.0; part > 1e-6 && !fell; part *= 0.5) {
       const double next = (core_at(A, u + part * step[0]).x - core_at(B, v + part * step[1]).x).squaredNorm();
-      if (next >= value) continue;
+      if (!(next < value)) continue;
       fell = true;
       value = next;
       u += part * step[0];

@@ -32,7 +32,7 @@ class AnyShape final : public Shape {
  public:
   std::vector<ParameterInfo> infos = {{"a.R", "length", 5.0, 1.0, 10.0, "", true}};
   std::vector<Primitive> answer = {
-      {"a", PrimitiveKind::circle_tube, Vec3::Zero(), Mat3::Identity(), {5, 1, 1}, {}, {}}};
+      {"a", PrimitiveKind::circle_tube, Vec3::Zero(), Mat3::Identity(), {5, 1, 1}, {}, {}, {}}};
   std::vector<PrimitiveJacobian> jacobian = {PrimitiveJacobian(6, 0.0)};
 
  protected:

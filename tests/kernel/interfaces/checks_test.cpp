@@ -84,6 +84,8 @@ TEST(ShapeChecks, Primitives)
             "shape: primitive 'a' has a size that is not finite and positive");
   EXPECT_EQ(with([](AnyShape& s) { s.answer[0].size[2] = 2.0; }),
             "shape: primitive 'a' is a circle tube with two radii");
+  EXPECT_EQ(with([](AnyShape& s) { s.answer[0].kind = PrimitiveKind::solid; }),
+            "shape: primitive 'a' is a solid without one");
 }
 
 TEST(ShapeChecks, Jacobians)

@@ -17,8 +17,8 @@ namespace {
 /// What takes both bodies for tori.
 void refuse_others(const PairFrame& frame, const char* what)
 {
-  const auto torus = [](const Body& b) { return !b.curve && !b.solid; };
-  if (torus(*frame.P) && torus(*frame.F)) return;
+  const auto known = [](const Body& b) { return !b.curve && !b.solid; };
+  if (known(*frame.P) && known(*frame.F)) return;
   const bool curve = frame.P->curve != nullptr;
   throw InputError(fmt::format("{} knows tori only, no {}; use arc, nearest or auto", what,
                                curve ? "tubes around curves" : "solids"));

@@ -65,7 +65,7 @@ struct SideTerms {
   void add_field_size(const FieldValue& f, double w1);
   /// At the point p of F's frame.
   void add_solid_field(const Body& F, const Vec3& p, double w1);
-  /// w1n: w1 times the field's gradient in P's frame.
+  /// n: the field's gradient in P's frame.
   void add_solid_probe(const Body& P, const ProbePoint& q, double w1, const Vec3& n);
   static std::vector<double> geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,
                                       const std::vector<double>& curve);

@@ -3,6 +3,8 @@
 #include "geometry/core.hpp"
 #include "geometry/facets.hpp"
 
+#include <hauberk/solid.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -28,6 +30,9 @@ double from_cut(double u)
   const double turned = std::fmod(u - cut, full_turn);
   return turned < 0.0 ? turned + full_turn : turned;
 }
+
+/// Whether core_at() knows a core.
+bool has_core(const Body& b) { return !b.surface && (!b.solid || is_round(b)); }
 
 Vec3 core_point(const Body& b, double u)
 {
@@ -86,7 +91,7 @@ class Builder {
     grow_forest();
     for (std::size_t e = 0; e < edges_.size(); ++e)
       if (!in_forest_[e]) out_.loops.push_back(closed_by(e));
-    for (std::size_t b = 0; b < bodies_.size(); ++b) add_mesh_loops(static_cast<int>(b));
+    for (std::size_t b = 0; b < bodies_.size(); ++b) add_own_loops(static_cast<int>(b));
     return std::move(out_);
   }
 
@@ -114,7 +119,7 @@ class Builder {
       if (!places.empty()) *places[k].second = static_cast<int>(k);
       arcs_[b].push_back(static_cast<int>(out_.pieces.size()));
       core.pieces.emplace_back(static_cast<int>(out_.pieces.size()), 1);
-      out_.pieces.push_back(body(b).surface ? std::vector<Vec3>() : arc(body(b), cut + from, to - from));
+      out_.pieces.push_back(has_core(body(b)) ? arc(body(b), cut + from, to - from) : std::vector<Vec3>());
     }
     out_.cores.push_back(std::move(core));
   }
@@ -127,16 +132,23 @@ class Builder {
         {core_point(body(e.body[0]), e.join.u), e.join.common, core_point(body(e.body[1]), e.join.v)});
   }
 
-  /// A triangle mesh has no core; what is linked with it is linked with its loops.
-  void add_mesh_loops(int b)
+  /// Triangle meshes and solids that are no tubes have no core; what is linked with one is linked with its
+  /// loops.
+  void add_own_loops(int b)
   {
-    if (!body(b).surface || !body(b).facets) return;
-    for (const std::vector<Vec3>& corners : body(b).facets->loops()) {
-      out_.loops.push_back({{{static_cast<int>(out_.pieces.size()), 1}}, {b}});
-      std::vector<Vec3>& piece = out_.pieces.emplace_back();
-      for (const Vec3& x : corners) piece.emplace_back(body(b).center + body(b).axes * x);
-      piece.push_back(piece.front());
-    }
+    const Body& own = body(b);
+    if (own.surface && own.facets)
+      for (const std::vector<Vec3>& corners : own.facets->loops()) add_loop(b, corners, 1.0);
+    if (own.solid && !has_core(own))
+      for (const std::vector<Vec3>& corners : own.solid->cores()) add_loop(b, corners, own.unit);
+  }
+
+  void add_loop(int b, const std::vector<Vec3>& corners, double unit)
+  {
+    out_.loops.push_back({{{static_cast<int>(out_.pieces.size()), 1}}, {b}});
+    std::vector<Vec3>& piece = out_.pieces.emplace_back();
+    for (const Vec3& x : corners) piece.emplace_back(body(b).center + body(b).axes * (x / unit));
+    piece.push_back(piece.front());
   }
 
   /// By breadth, so that ways are short.

@@ -37,8 +37,8 @@ struct SpineLoop {
 struct Spine {
   std::vector<std::vector<Vec3>> pieces;  ///< corners, element frame
   std::vector<SpineLoop> cores;           ///< one for each primitive
-  /// Those that several primitives form together; and of triangle meshes, which have no core, the loops of
-  /// their facets.
+  /// Those that several primitives form together; and of what has no core the loops of its own: of triangle
+  /// meshes those of their facets, of solids that are no tubes the polygons that they give.
   std::vector<SpineLoop> loops;
 };
 

@@ -14,7 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <tuple>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -176,7 +178,6 @@ std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 std::vector<double> mesh_key(const Body& b)
 {
   std::vector<double> key{b.R, b.r0, b.r1};
-  if (b.solid) key.insert(key.end(), b.solid->sizes().begin(), b.solid->sizes().end());
   if (!b.curve) return key;
   for (const Harmonic& h : b.curve->harmonics()) {
     key.insert(key.end(), h.c.begin(), h.c.end());
@@ -201,13 +202,14 @@ void set_facets(Model& m, int count)
 /// and meshes, cores are all there is and spines are not kept.
 void set_spines(Model& m)
 {
-  std::map<std::vector<double>, std::shared_ptr<const Spine>> made;
+  std::map<std::pair<std::vector<std::string>, std::vector<double>>, std::shared_ptr<const Spine>> made;
   bool together = false;
   std::vector<std::shared_ptr<const Spine>> spines;
   const auto several = [](const SpineLoop& l) { return l.primitives.size() > 1; };
   if (m.bodies.size() == m.rest.size()) return;  // one primitive each
   for (std::size_t e = 0; e < m.rest.size(); ++e) {
     const std::size_t first = m.first_body[e], end = m.first_body[e + 1];
+    std::vector<std::string> kinds;  // of solids: what their sizes mean
     std::vector<double> key;
     bool meshes = false;
     for (std::size_t k = first; k < end; ++k) {
@@ -217,12 +219,14 @@ void set_spines(Model& m)
       key.insert(key.end(), b.axes.reshaped().begin(), b.axes.reshaped().end());
       key.insert(key.end(), size.begin(), size.end());
       meshes = meshes || b.surface;
+      kinds.push_back(b.solid ? b.solid->kind() : "");
+      if (b.solid) key.insert(key.end(), b.solid->sizes().begin(), b.solid->sizes().end());
     }
     std::shared_ptr<const Spine> spine;
-    if (const auto known = made.find(key); known != made.end() && !meshes) spine = known->second;
+    if (const auto known = made.find({kinds, key}); known != made.end() && !meshes) spine = known->second;
     if (!spine) {
       spine = std::make_shared<const Spine>(make_spine(std::span(m.bodies).subspan(first, end - first)));
-      if (!meshes) made[key] = spine;
+      if (!meshes) made[{kinds, key}] = spine;
     }
     together = together || std::any_of(spine->loops.begin(), spine->loops.end(), several);
     spines.push_back(std::move(spine));

@@ -92,9 +92,9 @@ SafeStep sampled_safe_step(const Model& m, const State& from, const Vector& dy, 
 {
   constexpr double keep_of_walls = 0.1;  // walls are linear and need no search
   SafeStep out;
-  if (std::any_of(m.bodies.begin(), m.bodies.end(),
-                  [](const Body& b) { return b.curve != nullptr || b.surface != nullptr; }))
-    throw InputError("ccd 'sampled' knows tori only, no tubes around curves and no meshes; use 'certified'");
+  if (!std::all_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_torus(); }))
+    throw InputError(
+        "ccd 'sampled' knows tori only, no tubes around curves, meshes or solids; use 'certified'");
   out.alpha = wall_step(m, from, dy, keep_of_walls);
   const std::vector<CandidatePair> candidates = candidate_pairs(m, from, dy);
   const auto for_each_pair = [&](auto&& visit) {

@@ -126,12 +126,15 @@ std::vector<Problem> solver_problems(const Experiment& e)
     out.push_back({"/solver/ccd", 0, "contact 'constrained' checks no steps for collisions; remove this"});
   const bool published = contact_choice(solver) == ContactChoice::published;
   const bool tori_only = published || solver.ccd == "sampled";
-  if (tori_only && has_primitive(e.scene, PrimitiveKind::curve_tube)) {
-    out.push_back(
-        {"/solver", 0,
-         "this scene has tubes around curves, and contact 'published', ccd 'sampled' and preset 'paper' "
-         "know tori only; use contact auto, arc, nearest or mesh"});
-  }
+  const auto refuse = [&](PrimitiveKind kind, const char* what, const char* instead) {
+    if (!tori_only || !has_primitive(e.scene, kind)) return;
+    out.push_back({"/solver", 0,
+                   fmt::format("this scene has {}, and contact 'published', ccd 'sampled' and preset 'paper' "
+                               "know tori only; use contact {}",
+                               what, instead)});
+  };
+  refuse(PrimitiveKind::curve_tube, "tubes around curves", "auto, arc, nearest or mesh");
+  refuse(PrimitiveKind::solid, "solids", "auto, arc or nearest, and ccd certified");
   add_mesh_problems(e, out);
   if (!published && solver.closest_points == "sampled") {
     out.push_back(

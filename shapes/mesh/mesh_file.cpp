@@ -1,50 +1,23 @@
 #include "mesh_file.hpp"
 
+#include "common/text_file.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <numeric>
-#include <system_error>
 #include <utility>
 
 namespace hauberk {
 namespace {
 
-constexpr std::streamsize largest_file = 64 << 20;
-constexpr std::size_t longest_quote = 24;
-
-std::string read_bytes(const std::string& path)
-{
-  const auto refuse = [&path](const std::string& why) {
-    throw InputError(fmt::format("{}: cannot be read: {}", path, why));
-  };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    refuse("there is no such file; paths are relative to the experiment's folder");
-  // A device or a pipe might never end.
-  if (!std::filesystem::is_regular_file(status)) refuse("it is not a regular file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(errno != 0 ? std::generic_category().message(errno) : "it cannot be opened");
-  std::string bytes, block(1 << 16, '\0');
-  while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
-    if (static_cast<std::streamsize>(bytes.size()) > largest_file) refuse("it is larger than 64 MB");
-  }
-  if (file.bad()) refuse("reading failed");
-  return bytes;
-}
+constexpr int largest_file = 64;  // MB
 
 /// Replaces points by those that `number` says, and leaves out triangles that have one twice.
 void renumber(MeshFile& mesh, const std::vector<int>& number)
@@ -152,40 +125,6 @@ bool has_pairs_of_edges(const MeshFile& mesh)
   return edges == back;
 }
 
-bool read_number(std::string_view word, double& value)
-{
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
-}
-
-std::string_view next_word(std::string_view& line)
-{
-  constexpr std::string_view blanks = " \t\r\f\v";
-  const std::size_t begin = std::min(line.find_first_not_of(blanks), line.size());
-  line.remove_prefix(begin);
-  const std::size_t end = std::min(line.find_first_of(blanks), line.size());
-  const std::string_view word = line.substr(0, end);
-  line.remove_prefix(end);
-  return word;
-}
-
-std::string_view next_line(std::string_view& text)
-{
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line;
-}
-
-std::string quoted(std::string_view word)
-{
-  std::string out = "'";
-  for (const char c : word.substr(0, longest_quote))
-    out += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-  return out + (word.size() > longest_quote ? "...'" : "'");
-}
-
 }  // namespace detail
 
 MeshFile read_mesh_file(const std::string& path)
@@ -195,7 +134,7 @@ MeshFile read_mesh_file(const std::string& path)
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".obj" && extension != ".stl")
     throw InputError(fmt::format("{}: expected a file .obj or .stl", path));
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = detail::read_bytes(path, largest_file);
   if (bytes.empty()) throw InputError(fmt::format("{}: is empty", path));
   return extension == ".obj" ? read_obj(bytes, path) : read_stl(bytes, path);
 }

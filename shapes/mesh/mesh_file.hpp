@@ -41,18 +41,6 @@ void join_near_points(MeshFile& mesh, double distance);
 /// True if every edge of a triangle is that of another one in the opposite sense.
 bool has_pairs_of_edges(const MeshFile& mesh);
 
-/// Reads a number that is the whole of `word`; false if it is none, or not finite.
-bool read_number(std::string_view word, double& value);
-
-/// Cuts the next word off a line; empty at its end.
-std::string_view next_word(std::string_view& line);
-
-/// Cuts the next line off a text, without what ends it.
-std::string_view next_line(std::string_view& text);
-
-/// A word of the file for messages: short, and printable.
-std::string quoted(std::string_view word);
-
 }  // namespace detail
 
 }  // namespace hauberk

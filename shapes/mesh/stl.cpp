@@ -1,5 +1,7 @@
 #include "mesh_file.hpp"
 
+#include "common/text_file.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/triangle_surface.hpp>
 

@@ -46,7 +46,7 @@ enum class Fold {
 
 /// The distance from a surface at a point.
 struct SolidDistance {
-  double distance = 0.0;  ///< along the normal from `foot`, negative inside
+  double distance = 0.0;  ///< along the normal from its foot on the surface to the point, negative inside
   double at_least = 0.0;  ///< a lower bound of the distance from the surface; `distance` where it is certain
   Vec3 normal;            ///< unit, outward at the foot: the gradient of the distance
   Vec3 along;             ///< unit, perpendicular to it: first principal direction of the level surface
@@ -57,7 +57,8 @@ struct SolidDistance {
 struct SolidSmoothness {
   double convex = 0.0;  ///< largest principal curvature, at least 0
   /// A ball of this radius that touches the surface from outside anywhere holds no other point of it, so
-  /// that up to there distances have one foot; infinite of a convex solid.
+  /// that up to there distances have one foot; infinite of a convex solid. 0 states nothing, and leaves
+  /// contact with bounds that are slow.
   double reach = 0.0;
   /// Largest derivative of the normal curvature along unit-speed geodesics; infinite where curvature jumps.
   double change = std::numeric_limits<double>::infinity();

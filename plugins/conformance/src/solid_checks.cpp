@@ -200,7 +200,7 @@ class SolidCheck {
   void smoothness()
   {
     const SolidSmoothness s = solid_.smoothness();
-    require(s.convex >= 0.0 && s.reach > 0.0 && s.change >= 0.0, "'{}' has smoothness {}, {}, {}", name_,
+    require(s.convex >= 0.0 && s.reach >= 0.0 && s.change >= 0.0, "'{}' has smoothness {}, {}, {}", name_,
             s.convex, s.reach, s.change);
     constexpr int n = 48;
     const std::vector<Vec3> points = solid_points(solid_, n);

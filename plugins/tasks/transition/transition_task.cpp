@@ -73,9 +73,8 @@ std::string transition_summary(const TransitionResult& result)
 
 bool only_tori(const Model& model)
 {
-  return std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-    return body.kind != PrimitiveKind::curve_tube && body.kind != PrimitiveKind::triangle_mesh;
-  });
+  return std::all_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.is_torus(); });
 }
 
 class TransitionTask final : public TaskRun {
@@ -87,7 +86,7 @@ class TransitionTask final : public TaskRun {
     if (!only_tori(prepared.model)) {
       diagnostics.problems.add(
           nearest_node(e.resolved, "/task"),
-          "this scene has elements that are triangle meshes or tubes around curves, and task "
+          "this scene has elements that are triangle meshes, tubes around curves or solids, and task "
           "'transition' knows tori only; use task limits");
       return;
     }

@@ -149,12 +149,16 @@ TEST_F(ObjLines, LinesAndFacesAreStrutsOnce)
 
 TEST_F(ObjLines, WhatIsWrongIsSaidWithItsLine)
 {
-  EXPECT_EQ(refused("v 0 0\n"), ":1: three numbers expected after v");
-  EXPECT_EQ(refused("v 0 0 0\nl 1 2\n"), ":2: node 2 is not among the 1 that stand above");
-  EXPECT_EQ(refused("v 0 0 0\nl 1 x\n"), ":2: the number of a node expected, found x");
-  EXPECT_EQ(refused("v 0 0 0\nl 1\n"), ":2: at least two nodes expected");
-  EXPECT_EQ(refused("v 0 0 0\n"), ": there is no line (l) and no face (f) in it");
-  EXPECT_NE(refusal([] { read_obj_lines("/nowhere.obj"); }).find("there is no such file"), std::string::npos);
+  EXPECT_EQ(refused("v 0 0\n"), ":1: expected three numbers after 'v'");
+  EXPECT_EQ(refused("v 0 0 nan\n"), ":1: expected a finite number, found 'nan'");
+  EXPECT_EQ(refused("v 0 0 0\nl 1 2\n"), ":2: the line has point 2, and there are 1");
+  EXPECT_EQ(refused("v 0 0 0\nl 1 x\n"),
+            ":2: expected the number of a point, counted from 1 or from -1 backwards, found 'x'");
+  EXPECT_EQ(refused("v 0 0 0\nl 1\n"), ":2: expected at least two points, found 1");
+  EXPECT_EQ(refused("v 0 0 0\n"), ": has no struts; expected lines 'v x y z' and 'l 1 2'");
+  EXPECT_EQ(
+      refusal([] { read_obj_lines("/nowhere.obj"); }),
+      "/nowhere.obj: cannot be read: there is no such file; paths are relative to the experiment's folder");
 }
 
 }  // namespace

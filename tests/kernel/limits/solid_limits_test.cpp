@@ -1,6 +1,7 @@
 /// Limits of chains of solids: those of chains of the built-in tori, with the same sensitivities.
 
 #include "limits/limits.hpp"
+#include "model/links.hpp"
 #include "scenes.hpp"
 #include "solid_kit/solids.hpp"
 #include "torus_solid.hpp"
@@ -8,6 +9,8 @@
 #include <hauberk/kit/solid_shape.hpp>
 
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 namespace hauberk::test {
 namespace {
@@ -83,6 +86,38 @@ TEST_P(SolidLimits, OfAChainAreThoseOfTori)
   for (const auto& [name, derivative] : y.sensitivity_parameters)
     EXPECT_NEAR(derivative, (name.back() == 'R' ? 2.0 : -2.0) / 15.5, balanced) << name;
   EXPECT_EQ(y.sensitivity_parameters.size(), 4U);
+}
+
+/// Two upright rings that cross each other, and a ring around one of them, which `through` makes.
+SceneSpec crossed(std::shared_ptr<const Shape> through, std::vector<double> sizes)
+{
+  const double quarter = 0.5 * std::numbers::pi;
+  const Mat3 upright = rotation_exp(Vec3(quarter, 0, 0));
+  SceneSpec s;
+  s.types.push_back({"crossed", std::make_shared<Rings>(std::vector<Rings::Ring>{{Vec3::Zero(), upright},
+                                                                                 {Vec3(4, 0, 0), upright}})});
+  s.types.push_back({"ring", std::move(through)});
+  s.elements.push_back({0, {5, 0.5, 0.5, 5, 0.5, 0.5}, {}});
+  s.elements.push_back({1, std::move(sizes), {Vec3(9, 0, 0), Mat3::Identity()}});
+  s.lattice = {Vec3(60, 0, 0), Vec3(0, 60, 0)};
+  s.length = 5.0;
+  return s;
+}
+
+TEST(SolidLinks, WithLoopsOfSeveralPrimitivesAreThoseOfTori)
+{
+  const Sheet load(3);
+  const auto found = [&](const SceneSpec& scene) {
+    const Model m = make_model(scene, load, 0.0);
+    EXPECT_FALSE(m.spines.empty()) << "the two rings make no loop together";
+    const std::vector<ElementLink> links = element_links(m);
+    return links.size() == 1 ? std::pair(links[0].primitives, links[0].together) : std::pair(-1, -1);
+  };
+  const auto expected = found(crossed(std::make_shared<Rings>(), {2.5, 0.4, 0.4}));
+  EXPECT_GE(expected.first + expected.second, 1);
+  for (const int dimension : {1, 2})
+    EXPECT_EQ(found(crossed(std::make_shared<TorusSolidShape>(dimension), {2.5, 0.4})), expected)
+        << "probe of dimension " << dimension;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -7,6 +7,7 @@
 #include "model/links.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 #include <hauberk/triangle_surface.hpp>
 
 #include <algorithm>
@@ -51,6 +52,14 @@ double farthest_apart(const ClosedCurve& a, const ClosedCurve& b)
   return sum;
 }
 
+/// The solid at sizes between those of a and b; null where there is none.
+std::shared_ptr<const Solid> mixed(const Solid& a, const Solid& b, double t)
+{
+  std::vector<double> sizes = a.sizes();
+  for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = std::lerp(sizes[k], b.sizes()[k], t);
+  return a.with_sizes(sizes);
+}
+
 /// Body between a and b, interpolated linearly. Its kind is that of `b` unless both are tubes.
 Body between(const Body& a, const Body& b, double t)
 {
@@ -64,11 +73,16 @@ Body between(const Body& a, const Body& b, double t)
   q.reach = std::max(a.reach, b.reach);
   if (!b.is_circle_tube()) q.kind = b.kind;
   if (a.curve && b.curve) set_core(q, mixed(*a.curve, *b.curve, t), q.r0);
+  if (a.solid && b.solid && !same_solid(a, b)) q.solid = mixed(*a.solid, *b.solid, t);
   return q;
 }
 
 double shape_speed(const Body& a, const Body& b)
 {
+  if (a.solid && b.solid) {
+    const double own = same_solid(a, b) ? 0.0 : a.solid->speed(b.solid->sizes()) / a.unit;
+    return own + (a.center - b.center).norm();
+  }
   const double core = a.surface && b.surface
                           ? std::abs(a.R - b.R) * std::max(a.surface->bound(), b.surface->bound())
                       : a.curve && b.curve ? farthest_apart(*a.curve, *b.curve)
@@ -114,8 +128,10 @@ struct ChangingPair {
 
   double gap_at(double t) const
   {
-    return separation(between(a->bodies[p], b->bodies[p], t), pose_at(pair.i, {0, 0}, t),
-                      between(a->bodies[q], b->bodies[q], t), pose_at(pair.j, pair.image, t), a->clearance,
+    const Body P = between(a->bodies[p], b->bodies[p], t), Q = between(a->bodies[q], b->bodies[q], t);
+    const bool none = (a->bodies[p].solid && !P.solid) || (a->bodies[q].solid && !Q.solid);
+    if (none) return 0.0;  // nothing is known of solids that cannot be made
+    return separation(P, pose_at(pair.i, {0, 0}, t), Q, pose_at(pair.j, pair.image, t), a->clearance,
                       2.0 * rate, 0.9)
         .lower;
   }

@@ -3,6 +3,9 @@
 #include "equilibrium/relaxation.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +21,21 @@ constexpr int most_halvings = 6;
 constexpr double start_violation = 1e-4;  ///< L; the optimizer mends it
 /// Accepted designs in a row with states that were only continued: then they are looked for from rest.
 constexpr int most_unchecked = 4;
+
+/// Throws InputError of a solid that does not say how far its surface moves on the way to other sizes.
+void refuse_unknown_motion(const Model& model)
+{
+  for (const Body& b : model.bodies) {
+    if (!b.solid) continue;
+    const bool known =
+        b.solid->with_sizes(b.solid->sizes()) && std::isfinite(b.solid->speed(b.solid->sizes()));
+    if (!known)
+      throw InputError(fmt::format(
+          "designs of '{}' are not known: its plugin gives no with_sizes() and speed(), which say how "
+          "far its surface moves on the way to other sizes",
+          b.solid->kind()));
+  }
+}
 
 std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()}; }
 
@@ -43,10 +61,7 @@ std::shared_ptr<DesignPoint> DesignProblem::start_point() const
   p->x = scene_variables();
   p->spec = scene_->scene;
   p->model = make_model(scene_->scene, scene_->load, scene_->clearance);
-  if (std::any_of(p->model.bodies.begin(), p->model.bodies.end(),
-                  [](const Body& b) { return b.solid != nullptr; }))
-    throw InputError(
-        "designs of solids are not known: nothing bounds how far their surfaces move on the way");
+  refuse_unknown_motion(p->model);
   const double target = scene_->rest_target(p->model);
   const Relaxed r = relax(p->model, rest_state(p->model), target);
   if (!r.problem.empty())

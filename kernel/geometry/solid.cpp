@@ -12,6 +12,13 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
+/// How fast the direction of a line turns, by bounds of its derivatives: as of a curve, or where third ones
+/// jump by the second.
+double turning(double first, double second, double third)
+{
+  return std::isfinite(third) ? std::sqrt(third / first) : second / first;
+}
+
 }  // namespace
 
 FieldValue solid_field(const Body& body, const Vec3& p)
@@ -70,9 +77,8 @@ void Probe<dim>::set_bounds()
   Lvvv = b.vvv / P.unit;
   Luv = std::max({b.uv, b.uuv, b.uvv}) / P.unit;
   offset = P.solid->offset() / P.unit;
-  // How fast directions turn, by derivatives, as of a curve.
-  frequency = std::max(1.0, std::sqrt(Luuu / Lu));
-  if (dim == 2) frequency = std::max(frequency, std::sqrt(Lvvv / Lv));
+  frequency = std::max(1.0, turning(Lu, Luu, Luuu));
+  if (dim == 2) frequency = std::max(frequency, turning(Lv, Lvv, Lvvv));
 }
 
 template <int dim>

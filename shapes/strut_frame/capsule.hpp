@@ -4,7 +4,9 @@
 
 #include <hauberk/solid.hpp>
 
+#include <cmath>
 #include <limits>
+#include <memory>
 
 namespace hauberk {
 
@@ -36,6 +38,15 @@ class Capsule final : public Solid {
   }
   void distance_sizes(const Vec3& x, std::span<double> out) const override;
   void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override;
+  std::shared_ptr<const Solid> with_sizes(std::span<const double> sizes) const override
+  {
+    return std::make_shared<const Capsule>(sizes[0], sizes[1]);
+  }
+  /// Ends move by what h changes, everything by what r changes.
+  double speed(std::span<const double> sizes) const override
+  {
+    return std::abs(sizes[0] - sizes_[0]) + std::abs(sizes[1] - sizes_[1]);
+  }
   std::vector<std::vector<Vec3>> cores() const override { return {}; }
 
  private:

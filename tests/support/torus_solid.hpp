@@ -4,6 +4,7 @@
 #include <hauberk/shape.hpp>
 #include <hauberk/solid.hpp>
 
+#include <cmath>
 #include <memory>
 
 namespace hauberk::test {
@@ -28,6 +29,14 @@ class TorusSolid final : public Solid {
   SolidSmoothness smoothness() const override;
   void distance_sizes(const Vec3& x, std::span<double> out) const override;
   void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override;
+  std::shared_ptr<const Solid> with_sizes(std::span<const double> sizes) const override
+  {
+    return std::make_shared<const TorusSolid>(sizes[0], sizes[1], dimension_);
+  }
+  double speed(std::span<const double> sizes) const override
+  {
+    return std::abs(sizes[0] - sizes_[0]) + std::abs(sizes[1] - sizes_[1]);
+  }
   std::vector<std::vector<Vec3>> cores() const override;
 
  private:

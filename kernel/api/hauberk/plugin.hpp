@@ -15,7 +15,7 @@
 namespace hauberk {
 
 /// Raised whenever any type in the interface headers changes.
-inline constexpr std::uint32_t interface_revision = 10;
+inline constexpr std::uint32_t interface_revision = 11;
 
 #define HAUBERK_STR2(x) #x
 #define HAUBERK_STR(x) HAUBERK_STR2(x)

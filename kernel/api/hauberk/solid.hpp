@@ -10,6 +10,7 @@
 #include <hauberk/linalg.hpp>
 
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -99,6 +100,16 @@ class Solid {
   virtual void distance_sizes(const Vec3& x, std::span<double> out) const = 0;
   /// d (n . probe - offset)/d size at fixed coordinates.
   virtual void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const = 0;
+
+  /// The same kind of solid with other sizes; null where they make none, or where it is not known how.
+  /// Designs need it, and `speed`.
+  virtual std::shared_ptr<const Solid> with_sizes(std::span<const double> /*sizes*/) const { return nullptr; }
+  /// While the sizes go straight to those, a part t of the way moves the surface by no more than t times
+  /// this: no point of either is farther from the other. Infinite: not known.
+  virtual double speed(std::span<const double> /*sizes*/) const
+  {
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// Corners of a closed polygon for each core curve, inside and not linked with itself otherwise than the
   /// solid is; links are counted by them. None of a solid without holes.

@@ -251,6 +251,26 @@ std::vector<Vec3> solid_points(const Solid& solid, int n)
 
 void check_solid(const Primitive& primitive, Random& random) { SolidCheck(primitive, random).run(); }
 
+void check_motion(const Primitive& from, const Primitive& to, Random& random)
+{
+  const Solid &a = *from.solid, &b = *to.solid;
+  const std::shared_ptr<const Solid> made = a.with_sizes(b.sizes());
+  const double speed = a.speed(b.sizes()), size = std::max(a.radius(), b.radius());
+  if (!made || !std::isfinite(speed)) return;
+  for (int k = 0; k < samples; ++k) {
+    const ProbeAngles at = angles(random.between(0.0, 2.0 * pi), random.between(0.0, 2.0 * pi));
+    const Vec3 x = b.surface_point(at);
+    require(std::abs(made->distance(x).distance) <= rounding * size,
+            "'{}' makes another solid of sizes than the shape does: {:.6g} apart", from.name,
+            made->distance(x).distance);
+    const double moved =
+        std::max(std::abs(a.distance(x).distance), std::abs(b.distance(a.surface_point(at)).distance));
+    require(moved <= speed + rounding * size,
+            "the surface of '{}' moves by {:.6g} where sizes change, its speed is {:.6g}", from.name, moved,
+            speed);
+  }
+}
+
 void require_scaled(const Primitive& small, const Primitive& large, double factor, Random& random)
 {
   const double size = small.solid->radius();

@@ -208,13 +208,26 @@ Body body_of(Primitive primitive)
   return make_body(primitive, 0, 0, 1.0);
 }
 
+/// Of solids, between two sets of parameters that the shape accepts.
+void check_motions(const Shape& shape, const Point& point, Random& random)
+{
+  std::vector<double> p = point.p;
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] += random.between(-1.0, 1.0) * point.margin[k];
+  if (refused(shape, p)) return;
+  const std::vector<Primitive> from = shape.primitives(point.p), to = shape.primitives(p);
+  for (std::size_t k = 0; k < from.size(); ++k)
+    if (from[k].solid && to[k].solid) check_motion(from[k], to[k], random);
+}
+
 }  // namespace
 
 void check_surfaces(Trial& trial)
 {
   const Object object = trial.make();
   for (int draw = 0; draw < 3; ++draw) {
-    for (const Primitive& primitive : object.shape->primitives(draw_point(*object.shape, trial).p)) {
+    const Point point = draw_point(*object.shape, trial);
+    check_motions(*object.shape, point, trial.random);
+    for (const Primitive& primitive : object.shape->primitives(point.p)) {
       if (primitive.surface) {
         check_triangles(primitive, trial);
         continue;

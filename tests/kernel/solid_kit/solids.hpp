@@ -12,6 +12,7 @@ using kit::Turn;
 struct Torus {
   static constexpr const char* kind = "test_torus";
   static constexpr std::array size_names{"R", "r"};
+  static constexpr bool revolved = true;
   static constexpr bool field_is_distance = true;
 
   template <class S>
@@ -73,6 +74,7 @@ struct PlainTorus {
 struct Capsule {
   static constexpr const char* kind = "test_capsule";
   static constexpr std::array size_names{"h", "r"};
+  static constexpr bool revolved = true;
   static constexpr bool field_is_distance = true;
   static constexpr bool curvature_jumps = true;
   static constexpr bool convex = true;
@@ -110,6 +112,7 @@ struct Capsule {
 struct RoundedRing {
   static constexpr const char* kind = "test_rounded_ring";
   static constexpr std::array size_names{"R", "w", "h"};
+  static constexpr bool revolved = true;
 
   template <class S>
   static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q)

@@ -4,21 +4,32 @@
 ///     struct Torus {
 ///       static constexpr const char* kind = "my_torus";
 ///       static constexpr std::array size_names{"R", "r"};
-///       template <class S> static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q);
-///       template <class S> static S field(const Point<S>& x, const S* q);  // negative inside, 0 on the
-///       surface static std::vector<std::vector<Vec3>> cores(const double* q);
+///       template <class S>
+///       static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q);
+///       template <class S>
+///       static S field(const Point<S>& x, const S* q);  // negative inside, 0 on the surface
+///       static std::vector<std::vector<Vec3>> cores(const double* q);
 ///     };
 ///
 /// q points at the sizes, in the order of their names. The chart covers the surface over [0, 2 pi]^2 and is
-/// periodic. Optional members, with what holds where they are absent:
+/// periodic. Optional members:
 ///
-///     template <class S> static Point<S> core(const Turn<S>& u, const S* q);   // the surface itself is
-///     probed template <class S> static S radius(const S* q);             // constant distance of the surface
-///     from the core static constexpr bool field_is_distance = true;             // false: feet are found by
-///     Newton's method static constexpr Fold fold = Fold::mirror;                  // Fold::none; of the
-///     probe static constexpr bool curvature_jumps = true;               // false: the field has three
-///     derivatives static constexpr bool convex = true;                        // false: the kit finds out,
-///     see reach.hpp
+///     template <class S>
+///     static Point<S> core(const Turn<S>& u, const S* q);
+///     template <class S>
+///     static S radius(const S* q);  // constant distance of the surface from the core
+///     static constexpr bool field_is_distance = true;
+///     static constexpr Fold fold = Fold::mirror;  // of the probe
+///     static constexpr bool curvature_jumps = true;
+///     static std::vector<double> breaks(const double* q);
+///     static constexpr bool convex = true;
+///     static constexpr bool revolved = true;
+///
+/// Without `core` the surface itself is probed. Of a field that is no distance feet are found by Newton's
+/// method. Where curvature does not jump the field has three derivatives; where it jumps along lines of
+/// constant v alone, `breaks` gives these v, between which the chart has three. Where convexity is not stated
+/// the kit finds out, see curvature_bounds.hpp. Of a surface of revolution, whose chart u turns about the
+/// axis z, bounds are made along one meridian; of others all over, which takes some 20 times as long.
 
 #include <hauberk/kit/taylor_model.hpp>
 #include <hauberk/solid.hpp>
@@ -42,6 +53,7 @@ struct Statements {
   {
     Author::template core<double>(u, q);
   };
+  static constexpr bool has_breaks = requires(const double* q) { Author::breaks(q); };
   static constexpr bool field_is_distance = [] {
     if constexpr (requires { Author::field_is_distance; })
       return Author::field_is_distance;
@@ -57,6 +69,12 @@ struct Statements {
   static constexpr bool convex = [] {
     if constexpr (requires { Author::convex; })
       return Author::convex;
+    else
+      return false;
+  }();
+  static constexpr bool revolved = [] {
+    if constexpr (requires { Author::revolved; })
+      return Author::revolved;
     else
       return false;
   }();
@@ -95,11 +113,22 @@ std::array<J, Statements<Author>::sizes> constants(const double* q)
 }
 
 /// The surface or, of dimension 1, the core: what a chart table and a probe are made of.
-template <class Author, bool core>
+template <class A, bool core>
 struct Chart {
+  using Author = A;
   static constexpr int dimension = core ? 1 : 2;
-  /// Second derivatives of a chart may jump where those of the field do; a core is smooth.
-  static constexpr bool jumps = !core && Statements<Author>::curvature_jumps;
+  /// Second derivatives of a chart may jump where those of the field do, at places that are stated or not; a
+  /// core is smooth.
+  static constexpr bool jumps =
+      !core && Statements<Author>::curvature_jumps && !Statements<Author>::has_breaks;
+
+  static std::vector<double> breaks(const double* q)
+  {
+    if constexpr (Statements<Author>::has_breaks)
+      return Author::breaks(q);
+    else
+      return {};
+  }
 
   template <class S>
   static Point<S> at(const Turn<S>& u, const Turn<S>& v, const S* q)
@@ -161,6 +190,41 @@ Vec3 chart_point(const Turn<double>& u, const Turn<double>& v, const double* q)
 }
 
 inline Turn<double> turn(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// What part of [0, 2 pi]^2 a grid of cells has to cover. Where (u, v) and (u + pi, -v) mean the same point,
+/// as they do of a chart with poles at v = 0 and v = pi, v from 0 to pi covers the surface once. Of a surface
+/// of revolution the line u = 0 tells all that does not depend on axes. Both are what samples do not refute.
+struct ChartDomain {
+  static constexpr int columns = 16;  ///< of the coarsest grid around u
+  bool poles = false, revolved = false;
+
+  int rows() const { return poles ? 8 : 16; }
+  double half_u() const { return std::numbers::pi / columns; }
+  double half_v() const { return std::numbers::pi / 16; }
+
+  template <class Author>
+  static ChartDomain of(const double* q)
+  {
+    double size = 0.0, apart = 0.0, turned = 0.0;
+    for (int k = 0; k < 32; ++k) {
+      const Turn<double> u = turn(0.37 + 2.39996322972865 * k), v = turn(0.11 + 0.7548776662 * k);
+      const Vec3 x = chart_point<Author>(u, v, q), at_0 = chart_point<Author>(turn(0.0), v, q);
+      size = std::max(size, x.norm());
+      apart = std::max(apart, (x - chart_point<Author>({-u.c, -u.s}, {v.c, -v.s}, q)).norm());
+      turned = std::max(turned, (x - about_z(u) * at_0).norm());
+    }
+    const double rounding = 1e-12 * size;
+    return {apart <= rounding, Statements<Author>::revolved && turned <= rounding};
+  }
+
+  /// The rotation by u about the axis z.
+  static Mat3 about_z(const Turn<double>& u)
+  {
+    Mat3 r;
+    r << u.c, -u.s, 0.0, u.s, u.c, 0.0, 0.0, 0.0, 1.0;
+    return r;
+  }
+};
 
 /// A number over a cell of the chart, whose coordinates are u and v.
 using OverCell = TaylorModel<3>;

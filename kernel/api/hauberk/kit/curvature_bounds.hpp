@@ -22,10 +22,10 @@ class CurvatureSearch {
   explicit CurvatureSearch(const double* q) : q_(q)
   {
     const ChartDomain domain = ChartDomain::of<Author>(q);
-    const int columns = 16, rows = domain.poles ? 8 : 16;
-    const double half_u = std::numbers::pi / columns, half_v = 0.5 * domain.height / rows;
+    const int columns = domain.revolved ? 1 : ChartDomain::columns;
+    const double half_u = domain.revolved ? 0.0 : domain.half_u(), half_v = domain.half_v();
     for (int i = 0; i < columns; ++i)
-      for (int j = 0; j < rows; ++j) add((2 * i + 1) * half_u, (2 * j + 1) * half_v, half_u, half_v);
+      for (int j = 0; j < domain.rows(); ++j) add((2 * i + 1) * half_u, (2 * j + 1) * half_v, half_u, half_v);
   }
 
   /// At least the largest value over the surface of what `upper` bounds over a cell, at least 0. `at` is the

@@ -107,9 +107,12 @@ class FootSearch {
   FootSearch(const Vec3& x, const double* q, double size) : x_(x), q_(q), size_(size) {}
 
   /// `at_x` is the field at x. Found means: to rounding, on the side of the surface that the field tells.
-  Foot from(const FieldAt& at_x)
+  Foot from(const FieldAt& at_x) const { return from(at_x, x_ - along_gradient(at_x) * at_x.gradient); }
+
+  /// The same from a point near the surface.
+  Foot from(const FieldAt& at_x, const Vec3& begin) const
   {
-    State s = state(x_ - along_gradient(at_x) * at_x.gradient);
+    State s = state(begin);
     for (int k = 0; k < 30 && s.f.is_regular(); ++k) {
       const Step step = newton_step(s);
       const double moves = step.y.norm();

@@ -3,7 +3,8 @@
 /// gives.
 
 #include <hauberk/kit/reach.hpp>
-#include <hauberk/kit/steepness.hpp>
+#include <hauberk/kit/size_motion.hpp>
+#include <hauberk/kit/surface_balls.hpp>
 
 #include <mutex>
 #include <optional>
@@ -110,13 +111,9 @@ class ImplicitSolid final : public Solid {
       return s;
     } else {
       const Foot foot = FootSearch<Author>(x, q(), scale_).from(f);
-      if (!foot.found) return from_field(x, f);
-      SolidDistance s = parallel_surface(x, foot.y, FieldAt(field_jet<Author, 2>(foot.y, q())));
-      // Inside, any point of the surface bounds the depth; outside, a foot nearer than the reach is the
-      // nearest.
-      const bool certain = s.distance <= 0.0 || s.distance < reach();
-      s.at_least = certain ? s.distance : std::min(s.distance, least_outside(x, f));
-      return s;
+      if (!foot.found) return searched(x, f, nullptr);
+      const SolidDistance s = at_foot(x, foot.y);
+      return is_nearest(s.distance) ? s : searched(x, f, &s);
     }
   }
 
@@ -153,6 +150,15 @@ class ImplicitSolid final : public Solid {
     for (std::size_t k = 0; k < Say::sizes; ++k) out[k] = moves.slope(k);
   }
 
+  std::shared_ptr<const Solid> with_sizes(std::span<const double> sizes) const override
+  {
+    const bool right = sizes.size() == Say::sizes &&
+                       std::all_of(sizes.begin(), sizes.end(), [](double x) { return std::isfinite(x); });
+    if (!right) return nullptr;
+    return std::make_shared<const ImplicitSolid>(std::vector<double>(sizes.begin(), sizes.end()));
+  }
+  double speed(std::span<const double> sizes) const override { return surface_speed<Author>(sizes_, sizes); }
+
   std::vector<std::vector<Vec3>> cores() const override { return Author::cores(q()); }
 
  private:
@@ -179,29 +185,40 @@ class ImplicitSolid final : public Solid {
     return list;
   }
 
-  /// The distance to first order of the field, where no foot was found.
-  SolidDistance from_field(const Vec3& x, const FieldAt& f) const
+  SolidDistance at_foot(const Vec3& x, const Vec3& foot) const
   {
-    SolidDistance s = level_surface(f);
-    s.distance = s.at_least = f.value / f.steep;
-    if (f.value >= 0.0) {
-      s.at_least = std::min(least_outside(x, f), s.distance);
-    } else {
-      // No point inside is deeper than the ball that holds the surface is wide.
-      s.at_least = -(radius() + x.norm());
-      s.distance = std::max(s.distance, s.at_least);
-    }
+    SolidDistance s = parallel_surface(x, foot, FieldAt(field_jet<Author, 2>(foot, q())));
+    s.at_least = s.distance;
     return s;
   }
 
-  /// A lower bound of the distance at a point outside: from that of the ball that holds the surface, and from
-  /// the field, which is not steeper than `steepness` on the way to the nearest point.
-  double least_outside(const Vec3& x, const FieldAt& f) const
+  /// Whether the distance from a foot is that from the surface: outside a foot within the reach is the
+  /// nearest point; inside any point of the surface bounds the depth.
+  bool is_nearest(double distance) const { return distance <= 0.0 || distance < reach(); }
+
+  /// The distance where `first`, that from a foot, may not be the least, or where no foot is known: balls
+  /// around the surface bound it, and Newton's method begins once more at the nearest point of theirs.
+  SolidDistance searched(const Vec3& x, const FieldAt& f, const SolidDistance* first) const
   {
-    const double ball = radius(),
-                 steepest = steepness_.get([&] { return steepness<Author>(q(), 2.0 * ball); });
-    const double by_field = x.cwiseAbs().maxCoeff() <= 2.0 * ball ? f.value / steepest : 0.0;
-    return std::max(std::max(0.0, x.norm() - ball), by_field);
+    constexpr double tight = 0.98;
+    const double known = first ? first->distance : std::numeric_limits<double>::infinity();
+    const BallDistance balls = this->balls().of(x, tight * known);
+    SolidDistance s = first ? *first : level_surface(f);
+    bool has_foot = first != nullptr;
+    if (!has_foot) s.distance = s.at_least = std::copysign(balls.distance, f.value);
+    if (balls.distance < known) {
+      const Foot foot = FootSearch<Author>(x, q(), scale_).from(f, balls.near);
+      const SolidDistance other = foot.found ? at_foot(x, foot.y) : s;
+      if (foot.found && (!has_foot || other.distance < s.distance)) s = other, has_foot = true;
+    }
+    const bool certain = s.distance <= 0.0 || (has_foot && is_nearest(s.distance));
+    if (!certain) s.at_least = std::min(s.distance, balls.at_least);
+    return s;
+  }
+
+  const SurfaceBalls<Author>& balls() const
+  {
+    return balls_.get([&] { return SurfaceBalls<Author>(q(), surface()); });
   }
 
   std::vector<double> sizes_;
@@ -211,7 +228,7 @@ class ImplicitSolid final : public Solid {
   Lazy<CurvatureBounds> curvature_;
   Lazy<double> reach_;
   Lazy<SolidSmoothness> smoothness_;
-  Lazy<double> steepness_;
+  Lazy<SurfaceBalls<Author>> balls_;
 };
 
 }  // namespace hauberk::kit

@@ -16,24 +16,28 @@ class SurfaceTree {
 
   explicit SurfaceTree(const double* q) : q_(q), domain_(ChartDomain::of<Author>(q))
   {
-    const double half_u = std::numbers::pi / columns, half_v = 0.5 * domain_.height / rows();
-    for (int i = 0; i < columns; ++i)
-      for (int j = 0; j < rows(); ++j)
-        nodes_.push_back(
-            {surface_cell<Author, false>(q, (2 * i + 1) * half_u, (2 * j + 1) * half_v, half_u, half_v)});
+    const double half_u = domain_.half_u(), half_v = domain_.half_v();
+    for (int i = 0; i < ChartDomain::columns; ++i)
+      for (int j = 0; j < domain_.rows(); ++j)
+        nodes_.push_back({domain_.revolved && i > 0
+                              ? turned(nodes_[j].cell, 2 * i * half_u)
+                              : surface_cell<Author, false>(q, (2 * i + 1) * half_u, (2 * j + 1) * half_v,
+                                                            half_u, half_v)});
+    for (const Node& n : nodes_) size_ = std::max(size_, n.cell.x.norm());
   }
 
   const SurfaceCell& cell(int k) const { return nodes_[k].cell; }
-  int roots() const { return columns * rows(); }
+  int roots() const { return ChartDomain::columns * domain_.rows(); }
+  /// The first cells of pairs: by symmetry one column will do of a surface of revolution.
+  int first_roots() const { return domain_.revolved ? domain_.rows() : roots(); }
   int size() const { return static_cast<int>(nodes_.size()); }
-  const ChartDomain& domain() const { return domain_; }
 
   /// The first of a cell's two halves, across its longer side in space.
   int halves(int k)
   {
     if (nodes_[k].first_half >= 0) return nodes_[k].first_half;
     SurfaceCell c = nodes_[k].cell;
-    const bool across_u = c.is_longer_in_u();
+    const bool across_u = c.is_wider_in_u(size_);
     double& half = across_u ? c.half_u : c.half_v;
     half *= 0.5;
     nodes_[k].first_half = size();
@@ -45,12 +49,20 @@ class SurfaceTree {
   }
 
  private:
-  static constexpr int columns = 16;
-  int rows() const { return domain_.poles ? 8 : 16; }
+  /// A cell of a surface of revolution farther around it.
+  static SurfaceCell turned(SurfaceCell cell, double by)
+  {
+    const Mat3 r = ChartDomain::about_z(turn(by));
+    cell.u += by;
+    cell.x = r * cell.x;
+    cell.frame = r * cell.frame;
+    return cell;
+  }
 
   const double* q_;
   ChartDomain domain_;
   std::vector<Node> nodes_;
+  double size_ = 0.0;
 };
 
 /// Lower bound of the reach of a solid: of the largest tau such that no ball of a smaller radius that touches
@@ -67,7 +79,7 @@ class SurfaceTree {
 /// opposite. Aamari et al. 2019, Estimating the reach of a manifold, theorem 3.4, is the same of manifolds.
 ///
 /// Double normals shorter than 2 tau are excluded pair by pair of cells. Over a cell points are within `path`
-/// of its middle and normals within bend * path of the normal there.
+/// of its middle and normals within `turn` of the normal there.
 template <class Author>
 class ReachSearch {
  public:
@@ -77,9 +89,9 @@ class ReachSearch {
   double bound()
   {
     if (!(concave_ > 0.0)) return std::numeric_limits<double>::infinity();
-    constexpr double share = 0.9, smaller = 0.92;
+    constexpr double share = 0.9, smaller = 0.8;
     double radius = std::min(share * sampled(), 1.0 / concave_);
-    for (int k = 0; k < 16; ++k, radius *= smaller)
+    for (int k = 0; k < 9; ++k, radius *= smaller)
       if (excluded(radius, 300000)) return radius;
     return 0.0;
   }
@@ -93,7 +105,7 @@ class ReachSearch {
   double sampled() const
   {
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < tree_.roots(); ++i)
+    for (int i = 0; i < tree_.first_roots(); ++i)
       for (int j = 0; j < tree_.roots(); ++j) {
         const Vec3 d = tree_.cell(j).x - tree_.cell(i).x;
         const double height = d.dot(tree_.cell(i).frame.col(2)), square = d.squaredNorm();
@@ -107,14 +119,14 @@ class ReachSearch {
   {
     const int most_cells = tree_.size() + 6000;
     std::vector<Pair> open;
-    for (int a = 0; a < tree_.roots(); ++a)
+    for (int a = 0; a < tree_.first_roots(); ++a)
       for (int b = a; b < tree_.roots(); ++b) open.push_back({a, b});
     while (!open.empty()) {
       const auto [a, b] = open.back();
       open.pop_back();
       if (has_none(tree_.cell(a), tree_.cell(b), 2.0 * t)) continue;
       if (--budget < 0 || tree_.size() > most_cells) return false;
-      const bool halve_a = tree_.cell(a).path >= tree_.cell(b).path;
+      const bool halve_a = width(tree_.cell(a), t) >= width(tree_.cell(b), t);
       const int h = tree_.halves(halve_a ? a : b);
       if (a == b)
         open.insert(open.end(), {{h, h}, {h, h + 1}, {h + 1, h + 1}});
@@ -125,12 +137,14 @@ class ReachSearch {
     return true;
   }
 
+  /// What a cell adds to how far points may be from the line through two points and along a normal.
+  static double width(const SurfaceCell& c, double length) { return c.path + length * c.turn; }
+
   /// Whether no double normal outside that is shorter than `length` joins the cells.
   static bool has_none(const SurfaceCell& a, const SurfaceCell& b, double length)
   {
     const Vec3 na = a.frame.col(2), nb = b.frame.col(2), d = b.x - a.x;
-    const double turn_a = a.bend() * a.path, turn_b = b.bend() * b.path,
-                 off = (a.path + b.path) * (1.0 + 1e-9);
+    const double turn_a = a.turn, turn_b = b.turn, off = (a.path + b.path) * (1.0 + 1e-9);
     const double opposite = turn_a + turn_b + 1e-9;
     if ((na + nb).squaredNorm() > opposite * opposite) return true;
     const double far = d.norm(), longest = far + off;

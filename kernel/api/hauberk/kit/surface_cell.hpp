@@ -12,14 +12,26 @@ struct SurfaceCell {
   Vec3 x;             ///< the point in the middle
   Mat3 frame;         ///< two tangents and the normal there
   double path = 0.0;  ///< each point is joined to x by a path in the cell, not longer than this
+  double turn = 0.0;  ///< no unit normal differs by more from that at x
   double side_u = 0.0, side_v = 0.0;    ///< half the sides' lengths
   double twist_u = 0.0, twist_v = 0.0;  ///< how far the gradient's direction turns along half a side, about
   double most_at = 0.0, least_at = 0.0, change_at = 0.0;  ///< principal curvatures and change at x
   double most = 0.0, least = 0.0, change = 0.0;           ///< and their bounds over the cell
 
   double bend_at() const { return std::max(std::abs(most_at), std::abs(least_at)); }
-  bool is_bent_in_u() const { return twist_u >= twist_v; }
-  bool is_longer_in_u() const { return std::isfinite(path) ? side_u >= side_v : half_u >= half_v; }
+  /// Whether normals turn over it as they do in its middle; they do not where curvature jumps.
+  bool is_told_by_middle() const { return turn <= 3.0 * (twist_u + twist_v); }
+  /// Across which side it is halved where places as well as normals count, these as seen from `far`.
+  bool is_wider_in_u(double far) const
+  {
+    const double u = side_u + far * twist_u, v = side_v + far * twist_v;
+    return is_told_by_middle() && u != v ? u > v : half_u > half_v;
+  }
+  /// The same where normals count.
+  bool is_bent_in_u() const
+  {
+    return is_told_by_middle() && twist_u != twist_v ? twist_u > twist_v : half_u > half_v;
+  }
   double bend() const { return std::max(std::abs(most), std::abs(least)); }
 };
 
@@ -37,6 +49,7 @@ struct FieldTensors {
 /// The second is the first's derivative along x' = w, x'' = -b(w,w) n.
 template <class V>
 struct SurfaceForms {
+  std::array<V, 3> n;
   V b11, b12, b22;
   V c111, c112, c122, c222;
 };
@@ -72,7 +85,7 @@ SurfaceForms<V> surface_forms(const FieldTensors<V>& f)
   const V lean = 1.0 / (n[2] + 1.0), p0 = n[0] * lean, p1 = n[1] * lean, cross = -(n[0] * p1);
   const std::array<V, 3> e1{1.0 - n[0] * p0, cross, -n[0]}, e2{cross, 1.0 - n[1] * p1, -n[1]};
   const std::array<V, 3> h1 = times(f.d2, e1), h2 = times(f.d2, e2);
-  SurfaceForms<V> s{dot(e1, h1) * by, dot(e2, h1) * by, dot(e2, h2) * by, V(0.0), V(0.0), V(0.0), V(0.0)};
+  SurfaceForms<V> s{n, dot(e1, h1) * by, dot(e2, h1) * by, dot(e2, h2) * by, V(0.0), V(0.0), V(0.0), V(0.0)};
   if constexpr (with_change) {
     const V a1 = dot(n, h1) * by, a2 = dot(n, h2) * by;
     const auto q1 = times(f.d3, e1), q2 = times(f.d3, e2);
@@ -203,33 +216,14 @@ SurfaceCell surface_cell(const double* q, double u, double v, double half_u, dou
   cell.path = std::max(longest({along(1.0, 0), along(1.0, 1), along(1.0, 2)}),
                        longest({along(-1.0, 0), along(-1.0, 1), along(-1.0, 2)}));
   const auto over = field_jet<Author, order, OverCell>(place, cell.frame, q);
-  bound_forms<with_change>(cell, surface_forms<with_change>(tensors<with_change>(over)));
+  const auto forms = surface_forms<with_change>(tensors<with_change>(over));
+  bound_forms<with_change>(cell, forms);
+  cell.turn = std::min(cell.bend() * cell.path, longest({forms.n[0], forms.n[1], forms.n[2] - 1.0}));
+  if (!std::isfinite(cell.turn)) cell.turn = unknown;
   if (!std::isfinite(cell.path)) cell.path = unknown;
   if (!std::isfinite(cell.most + cell.least)) cell.most = unknown, cell.least = -unknown;
   if (!std::isfinite(cell.change)) cell.change = unknown;
   return cell;
 }
-
-/// What part of [0, 2 pi]^2 covers the surface once, as a grid of cells. Where (u, v) and (u + pi, -v) mean
-/// the same point, as they do of a chart with poles at v = 0 and v = pi, v from 0 to pi does.
-struct ChartDomain {
-  bool poles;
-  double height;
-
-  template <class Author>
-  static ChartDomain of(const double* q)
-  {
-    double size = 0.0, apart = 0.0;
-    for (int k = 0; k < 32; ++k) {
-      const double a = 0.37 + 2.39996322972865 * k, b = 0.11 + 0.7548776662 * k;
-      const Vec3 x = chart_point<Author>(turn(a), turn(b), q);
-      const Turn<double> u = turn(a), v = turn(b);
-      size = std::max(size, x.norm());
-      apart = std::max(apart, (x - chart_point<Author>({-u.c, -u.s}, {v.c, -v.s}, q)).norm());
-    }
-    const bool poles = apart <= 1e-12 * size;
-    return {poles, poles ? std::numbers::pi : 2.0 * std::numbers::pi};
-  }
-};
 
 }  // namespace hauberk::kit

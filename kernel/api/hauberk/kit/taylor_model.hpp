@@ -169,7 +169,8 @@ struct TaylorModel {
     const TaylorModel apart = x - y;
     if (lower(apart) >= 0.0) return x;
     if (upper(apart) <= 0.0) return y;
-    return (x + y + abs(apart)) * 0.5;
+    return narrower((x + y + abs(apart)) * 0.5,
+                    between(std::max(lower(x), lower(y)), std::max(upper(x), upper(y))));
   }
   friend TaylorModel min(const TaylorModel& x, const TaylorModel& y) { return -max(-x, -y); }
   friend TaylorModel clamp(const TaylorModel& x, const TaylorModel& low, const TaylorModel& high)
@@ -179,6 +180,11 @@ struct TaylorModel {
   friend TaylorModel hypot(const TaylorModel& x, const TaylorModel& y) { return sqrt(square(x) + square(y)); }
 
  private:
+  static TaylorModel narrower(const TaylorModel& x, const TaylorModel& y)
+  {
+    return y.varies() < x.varies() ? y : x;
+  }
+
   static constexpr double factorial(int n) { return n <= 1 ? 1.0 : n * factorial(n - 1); }
 
   /// sum of f[k] (x - c)^k up to `degree`, and a rest of at most |f[degree + 1] (x - c)^(degree + 1)|.
@@ -212,7 +218,12 @@ struct TaylorModel {
     const double exponent = p - (degree + 1), least = std::min(std::abs(low), std::abs(high));
     const double end = exponent >= 0.0 ? std::max(std::abs(low), std::abs(high)) : least;
     f[degree + 1] = binomial == 0.0 ? 0.0 : binomial * raised(end, exponent);
-    return expanded(x, f);
+    const TaylorModel by_terms = expanded(x, f);
+    if (!(low > 0.0) || by_terms.r <= 0.1 * std::abs(f[0])) return by_terms;
+    // Of what varies by much its range is narrower, which ends at x^p of both ends.
+    const double one = std::pow(low, p), other = std::pow(high, p);
+    return narrower(by_terms, between(std::min(one, other) * (1.0 - outward::library),
+                                      std::max(one, other) * (1.0 + outward::library)));
   }
   /// x^p; of a negative exponent, which a vanishing factor stands before, 0.
   static double raised(double x, double p)

@@ -1,6 +1,7 @@
 #include "design/design_problem.hpp"
 
 #include "equilibrium/relaxation.hpp"
+#include "model/links.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -92,13 +93,17 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
     p->why = e.what();
     return p;
   }
-  p->model.links = current_->model.links;  // found at the rest state, not at the reference positions
+  // Links are those at the rest state, not at the reference positions, and cannot change on a way without
+  // collisions; but where loops of the elements themselves come or go they have to be counted anew.
+  const bool carried = same_loops(p->model, current_->model);
+  if (carried) p->model.links = current_->model.links;
   const RestPath::End& way = rest_path_.follow(current_, *p);
   if (way.share < 1.0) {
     p->why = "elements collide at rest on the way";
     return p;
   }
   p->rest = way.rest;
+  if (!carried) p->model.links = find_links(p->model, p->rest);
   p->rest_gaps = find_gaps(p->model, p->rest, scene_->rest_target(p->model) + response_range, true);
   return p;
 }

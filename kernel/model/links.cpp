@@ -124,6 +124,21 @@ std::vector<ElementLink> element_links(const Model& m)
   return out;
 }
 
+bool same_loops(const Model& a, const Model& b)
+{
+  if (a.first_loop != b.first_loop) return false;
+  for (std::size_t e = 0; e < a.spines.size(); ++e) {
+    const bool same =
+        a.spines[e] == b.spines[e] ||
+        std::equal(a.spines[e]->loops.begin(), a.spines[e]->loops.end(), b.spines[e]->loops.begin(),
+                   b.spines[e]->loops.end(), [](const SpineLoop& x, const SpineLoop& y) {
+                     return x.pieces == y.pieces && x.primitives == y.primitives;
+                   });
+    if (!same) return false;
+  }
+  return true;
+}
+
 bool links_kept(const Model& m, const State& s)
 {
   const auto sorted = [](const std::vector<Link>& links) {

@@ -28,6 +28,11 @@ struct ElementLink {
 /// Those of the model's links, in the order of their first links.
 std::vector<ElementLink> element_links(const Model& model);
 
+/// True if loops of several primitives, where elements have any, are the same in two models of the same
+/// primitives, so that a Link of one means the same in the other. Such loops come and go where parameters
+/// make primitives of an element meet or part.
+bool same_loops(const Model& a, const Model& b);
+
 /// True if the links in `state` are those at rest.
 bool links_kept(const Model& model, const State& state);
 

@@ -6,6 +6,9 @@
 
 #include <Eigen/QR>
 
+#include <cmath>
+#include <numbers>
+
 namespace hauberk::test {
 namespace {
 
@@ -83,6 +86,49 @@ TEST(DesignProblem, RestIsFollowedAroundWhatTheStraightWayCollidesWith)
   problem.accept(y);
   EXPECT_TRUE(links_kept(problem.current().model, problem.current().rest));
   EXPECT_GT(problem.rest_distance(), 0.0);  // what is missing is left to the constraints
+}
+
+/// Rings of radius R about (6.4, 0, 0) and its copies by 120 degrees, which touch their neighbours and have a
+/// void in the middle; through it go two thin rings that stand upright, so that the fabric is a chain.
+SceneSpec chain_through_voids()
+{
+  std::vector<Rings::Ring> three(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = 2.0 * std::numbers::pi / 3.0 * static_cast<double>(k);
+    three[k].position = 6.4 * Vec3(std::cos(angle), std::sin(angle), 0.0);
+  }
+  SceneSpec s;
+  s.types = {{"three", std::make_shared<Rings>(three)}, {"one", std::make_shared<Rings>()}};
+  s.lattice = {{26, 0, 0}, {0, 100, 0}};
+  s.elements.resize(2);
+  s.elements[0].parameters = {5.3, 0.6, 0.6, 5.3, 0.6, 0.6, 5.3, 0.6, 0.6};
+  s.elements[1].type = 1;
+  s.elements[1].parameters = {12.85, 0.1, 0.1};
+  s.elements[1].rest = {{13, 0, 0}, rotation_exp({0.5 * std::numbers::pi, 0, 0})};
+  s.length = 5.3;
+  return s;
+}
+
+/// The void is a loop of three primitives until one of them is so small that it touches the others no longer;
+/// the thin rings, 0.2 across, do not fit through the gap of 0.085, so there still is a limit.
+TEST(DesignProblem, LinksAreCountedAnewWhereLoopsOpen)
+{
+  const Sheet load(2);
+  DesignSpec d = spec();
+  d.variables = {{"0/R", {{0, 0}}, 4.4, 5.5}};
+  d.targets = {{0.0, 0.1, 1.0}};
+  d.hole_clearance = d.rest_clearance = 0.01;
+  DesignProblem problem({chain_through_voids(), load, 0.0, LimitSettings{}, d, 1, [] { return true; }});
+  const std::vector<double> closed{5.3}, open{4.5};
+  ASSERT_TRUE(problem.evaluate(closed, false).ok);
+  problem.accept(closed);
+  EXPECT_EQ(problem.current().model.links.size(), 2U);
+  EXPECT_EQ(problem.current().model.first_loop.back(), 1);
+  ASSERT_TRUE(problem.evaluate(open, false).ok);
+  problem.accept(open);
+  EXPECT_TRUE(problem.current().model.first_loop.empty());
+  EXPECT_TRUE(problem.current().model.links.empty());
+  EXPECT_TRUE(links_kept(problem.current().model, problem.current().rest));
 }
 
 TEST(DesignProblem, FollowedStatesAreCheckedEveryFewSteps)

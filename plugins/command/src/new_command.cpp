@@ -4,6 +4,7 @@
 #include "options.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
+#include <hauberk/experiment/union_shape.hpp>
 #include <hauberk/host/search_path.hpp>
 
 #include <fmt/format.h>
@@ -41,6 +42,9 @@ void check_name(const std::string& name, const Registry& registry)
   }
   if (std::find(taken.begin(), taken.end(), name) != taken.end() || name == name_mark)
     throw InputError(fmt::format("'{}' is no name for a plugin: it means something else to CMake", name));
+  if (name == union_table().id)
+    throw InputError(
+        fmt::format("there is a shape '{}' already, which is built in; choose another name", name));
   for (const PluginEntry& entry : registry.list()) {
     if (entry.id == name)
       throw InputError(

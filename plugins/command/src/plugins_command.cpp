@@ -4,6 +4,7 @@
 #include "experiment_options.hpp"
 
 #include <hauberk/experiment/schema.hpp>
+#include <hauberk/experiment/union_shape.hpp>
 #include <hauberk/host/factories.hpp>
 #include <hauberk/suggestion.hpp>
 
@@ -36,14 +37,25 @@ std::string section_place(PluginKind kind)
   return "";
 }
 
-/// Broken plugins are said so and make the exit code 1.
+void print_line(const PluginTable& table)
+{
+  fmt::print("{:<20} {:<10} {:<8} {}\n", table.id, kind_text(table.kind), table.version, table.summary);
+}
+
+void describe_in(boost::json::object& out, const PluginTable& table)
+{
+  out["kind"] = kind_text(table.kind);
+  out["version"] = table.version;
+  out["summary"] = table.summary;
+}
+
+/// The built-in union comes last. Broken plugins are said so and make the exit code 1.
 int list(const Registry& registry)
 {
   bool broken = false;
   for (const PluginEntry& entry : registry.list()) {
     if (entry.table != nullptr) {
-      fmt::print("{:<20} {:<10} {:<8} {}\n", entry.id, kind_text(entry.table->kind), entry.table->version,
-                 entry.table->summary);
+      print_line(*entry.table);
     } else if (entry.shadowed_by) {
       fmt::print("{:<20} not used: {} is found before {}\n", entry.id, entry.shadowed_by->string(),
                  entry.file.string());
@@ -52,10 +64,12 @@ int list(const Registry& registry)
       broken = true;
     }
   }
+  print_line(union_table());
   return broken ? exit_failed : exit_done;
 }
 
-/// [{id, kind, version, summary, file}], with `problem` instead of the middle three where one cannot be used.
+/// [{id, kind, version, summary, file}], with `problem` instead of the middle three where one cannot be used;
+/// of what is built in, `file` is null.
 int list_as_json(const Registry& registry)
 {
   boost::json::array out;
@@ -63,9 +77,7 @@ int list_as_json(const Registry& registry)
   for (const PluginEntry& entry : registry.list()) {
     boost::json::object plugin{{"id", entry.id}, {"file", entry.file.string()}};
     if (entry.table != nullptr) {
-      plugin["kind"] = kind_text(entry.table->kind);
-      plugin["version"] = entry.table->version;
-      plugin["summary"] = entry.table->summary;
+      describe_in(plugin, *entry.table);
     } else if (entry.shadowed_by) {
       plugin["problem"] = fmt::format("not used: {} is found before", entry.shadowed_by->string());
     } else {
@@ -74,6 +86,9 @@ int list_as_json(const Registry& registry)
     }
     out.push_back(std::move(plugin));
   }
+  boost::json::object built_in{{"id", union_table().id}, {"file", nullptr}};
+  describe_in(built_in, union_table());
+  out.push_back(std::move(built_in));
   fmt::print("{}", write_json(out));
   return broken ? exit_failed : exit_done;
 }
@@ -81,6 +96,7 @@ int list_as_json(const Registry& registry)
 /// Parameters of a shape that needs no settings of its own; others depend on them.
 std::string parameters_text(const PluginTable& table)
 {
+  if (table.make_shape == nullptr) return "Its parameters are those of its parts, and where these are.\n";
   Field fields;
   fields.kind = Field::Kind::object;
   fields.children = plugin_fields(table);
@@ -102,23 +118,27 @@ std::string parameters_text(const PluginTable& table)
   return text;
 }
 
+int describe(const PluginTable& table, const std::string& file)
+{
+  fmt::print("{} {}: {}\n{}\n\n", table.id, table.version, kind_text(table.kind), table.summary);
+  fmt::print("source: {}\nfile:   {}\n\n", table.citation, file);
+  const std::vector<Field> fields = plugin_fields(table);
+  if (!fields.empty()) fmt::print("{}", fields_reference(fields, section_place(table.kind)));
+  if (table.kind == PluginKind::shape) fmt::print("{}", parameters_text(table));
+  return exit_done;
+}
+
 int describe(const Registry& registry, const std::string& id)
 {
-  std::vector<std::string> known, searched;
+  if (id == union_table().id) return describe(union_table(), "built in");
+  std::vector<std::string> known{union_table().id}, searched;
   for (const PluginEntry& entry : registry.list()) {
     if (entry.table == nullptr) {
       if (entry.id == id && !entry.problem.empty()) throw InputError(entry.problem);
       continue;
     }
     known.push_back(entry.id);
-    if (entry.id != id) continue;
-    const PluginTable& table = *entry.table;
-    fmt::print("{} {}: {}\n{}\n\n", id, table.version, kind_text(table.kind), table.summary);
-    fmt::print("source: {}\nfile:   {}\n\n", table.citation, entry.file.string());
-    const std::vector<Field> fields = plugin_fields(table);
-    if (!fields.empty()) fmt::print("{}", fields_reference(fields, section_place(table.kind)));
-    if (table.kind == PluginKind::shape) fmt::print("{}", parameters_text(table));
-    return exit_done;
+    if (entry.id == id) return describe(*entry.table, entry.file.string());
   }
   for (const auto& folder : registry.directories()) searched.push_back(folder.string());
   throw InputError(fmt::format("no plugin '{}'{} (searched: {}; others with --plugin-path)", id,

@@ -1,8 +1,10 @@
 #include "document/field_helpers.hpp"
+#include "rotation.hpp"
 #include "weave.hpp"
 
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/task_format.hpp>
+#include <hauberk/experiment/union_shape.hpp>
 
 #include <algorithm>
 
@@ -17,9 +19,10 @@ Field elements_field()
   Field parameters =
       map("parameters", "Values of the shape's parameters by name; the others keep the shape's defaults.",
           number("parameter", "Value of one parameter.", "as declared by the shape"));
-  Field element = object("element", "One kind of element.",
-                         {required(string("shape", "Plugin that turns parameters into primitives.")),
-                          with_default(std::move(parameters), "{}")});
+  Field element =
+      object("element", "One kind of element.",
+             {required(string("shape", "Plugin that turns parameters into primitives, or union.")),
+              with_default(std::move(parameters), "{}")});
   Field elements = map("elements", "The kinds of elements, by name. Needed unless cell.weave brings them.",
                        std::move(element));
   elements.min_items = 1;
@@ -28,18 +31,12 @@ Field elements_field()
 
 Field place_field()
 {
-  Field rotation =
-      object("rotation",
-             "Active, right-handed rotation about the element's origin, applied before translation: axis and "
-             "degrees, or a quaternion. Absent: none.",
-             {numbers("axis", "Axis; normalised.", 3), number("degrees", "Angle about the axis.", "degree"),
-              numbers("quaternion", "Quaternion [w, x, y, z]; normalised.", 4)});
   Field overrides = map("parameters", "Values for this placement only, over those of the element.",
                         number("parameter", "Value of one parameter.", "as declared by the shape"));
   Field entry = object("placement", "One placed element.",
                        {required(string("element", "Name of an entry of elements.")),
                         required(in_unit(numbers("position", "Place of the element's origin.", 3), "length")),
-                        std::move(rotation), std::move(overrides)});
+                        rotation_field("element"), std::move(overrides)});
   Field place = list("place", "What is in the cell, before it is repeated. Needed unless weave brings it.",
                      std::move(entry));
   place.min_items = 1;
@@ -251,6 +248,7 @@ Field experiment_fields(TaskFormats formats)
 std::optional<PluginSection> plugin_section(const Field& object)
 {
   if (object.name == "element") return PluginSection{PluginKind::shape, "shape"};
+  if (object.name == union_part_field) return PluginSection{PluginKind::shape, "shape"};
   if (object.name == "load_case") return PluginSection{PluginKind::load_case, "plugin"};
   if (object.name == "optimizer") return PluginSection{PluginKind::optimizer, "plugin"};
   return std::nullopt;

@@ -1,6 +1,9 @@
+#include "union_reader.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/plugin_resolver.hpp>
+#include <hauberk/experiment/union_shape.hpp>
 #include <hauberk/host/factories.hpp>
 
 #include <filesystem>
@@ -10,14 +13,15 @@ namespace hauberk {
 namespace {
 
 /// Plugins are promised a checked section. What was wrong has been removed from it and was replaced by a
-/// default where there is one; true when nothing that the plugin requires is missing now.
+/// default where there is one; true when nothing that the plugin requires is missing now. Parts of a union
+/// are checked when they are made.
 bool is_intact(const Node& section, const PluginTable& table)
 {
   Field own;
   own.kind = Field::Kind::object;
   own.children = plugin_fields(table);
-  const ExtraFieldsOf common_keys = [&](const Field&, const Node& object, Problems&) {
-    return ExtraFields{{}, object.pointer == section.pointer};
+  const ExtraFieldsOf common_keys = [&](const Field& field, const Node& object, Problems&) {
+    return ExtraFields{{}, object.pointer == section.pointer || field.name == union_part_field};
   };
   Node copy = section;
   Problems missing;
@@ -64,6 +68,10 @@ const PluginResolver::Found& PluginResolver::look_up(PluginKind kind, const std:
   const auto known = found_.find(key);
   if (known != found_.end()) return known->second;
   Found found;
+  if (kind == PluginKind::shape && id == union_table().id) {
+    found.table = &union_table();
+    return found_.emplace(key, std::move(found)).first->second;
+  }
   found.table = lookup_(kind, id, found.error);
   if (found.table == nullptr && found.error.empty()) found.error = "no plugin '" + id + "'";
   return found_.emplace(key, std::move(found)).first->second;
@@ -87,8 +95,17 @@ ExtraFields PluginResolver::extra_fields(const Field& field, const Node& object,
     problems.add(*id, found.error);
     return {{}, true};
   }
+  const bool part = field.name == union_part_field;
+  if (part && found.table == &union_table()) {
+    problems.add(*id, "a part cannot be a union itself: list its parts beside this one");
+    return {{}, true};
+  }
   try {
-    return {plugin_fields(*found.table), false};
+    std::vector<Field> fields = plugin_fields(*found.table);
+    const std::string unfit = part ? unfit_for_parts(fields) : "";
+    if (unfit.empty()) return {std::move(fields), false};
+    problems.add(*id, "shape '" + id->string + "' cannot be a part: " + unfit);
+    return {{}, true};
   } catch (const PluginError& error) {
     problems.add(*id, error.what());
     return {{}, true};
@@ -98,6 +115,17 @@ ExtraFields PluginResolver::extra_fields(const Field& field, const Node& object,
 std::shared_ptr<const Shape> PluginResolver::shape(const Node& section, Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::shape, "shape");
+  if (table != &union_table()) return part(section, problems);
+  return make_guarded(section, table, problems, [&](const Node& own) {
+    return make_union(
+        own, [&](const Node& of) { return part(of, problems); }, problems);
+  });
+}
+
+std::shared_ptr<const Shape> PluginResolver::part(const Node& section, Problems& problems)
+{
+  const PluginTable* table = find(section, PluginKind::shape, "shape");
+  if (table == &union_table()) return nullptr;  // a union in a union, which has been reported
   return make_guarded(section, table, problems,
                       [&](const Node& own) { return make_shape(*table, own, problems); });
 }

@@ -2,6 +2,7 @@
 
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
+#include <hauberk/experiment/union_shape.hpp>
 #include <hauberk/host/factories.hpp>
 
 namespace hauberk {
@@ -89,6 +90,33 @@ const char* section_place(PluginKind kind)
   return "";
 }
 
+void write_table(const std::string& what, const PluginTable& table, std::string& out)
+{
+  const std::vector<Field> fields = plugin_fields(table);
+  out += "\n# " + what + " `" + table.id + "`\n\n" + table.summary + "\n\n";
+  out +=
+      fields.empty() ? "It has no fields of its own.\n" : fields_reference(fields, section_place(table.kind));
+}
+
+const char* union_text =
+    "\n"
+    "Of two parts, a ring (`torus_union`) called `eye` with its centre at x = 6 and a strut (`strut_frame`) "
+    "called `shank`:\n"
+    "\n"
+    "    \"link\": { \"shape\": \"union\",\n"
+    "      \"parts\": [\n"
+    "        { \"name\": \"eye\", \"shape\": \"torus_union\", \"tori\": [{ \"name\": \"ring\" }], "
+    "\"position\": [6, 0, 0] },\n"
+    "        { \"name\": \"shank\", \"shape\": \"strut_frame\", \"nodes\": [[-1, 0, 0], [1, 0, 0]], "
+    "\"struts\": [[0, 1]] } ],\n"
+    "      \"parameters\": { \"eye.ring.R\": 3, \"eye.ring.r0\": 0.5, \"eye.ring.r1\": 0.5, "
+    "\"shank.size\": 3, \"shank.r\": 0.5 } }\n"
+    "\n"
+    "Its parameters are those of its parts, as above, and their places `eye.x`, `eye.y`, `eye.z` (6, 0, 0) and\n"
+    "`shank.x`, `shank.y`, `shank.z` (0, 0, 0), which designs and sweeps may vary like any other; rotations of parts are\n"
+    "fixed. Primitives are called `eye.ring` and `shank.strut_0`. Parts that overlap may close loops together, by which\n"
+    "elements are linked. `share/experiments/hook_and_eye.json` is a chain of unions.\n";
+
 }  // namespace
 
 std::string fields_reference(const std::vector<Field>& fields, const std::string& place)
@@ -103,12 +131,9 @@ std::string experiment_reference(std::span<const PluginTable* const> plugins, Ta
   const Field root = experiment_fields(formats);
   std::string out = introduction;
   write_section({"", "", &root.children}, out);
-  for (const PluginTable* plugin : plugins) {
-    const std::vector<Field> fields = plugin_fields(*plugin);
-    out += "\n# Plugin `" + std::string(plugin->id) + "`\n\n" + plugin->summary + "\n\n";
-    out += fields.empty() ? "It has no fields of its own.\n"
-                          : fields_reference(fields, section_place(plugin->kind));
-  }
+  for (const PluginTable* plugin : plugins) write_table("Plugin", *plugin, out);
+  write_table("Shape", union_table(), out);
+  out += union_text;
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "rotation.hpp"
 
+#include "document/field_helpers.hpp"
 #include "document/node_access.hpp"
 
 #include <Eigen/Geometry>
@@ -36,6 +37,17 @@ Mat3 rotation_about(const Vec3& axis, double degrees)
   const Vec3 a = axis / axis.norm();
   const auto [c, s] = cos_sin(degrees);
   return c * Mat3::Identity() + s * skew(a) + (1.0 - c) * a * a.transpose();
+}
+
+Field rotation_field(const std::string& of)
+{
+  using namespace fields;
+  return object(
+      "rotation",
+      "Active, right-handed rotation about the " + of +
+          "'s origin, applied before translation: axis and degrees, or a quaternion. Absent: none.",
+      {numbers("axis", "Axis; normalised.", 3), number("degrees", "Angle about the axis.", "degree"),
+       numbers("quaternion", "Quaternion [w, x, y, z]; normalised.", 4)});
 }
 
 Mat3 read_rotation(const Node* rotation, Problems& problems)

@@ -4,6 +4,7 @@
 
 #include <hauberk/experiment/fields.hpp>
 #include <hauberk/experiment/schema.hpp>
+#include <hauberk/experiment/union_shape.hpp>
 #include <hauberk/host/factories.hpp>
 
 #include <cmath>
@@ -163,6 +164,7 @@ class SchemaWriter {
     alternatives.type = Node::Type::array;
     for (const PluginTable* plugin : plugins_) {
       if (plugin->kind != section->kind) continue;
+      if (plugin == &union_table() && field.name == union_part_field) continue;  // none within itself
       Node then = object_node(), alternative = object_node();
       write_members(merge_fields(field.children, plugin_fields(*plugin)), true, then);
       set_default(alternative, "if", const_node(section->key, plugin->id));
@@ -181,7 +183,9 @@ Node experiment_schema(std::span<const PluginTable* const> plugins, TaskFormats 
   set_default(root, "$schema", string_node("http://json-schema.org/draft-07/schema#"));
   set_default(root, "$id", string_node("urn:hauberk:experiment"));
   set_default(root, "title", string_node("Hauberk experiment"));
-  Node body = SchemaWriter(plugins).write(experiment_fields(formats));
+  std::vector<const PluginTable*> shapes_too(plugins.begin(), plugins.end());
+  shapes_too.push_back(&union_table());
+  Node body = SchemaWriter(shapes_too).write(experiment_fields(formats));
   for (auto& [key, value] : body.members) set_default(root, key, std::move(value));
   return root;
 }

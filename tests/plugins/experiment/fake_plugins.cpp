@@ -84,6 +84,29 @@ std::unique_ptr<Shape> make_rings(const Node& section, Problems& problems)
   return problems.list().size() == before ? std::make_unique<Rings>(names) : nullptr;
 }
 
+/// A ring that is moved along x.
+class Moved final : public Shape {
+ protected:
+  const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
+  void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
+  {
+    out.resize(1);
+    out[0].position.x() = p[0];
+    out[0].size = {5.0, 0.5, 0.5};
+  }
+  void do_jacobians(std::span<const double>, std::vector<PrimitiveJacobian>& out) const override
+  {
+    out = {{1.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+  }
+
+ private:
+  std::vector<ParameterInfo> parameters_{{"x", "length", 0.0, -9.0, 9.0, "", true}};
+};
+
+void position_field(std::vector<Field>& out) { out.push_back(field("position", Field::Kind::string)); }
+
+std::unique_ptr<Shape> make_moved(const Node&, Problems&) { return std::make_unique<Moved>(); }
+
 class Plane : public LoadCase {
  public:
   Plane(std::string measure, bool bends) : measure_(std::move(measure)), bends_(bends) {}
@@ -182,6 +205,10 @@ void no_fields(std::vector<Field>&) {}
 
 const PluginTable rings = {HAUBERK_HANDSHAKE, PluginKind::shape, "rings", "1",    "Rings.", "none",
                            rings_fields,      make_rings,        nullptr, nullptr};
+const PluginTable moved = {HAUBERK_HANDSHAKE, PluginKind::shape, "moved", "1",    "A ring.", "none",
+                           no_fields,         make_moved,        nullptr, nullptr};
+const PluginTable placed = {HAUBERK_HANDSHAKE, PluginKind::shape, "placed", "1",    "A ring.", "none",
+                            position_field,    make_moved,        nullptr,  nullptr};
 const PluginTable plane = {HAUBERK_HANDSHAKE, PluginKind::load_case,
                            "plane",           "1",
                            "A plane.",        "none",
@@ -210,7 +237,7 @@ const PluginTable search = {HAUBERK_HANDSHAKE, PluginKind::optimizer,
 
 const PluginTable* fake_lookup(PluginKind kind, const std::string& id, std::string& error)
 {
-  for (const PluginTable* table : {&rings, &plane, &strains, &bend, &search}) {
+  for (const PluginTable* table : {&rings, &moved, &placed, &plane, &strains, &bend, &search}) {
     if (table->kind == kind && id == table->id) return table;
   }
   error = "no plugin '" + id + "' here";

@@ -9,6 +9,7 @@
 namespace hauberk::test {
 
 /// Finds "rings" (shape; list of rings, parameters <name>.R and <name>.r, .r below .R, no default for R),
+/// "moved" (shape; parameter x), "placed" (shape; field position),
 /// "plane" (load case; measure), "strains" (load case with exx, eyy, exy), "bend" (load case) and "search"
 /// (optimizer; steps).
 const PluginTable* fake_lookup(PluginKind kind, const std::string& id, std::string& error);

@@ -48,6 +48,75 @@ TEST(Meaning, Elements)
             "digits, '_', '-' and '.', found '3/x'");
 }
 
+/// The element of the valid file as a union of two parts.
+std::string of_parts(const std::string& parts)
+{
+  const std::string text = with(valid_text(), R"("shape": "rings", "rings": [ { "name": "ring" } ])",
+                                R"("shape": "union", "parts": )" + parts);
+  return problems_of(with(text, R"("ring.R": 5.0, "ring.r": 0.7)", R"("a.ring.R": 5.0, "b.ring.R": 4.0)"));
+}
+
+TEST(Meaning, Unions)
+{
+  const std::string a = R"({ "name": "a", "shape": "rings", "rings": [ { "name": "ring" } ] })";
+  const auto with_b = [&](const std::string& b) { return of_parts("[" + a + ", " + b + "]"); };
+  const std::string rings = R"("shape": "rings", "rings": [ { "name": "ring" } ])";
+  const std::string at = "t.json:4: /elements/link/parts";
+  // "design" of the file varies ring.R, which the element has no longer.
+  const std::string then =
+      "\nt.json:17: /design/variables/0/parameters: no element has a parameter 'ring.R'; did you mean "
+      "'a.ring.R'?";
+  EXPECT_EQ(with_b(R"({ "name": "b", )" + rings + " }"), then.substr(1));
+  EXPECT_EQ(with_b(R"({ "name": "b", "shape": "ringz" })"), at + "/1/shape: no plugin 'ringz' here");
+  EXPECT_EQ(with_b(R"({ "name": "b" })"), at + "/1: missing key 'shape': expected a string");
+  EXPECT_EQ(with_b(R"({ "name": "a", )" + rings + " }"),
+            at + "/1/name: there are two parts named 'a'; give each its own name");
+  EXPECT_EQ(with_b(R"({ "name": "b.c", )" + rings + " }"),
+            at + "/1/name: expected a name of letters, digits, '_' and '-', found 'b.c'");
+  EXPECT_EQ(with_b(R"({ "name": "b", "shape": "rings" })"),
+            at + "/1: missing key 'rings': expected an array of at least 1 objects");
+  EXPECT_EQ(with_b(R"({ "name": "b", "shape": "union", "parts": [] })"),
+            at + "/1/shape: a part cannot be a union itself: list its parts beside this one");
+  EXPECT_EQ(with_b(R"({ "name": "b", "rotation": { "axis": [0, 0, 0], "degrees": 1 }, )" + rings + " }"),
+            at + "/1/rotation/axis: expected a direction, found all zeros");
+  EXPECT_EQ(of_parts("[]"), at + ": expected an array of at least 1 objects, found an empty array");
+  EXPECT_EQ(with_b(R"({ "name": "b", "rings": [ { "name": "bad" } ], "shape": "rings" })"),
+            at + "/1/rings/0/name: no ring can be called 'bad'");
+  EXPECT_EQ(
+      with_b(R"({ "name": "b", "shape": "moved" })"),
+      at +
+          "/1/shape: shape 'moved' has a parameter 'x', which is a coordinate of parts, so it cannot be one");
+  EXPECT_EQ(
+      with_b(R"({ "name": "b", "shape": "placed" })"),
+      at +
+          "/1/shape: shape 'placed' cannot be a part: it has a field 'position' of its own, which is one of parts");
+  // These leave a shape whose parameters are known.
+  EXPECT_EQ(
+      with_b(R"({ "name": "b", "colour": 1, )" + rings + " }"),
+      at + "/1/colour: unknown key 'colour'; known: 'name', 'shape', 'position', 'rotation', 'rings'" + then);
+  EXPECT_EQ(with_b(R"({ "name": "b", "position": [1, 2], )" + rings + " }"),
+            at + "/1/position: expected an array of 3 numbers, found an array of 2 values" + then);
+}
+
+TEST(Meaning, GeometryOfPartsOfUnions)
+{
+  const std::string text =
+      with(valid_text(), R"("rings", "rings": [ { "name": "ring" } ])",
+           R"("union", "parts": [ { "name": "a", "shape": "rings", "rings": [ { "name": "ring" } ] } ])");
+  const auto parameters = [&](const std::string& values) {
+    return problems_of(with(with(text, R"("ring.R": 5.0, "ring.r": 0.7)", values), R"("ring.R", "lower")",
+                            R"("a.ring.R", "lower")"));
+  };
+  EXPECT_EQ(parameters(R"("a.ring.R": 5.0, "a.x": -3)"), "");
+  EXPECT_EQ(parameters(R"("a.ring.R": 5.0, "a.ring.r": 6)"),
+            "t.json:5: /elements/link/parameters: part 'a': ring 'ring' has no hole");
+  EXPECT_EQ(parameters(R"("a.ring.R": 5.0, "a.w": 6)"),
+            "t.json:5: /elements/link/parameters/a.w: unknown parameter 'a.w'; did you mean 'a.x'?");
+  EXPECT_EQ(parameters(R"("a.ring.r": 0.2)"),
+            "t.json:10: /cell/place/0: parameter 'a.ring.R' has no value and no default: give it in "
+            "/elements/link/parameters");
+}
+
 TEST(Meaning, AMistakeInAShapeHidesNoOther)
 {
   const std::string text = with(valid_text(), "\"name\": \"ring\"", "\"name\": \"ring\", \"colour\": 1");

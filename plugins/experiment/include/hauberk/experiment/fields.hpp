@@ -22,7 +22,8 @@ struct PluginSection {
   const char* key;  ///< member that holds the plugin's id
 };
 
-/// Which plugin completes this object, if any: an entry of elements, load_case, design.optimizer.
+/// Which plugin completes this object, if any: an entry of elements, a part of a union,
+/// load_case, design.optimizer.
 std::optional<PluginSection> plugin_section(const Field& object);
 
 }  // namespace hauberk

@@ -25,6 +25,7 @@ class PluginResolver {
   /// For check_fields: the fields of the plugin of a section; reports plugins that are missing.
   ExtraFields extra_fields(const Field& field, const Node& object, Problems& problems);
 
+  /// Of an element: that of its plugin, or the union of its parts.
   std::shared_ptr<const Shape> shape(const Node& section, Problems& problems);
   std::shared_ptr<const LoadCase> load_case(const Node& section, double length, Problems& problems);
   std::shared_ptr<const Optimizer> optimizer(const Node& section, Problems& problems);
@@ -34,6 +35,8 @@ class PluginResolver {
     const PluginTable* table = nullptr;
     std::string error;
   };
+  /// The shape of a plugin.
+  std::shared_ptr<const Shape> part(const Node& section, Problems& problems);
   const Found& look_up(PluginKind kind, const std::string& id);
 
   const PluginLookup& lookup_;

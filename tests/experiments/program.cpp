@@ -143,6 +143,26 @@ std::string chain_text()
 })";
 }
 
+std::string union_text()
+{
+  return R"({
+  "name": "union",
+  "elements": {
+    "link": { "shape": "union", "parts": [
+        { "name": "eye", "shape": "torus_union", "rotation": { "axis": [0, 1, 0], "degrees": 90 },
+          "tori": [ { "name": "ring", "position": [0, 0, 4], "axis": [1, 0, 0] } ] },
+        { "name": "hook", "shape": "closed_tube", "curve": "oval", "position": [-5, 0, 0],
+          "rotation": { "axis": [1, 0, 0], "degrees": 90 } } ],
+      "parameters": { "eye.ring.R": 4, "eye.ring.r0": 0.6, "eye.ring.r1": 0.6,
+                      "hook.half_length": 5, "hook.half_width": 3, "hook.r": 0.6 } } },
+  "cell": { "vectors": [[15, 0], [0, 100]],
+            "place": [ { "element": "link", "position": [0, 0, 0] } ] },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "solver": { "preset": "accurate" },
+  "expect": [ { "pointer": "/limits/0/value", "value": 0.12, "abs": 1e-9 } ]
+})";
+}
+
 std::string chainmail_text()
 {
   return R"({

@@ -64,6 +64,10 @@ std::string with(std::string text, const std::string& from, const std::string& t
 /// A chain of two rings (R 5, r 0.7; period 12, limit 17.2): strict JSON.
 std::string chain_text();
 
+/// A chain of one element, the union of a ring and of an upright oval, whose wires cross at its origin
+/// (period 15, limit 0.12): strict JSON.
+std::string union_text();
+
 /// A 4-in-1 chainmail of 2 x 1 cells, both senses in three directions, preset fast.
 std::string chainmail_text();
 

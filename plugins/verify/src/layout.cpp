@@ -55,18 +55,6 @@ Mat3 turned_about(const Vec3& axis, double degrees)
   return Eigen::AngleAxisd(quarter * std::numbers::pi / 2.0, axis.normalized()).toRotationMatrix() * fine;
 }
 
-Mat3 read_turn(const json::value* v, const std::string& where)
-{
-  if (v == nullptr) return Mat3::Identity();
-  if (v->is_object() && v->as_object().contains("quaternion")) {
-    const std::vector<double> q = numbers(member(*v, "quaternion", where), where + "/quaternion");
-    if (q.size() != 4) throw Malformed(where + "/quaternion: four numbers expected");
-    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-  }
-  return turned_about(three_numbers(member(*v, "axis", where), where + "/axis"),
-                      number(member(*v, "degrees", where), where + "/degrees"));
-}
-
 void overlay(const json::value& section, const std::string& where, std::map<std::string, double>& parameters)
 {
   const json::value* map = section.is_object() ? section.as_object().if_contains("parameters") : nullptr;
@@ -202,6 +190,18 @@ Layout patched(const json::value& patch, const std::vector<LaidElement>& placed)
 }
 
 }  // namespace
+
+Mat3 read_turn(const json::value* v, const std::string& where)
+{
+  if (v == nullptr) return Mat3::Identity();
+  if (v->is_object() && v->as_object().contains("quaternion")) {
+    const std::vector<double> q = numbers(member(*v, "quaternion", where), where + "/quaternion");
+    if (q.size() != 4) throw Malformed(where + "/quaternion: four numbers expected");
+    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  }
+  return turned_about(three_numbers(member(*v, "axis", where), where + "/axis"),
+                      number(member(*v, "degrees", where), where + "/degrees"));
+}
 
 std::optional<Layout> laid_out(const json::value& experiment)
 {

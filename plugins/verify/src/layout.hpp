@@ -28,6 +28,10 @@ struct Layout {
 /// stands for). Throws Malformed.
 std::optional<Layout> laid_out(const boost::json::value& experiment);
 
+/// The rotation that an experiment writes as axis and degrees, or as a quaternion; none where `v` is null.
+/// Throws Malformed.
+Mat3 read_turn(const boost::json::value* v, const std::string& where);
+
 /// The primitives that the rule of an element's shape makes of parameters; nothing for shapes whose rule is
 /// not known here. `section` is the entry of the experiment's `elements`. Throws Malformed where a parameter
 /// is missing.

@@ -19,6 +19,7 @@ constexpr std::string_view before = "the plan, made before anything was solved";
 constexpr std::string_view elsewhere = "names of other files";
 constexpr std::string_view motion = "curves of task transition";
 constexpr std::string_view shapes = "names of shapes: what is not known here leaves primitives unchecked";
+constexpr std::string_view instead = "defaults of parameters that are given";
 constexpr std::string_view wider = "what results keep to, and which could allow more";
 constexpr std::string_view ambiguous = "sensitivities where forces are not unique";
 constexpr std::string_view stated = "states of which only the value is kept";
@@ -29,6 +30,8 @@ constexpr std::array rules{
     // The experiment, as far as results follow from it.
     VerifyRule{"/experiment/task", {format}, "is one with results"},
     VerifyRule{"/experiment/elements/*/shape", {}, shapes},
+    VerifyRule{"/experiment/elements/*/parts/*/shape", {}, shapes},
+    VerifyRule{"/experiment/elements/*/parts/*/position/*", {}, instead},
     VerifyRule{"/experiment/elements/**",
                {scene},
                "the scene's primitives, made anew from these by the shape's rule"},
@@ -78,10 +81,11 @@ constexpr std::array rules{
                {scene, links, values},
                "as placed; where rest was relaxed or designed: unit quaternions, links as placed, no "
                "overlap; limits keep the mean of the positions"},
-    VerifyRule{"/scene/elements/*/primitives/**",
-               {scene},
-               "made anew from the parameters for `torus_union` and `closed_tube`; of a `mesh` R, r0, r1 "
-               "against its surface"},
+    VerifyRule{
+        "/scene/elements/*/primitives/**",
+        {scene},
+        "made anew from the parameters for `torus_union`, `closed_tube` and unions of these; of a `mesh` R, "
+        "r0, r1 against its surface"},
     VerifyRule{
         "/scene/surfaces/**",
         {scene, gap},

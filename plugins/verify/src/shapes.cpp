@@ -150,6 +150,52 @@ Primitive closed_tube(const json::value& section, const Parameters& parameters, 
   return out;
 }
 
+/// The parameters of one part of a union, without its name.
+Parameters of_part(const Parameters& parameters, const std::string& name)
+{
+  Parameters own;
+  for (const auto& [key, value] : parameters)
+    if (key.starts_with(name + ".")) own[key.substr(name.size() + 1)] = value;
+  return own;
+}
+
+/// Where a part is: x, y and z of its parameters, else its `position`.
+Place place_of(const json::object& part, const Parameters& own, const std::string& where)
+{
+  Place out;
+  out.rotation = read_turn(part.if_contains("rotation"), where + "/rotation");
+  if (const json::value* position = part.if_contains("position"))
+    out.position = vector_of(*position, where + "/position");
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto given = own.find(std::string(1, "xyz"[i]));
+    if (given != own.end()) out.position[i] = given->second;
+  }
+  return out;
+}
+
+/// Those of all parts, moved as a whole; nothing where one of them has a shape that is not known here.
+std::optional<std::vector<Primitive>> rigid_union(const json::value& section, const Parameters& parameters,
+                                                  const std::string& where)
+{
+  std::vector<Primitive> out;
+  int number = 0;
+  for (const json::value& item : array(member(section, "parts", where), where + "/parts")) {
+    const std::string at = where + "/parts/" + std::to_string(number++);
+    const std::string name = text(member(item, "name", at), at + "/name");
+    const Parameters own = of_part(parameters, name);
+    const auto made = primitives_of(item, own, at);
+    if (!made) return std::nullopt;
+    const Place place = place_of(item.as_object(), own, at);
+    for (Primitive primitive : *made) {
+      primitive.name = name + "." + primitive.name;
+      primitive.place.position = place.position + place.rotation * primitive.place.position;
+      primitive.place.rotation = place.rotation * primitive.place.rotation;
+      out.push_back(std::move(primitive));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<std::vector<Primitive>> primitives_of(const json::value& section, const Parameters& parameters,
@@ -158,6 +204,7 @@ std::optional<std::vector<Primitive>> primitives_of(const json::value& section, 
   const std::string shape = text(member(section, "shape", where), where + "/shape");
   if (shape == "torus_union") return torus_union(section, parameters, where);
   if (shape == "closed_tube") return std::vector<Primitive>{closed_tube(section, parameters, where)};
+  if (shape == "union") return rigid_union(section, parameters, where);
   return std::nullopt;
 }
 

@@ -93,6 +93,7 @@ void mutate_text(const std::string& name, const std::string& text, int code = 0)
   expect_nothing_missed(name, read_results(folder / "out"));
 }
 
+TEST(MutationOfElements, Union) { mutate_text("union", union_text()); }
 TEST(MutationOfTables, Sweep) { mutate_text("sweep", sweep_text()); }
 TEST(MutationOfTables, Chart) { mutate_text("chart", chart_text()); }
 TEST(MutationOfTables, Stability) { mutate_text("stability", map_text()); }

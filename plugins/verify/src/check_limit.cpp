@@ -36,10 +36,11 @@ std::vector<Place> rest_places(const Scene& scene)
 
 /// Smallest separation less the clearance, compared with min_gap; returns what to say about it.
 std::string check_gap(const Scene& scene, const Setting& setting, const Limit& limit,
-                      const VerifyTolerances& tolerances, Sentences& problems)
+                      const VerifyTolerances& tolerances, Sentences& problems, Record& record)
 {
   const double margin = search_margin * scene.length, tolerance = tolerances.gap * scene.length;
-  const auto closest = closest_pair(scene, limit.poses, limit.macro->deformation(), margin);
+  const auto closest = closest_pair(scene, limit.poses, limit.macro->deformation(), margin,
+                                    tolerances.enclosure * scene.length);
   const double gap = (closest ? closest->distance : margin) - setting.clearance;
   const std::string whose = closest ? fmt::format("elements {} and {}, image {}", closest->pair.first,
                                                   closest->pair.second, shown(closest->pair.image))
@@ -50,7 +51,12 @@ std::string check_gap(const Scene& scene, const Setting& setting, const Limit& l
     problems.push_back("min_gap is missing");
   else if (closest ? !(std::abs(*limit.min_gap - gap) <= tolerance) : *limit.min_gap < gap)
     problems.push_back(fmt::format("min_gap {:.6g} reported, {:.6g} found ({})", *limit.min_gap, gap, whose));
-  return fmt::format("smallest gap {:.3g}", gap);
+  if (!closest || !(closest->least < closest->distance - tolerance))
+    return fmt::format("smallest gap {:.3g}", gap);
+  record.skip(limit.where + "/min_gap", "gaps of solids that the search does not enclose closely enough");
+  record.skip(limit.where + "/status", "gaps of solids that the search does not enclose closely enough");
+  return fmt::format("smallest gap found {:.3g}, certified to be above {:.3g}", gap,
+                     closest->least - setting.clearance);
 }
 
 std::string check_links(const Scene& scene, const Limit& limit, Sentences& problems)
@@ -107,7 +113,7 @@ VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const L
   check_range(scene, limit, tolerances, problems);
   for (std::string& p : misplaced(scene, setting, {*limit.macro, limit.poses}, tolerances.translation))
     problems.push_back(std::move(p));
-  const std::string gap = check_gap(scene, setting, limit, tolerances, problems);
+  const std::string gap = check_gap(scene, setting, limit, tolerances, problems, record);
   const std::string kept = check_links(scene, limit, problems);
   std::string how = "no patch on a paraboloid";
   if (setting.load == Load::paraboloid) {
@@ -228,7 +234,8 @@ class StateCheck {
 }  // namespace
 
 VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& limit, const json::value& json,
-                       const json::value& experiment, const VerifyTolerances& tolerances, Record& record)
+                       const json::value& experiment, const VerifyTolerances& tolerances,
+                       const VerifyShapes& shapes, Record& record)
 {
   const auto refused = [&](const std::string& why) {
     record.done(VerifyPart::values, limit.where, false);
@@ -252,7 +259,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
   Sentences &problems = check.problems, &found = check.found;
   check.part(VerifyPart::values, [&] { check_values(scene, setting, limit, tolerances, problems); });
   check.part(VerifyPart::gap,
-             [&] { found.push_back(check_gap(scene, setting, limit, tolerances, problems)); });
+             [&] { found.push_back(check_gap(scene, setting, limit, tolerances, problems, record)); });
   check.part(VerifyPart::links, [&] { found.push_back(check_links(scene, limit, problems)); });
   bool readable = true;
   check.part(VerifyPart::contacts,
@@ -278,7 +285,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
     if (problems.empty()) {
       const std::string at = limit.where + "/sensitivity";
       check_sensitivity(scene, setting, limit, member(json, "sensitivity", limit.where), experiment, at,
-                        problems, record);
+                        shapes, problems, record);
     }
   }
   // Only where everything else is in order: it moves the state along its contacts.

@@ -3,6 +3,7 @@
 #include "links.hpp"
 #include "neighbours.hpp"
 #include "read.hpp"
+#include "solid_samples.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,9 @@
 #include <boost/json/object.hpp>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace hauberk::verification {
 namespace {
@@ -57,9 +61,24 @@ void compare_parameters(const Layout& laid, const json::value& scene, const std:
   }
 }
 
+/// A solid may have sizes that are no lengths.
+bool same_solid(const Primitive& made, const Primitive& found, double length)
+{
+  bool same = made.name == found.name && made.solid_kind == found.solid_kind &&
+              made.sizes.size() == found.sizes.size() &&
+              (made.place.position - found.place.position).norm() <= rounding * length &&
+              (made.place.rotation - found.place.rotation).cwiseAbs().maxCoeff() <= turn_rounding;
+  for (const auto& [name, size] : made.sizes) {
+    const auto other = found.sizes.find(name);
+    same = same && other != found.sizes.end() && equal(other->second, size, rounding);
+  }
+  return same;
+}
+
 /// Whether two primitives are one surface under one name. A torus may be turned about its axis, and over.
 bool same_primitive(const Primitive& made, const Primitive& found, double length)
 {
+  if (made.solid || found.solid) return made.solid && found.solid && same_solid(made, found, length);
   const auto near = [&](double a, double b) { return std::abs(a - b) <= rounding * length; };
   bool same = made.name == found.name && near(made.R, found.R) && near(made.r0, found.r0) &&
               near(made.r1, found.r1) &&
@@ -78,14 +97,15 @@ bool same_primitive(const Primitive& made, const Primitive& found, double length
 
 /// Primitives are what the shape makes of the scene's parameters.
 void compare_primitives(const json::value& experiment, const Layout& laid, const Scene& scene,
-                        const std::string& where, Sentences& problems, Record& record)
+                        const std::string& where, const VerifyShapes& shapes, Sentences& problems,
+                        Record& record)
 {
   const json::value& types = member(experiment, "elements", "/experiment");
   for (std::size_t k = 0; k < laid.elements.size(); ++k) {
     const LaidElement& element = laid.elements[k];
     const std::string of = "/experiment/elements/" + element.type;
     const json::value& section = member(types, element.type.c_str(), "/experiment/elements");
-    const auto made = primitives_of(section, element.parameters, of);
+    const auto made = primitives_of(element.type, section, element.parameters, of, shapes);
     if (!made) {
       const bool mesh = text(member(section, "shape", of), of + "/shape") == "mesh";
       if (!mesh)
@@ -101,6 +121,19 @@ void compare_primitives(const json::value& experiment, const Layout& laid, const
       problems.push_back(
           fmt::format("{}: primitives are not what its shape makes of its parameters", at_element(k)));
   }
+}
+
+/// Solids agree with themselves; equal ones are looked at once.
+void check_solids(const Scene& scene, const VerifyTolerances& tolerances, Sentences& problems)
+{
+  std::set<std::pair<std::string, std::map<std::string, double>>> known;
+  for (std::size_t k = 0; k < scene.elements.size(); ++k)
+    for (const Primitive& p : scene.elements[k].tori) {
+      if (!p.solid || !known.emplace(p.solid_kind, p.sizes).second) continue;
+      if (const std::string found = disagreement(*p.solid, tolerances.chart); !found.empty())
+        problems.push_back(fmt::format("{}: the {} \"{}\" contradicts itself: {}", at_element(k),
+                                       p.solid_kind, p.name, found));
+    }
 }
 
 double off_place(const Scene& scene, const Layout& laid, std::size_t k)
@@ -143,7 +176,8 @@ std::string compare_rest(const Scene& scene, const Layout& laid, const Setting& 
   const std::string changed =
       difference(links(scene, placed, Mat3::Identity()), links(scene, rest, Mat3::Identity()));
   if (!changed.empty()) problems.push_back("relaxed from its places to rest, not to the limit: " + changed);
-  const auto closest = closest_pair(scene, rest, Mat3::Identity(), setting.clearance);
+  const auto closest =
+      closest_pair(scene, rest, Mat3::Identity(), setting.clearance, tolerances.enclosure * scene.length);
   if (closest && closest->distance < setting.clearance - tolerances.wrong_side * scene.length)
     problems.push_back(
         fmt::format("rest: surfaces of elements {} and {} are {:.3g} closer than the clearance",
@@ -192,7 +226,8 @@ VerifyLine check_scene(const SceneCheck& check, const VerifyTolerances& toleranc
       for (const auto& [k, name] : value.parameters) laid->elements.at(k).parameters[name] = value.value;
     compare_cell(*laid, *check.scene, problems);
     compare_parameters(*laid, *check.json, where, problems);
-    compare_primitives(experiment, *laid, *check.scene, where, problems, record);
+    compare_primitives(experiment, *laid, *check.scene, where, *check.shapes, problems, record);
+    check_solids(*check.scene, tolerances, problems);
     rest = compare_rest(*check.scene, *laid, check.setting, check.relaxed || may_relax(experiment),
                         tolerances, own_experiment, problems, record);
   }

@@ -76,8 +76,8 @@ double distance_with(const Scene& scene, const Limit& limit, const Contact& cont
 
 /// sum f dg/dp over the contacts of an element; nothing where its shape is not known.
 std::optional<double> parameter_sum(const Scene& scene, const Limit& limit, const json::value& section,
-                                    const std::string& where, std::map<std::string, double> parameters,
-                                    std::size_t element, const std::string& name)
+                                    const std::string& type, std::map<std::string, double> parameters,
+                                    std::size_t element, const std::string& name, const VerifyShapes& shapes)
 {
   const double at = parameters.at(name);
   // Changes stay small beside every tube: closest points move as far as sizes do over the tube's radius.
@@ -88,7 +88,7 @@ std::optional<double> parameter_sum(const Scene& scene, const Limit& limit, cons
   std::array<std::vector<Primitive>, 2> tori;
   for (std::size_t way = 0; way < 2; ++way) {
     parameters[name] = at + (way == 0 ? h : -h);
-    auto made = primitives_of(section, parameters, where);
+    auto made = primitives_of(type, section, parameters, "/experiment/elements/" + type, shapes);
     if (!made) return std::nullopt;
     tori[way] = std::move(*made);
   }
@@ -124,7 +124,8 @@ std::optional<Names> parsed(const std::string& name, std::size_t elements)
 
 void check_sensitivity(const Scene& scene, const Setting& setting, const Limit& limit,
                        const json::value& sensitivity, const json::value& experiment,
-                       const std::string& where, Sentences& problems, Record& record)
+                       const std::string& where, const VerifyShapes& shapes, Sentences& problems,
+                       Record& record)
 {
   const bool points = limit.contact == "nearest" || limit.contact == "constrained";
   if (limit.kink) return record.skip(where, ambiguous);
@@ -155,10 +156,9 @@ void check_sensitivity(const Scene& scene, const Setting& setting, const Limit& 
       continue;
     }
     const std::string& type = laid->elements[names->element].type;
-    const auto found =
-        parameter_sum(scene, limit, member(member(experiment, "elements", "/experiment"), type.c_str(), ""),
-                      "/experiment/elements/" + type, scene.elements[names->element].parameters,
-                      names->element, names->parameter);
+    const auto found = parameter_sum(
+        scene, limit, member(member(experiment, "elements", "/experiment"), type.c_str(), ""), type,
+        scene.elements[names->element].parameters, names->element, names->parameter, shapes);
     if (!found) {
       record.skip(where + "/parameters", "sensitivities to parameters whose shapes are not known here");
       break;

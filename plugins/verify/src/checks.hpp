@@ -33,12 +33,13 @@ void check_range(const Scene& scene, const Limit& limit, const VerifyTolerances&
 /// `experiment` gives the shapes. Throws Malformed, Unknown.
 VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& limit,
                        const boost::json::value& json, const boost::json::value& experiment,
-                       const VerifyTolerances& tolerances, Record& record);
+                       const VerifyTolerances& tolerances, const VerifyShapes& shapes, Record& record);
 
 /// Derivatives of the value follow from forces and gaps by the envelope theorem; what can be said about it.
 void check_sensitivity(const Scene& scene, const Setting& setting, const Limit& limit,
                        const boost::json::value& sensitivity, const boost::json::value& experiment,
-                       const std::string& where, Sentences& problems, Record& record);
+                       const std::string& where, const VerifyShapes& shapes, Sentences& problems,
+                       Record& record);
 
 /// A value that the design gave to parameters of elements.
 struct DesignedValue {
@@ -56,6 +57,7 @@ struct SceneCheck {
   std::vector<DesignedValue> designed;
   bool relaxed = false;  ///< rest may have been relaxed, whatever the experiment says
   bool initial = false;  ///< of a design: the experiment gives what is designed, too
+  const VerifyShapes* shapes = nullptr;
 };
 
 /// The scene is what the experiment's text says: cell, types, parameters, primitives, and rest as placed or

@@ -2,9 +2,12 @@
 /// What an experiment's text says is in its cell, laid out anew: elements, their parameters and primitives.
 #include "model.hpp"
 
+#include <hauberk/verify/verify.hpp>
+
 #include <boost/json/value.hpp>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,12 +35,24 @@ std::optional<Layout> laid_out(const boost::json::value& experiment);
 /// Throws Malformed.
 Mat3 read_turn(const boost::json::value* v, const std::string& where);
 
-/// The primitives that the rule of an element's shape makes of parameters; nothing for shapes whose rule is
-/// not known here. `section` is the entry of the experiment's `elements`. Throws Malformed where a parameter
-/// is missing.
-std::optional<std::vector<Primitive>> primitives_of(const boost::json::value& section,
+/// The primitives that the rule of an element's shape makes of parameters, or, where the rule is not known
+/// here, its plugin, as far as they are solids; nothing for shapes that neither knows. `section` is the entry
+/// of the experiment's `elements` that is called `type`. Throws Malformed where a parameter is missing or the
+/// shape refuses it.
+std::optional<std::vector<Primitive>> primitives_of(const std::string& type,
+                                                    const boost::json::value& section,
                                                     const std::map<std::string, double>& parameters,
-                                                    const std::string& where);
+                                                    const std::string& where, const VerifyShapes& shapes);
+
+/// The primitive's surface is that of a plugin.
+void enter_solid(Primitive& into, std::shared_ptr<const Solid> solid);
+
+/// What a shape that only its plugin knows makes of parameters, in the element frame; elsewhere than in
+/// solids nothing that verify has rules for. Throws Unknown where it cannot be asked, Malformed where it
+/// refuses.
+std::vector<Primitive> plugin_primitives(const std::string& type, const boost::json::value& section,
+                                         const std::map<std::string, double>& parameters,
+                                         const std::string& where, const VerifyShapes& shapes);
 
 /// A design variable as the experiment asks for it.
 struct AskedVariable {

@@ -65,15 +65,36 @@ int gauss_number(const Primitive& a, const Primitive& b)
                   a.name, b.name));
 }
 
-/// Loops that generate what can be linked with a mesh.
+/// Corners on a core, evenly.
+std::vector<Vec3> core_polygon(const Primitive& torus, int count, double shift = 0.0)
+{
+  std::vector<Vec3> out;
+  for (int i = 0; i < count; ++i)
+    out.push_back(core_point(torus, 2.0 * std::numbers::pi * (i + shift) / count));
+  return out;
+}
+
+/// How many keep to the tube: the middles of a circle's chords are R h^2/8 from it.
+int corners_of(const Primitive& torus)
+{
+  return std::max(16, static_cast<int>(4.5 * std::sqrt(core_bend(torus) / std::min(torus.r0, torus.r1))));
+}
+
+/// Loops that generate what can be linked with a mesh or a solid, or a torus beside one.
 std::vector<std::vector<Vec3>> loops_of(const Primitive& torus)
 {
   std::vector<std::vector<Vec3>> out;
+  if (torus.solid) {
+    for (std::vector<Vec3>& core : torus.solid->cores()) {
+      for (Vec3& x : core) x = torus.place.position + torus.place.rotation * x;
+      out.push_back(std::move(core));
+    }
+    return out;
+  }
   if (!torus.surface) {
     // Through the middles of the mesh's sections: what lies between two of them is inside of it.
-    out.emplace_back();
-    for (int i = 0; i < torus.facets; ++i)
-      out[0].push_back(core_point(torus, 2.0 * std::numbers::pi * (i + 0.5) / torus.facets));
+    out.push_back(torus.facets > 0 ? core_polygon(torus, torus.facets, 0.5)
+                                   : core_polygon(torus, corners_of(torus)));
     return out;
   }
   for (const std::vector<int>& loop : torus.surface->loops) {
@@ -95,16 +116,10 @@ std::vector<std::pair<int, std::vector<Vec3>>> cycles(const Element& element, co
   std::vector<std::pair<int, std::vector<Vec3>>> out;
   int k = 0;
   for (const Primitive& torus : element.tori) {
-    if (torus.surface) {
+    if (torus.surface || torus.solid) {
       for (std::vector<Vec3>& loop : loops_of(placed(torus, place))) out.emplace_back(k, std::move(loop));
     } else {
-      // Chords of a circle keep to its tube: their middles are R h^2/8 from it.
-      const double bend =
-          torus.curve.empty() ? torus.R : core_speed(torus) * static_cast<double>(torus.curve.size());
-      const int count = std::max(16, static_cast<int>(4.5 * std::sqrt(bend / std::min(torus.r0, torus.r1))));
-      std::vector<Vec3>& corners = out.emplace_back(k, std::vector<Vec3>()).second;
-      for (int i = 0; i < count; ++i)
-        corners.push_back(in_space(place, core_point(torus, 2.0 * std::numbers::pi * i / count)));
+      out.emplace_back(k, core_polygon(placed(torus, place), corners_of(torus)));
     }
     ++k;
   }
@@ -139,7 +154,7 @@ void add_loops(std::vector<Link>& out, const Neighbour& pair, const Element& fir
     }
 }
 
-int mesh_number(const Primitive& a, const Primitive& b)
+int polygon_number(const Primitive& a, const Primitive& b)
 {
   int divisor = 0;
   const auto first = loops_of(a), second = loops_of(b);
@@ -157,7 +172,7 @@ int mesh_number(const Primitive& a, const Primitive& b)
 
 int linking_number(const Primitive& a, const Primitive& b)
 {
-  if (a.surface || b.surface) return mesh_number(a, b);
+  if (a.surface || b.surface || a.solid || b.solid) return polygon_number(a, b);
   if (!a.curve.empty() || !b.curve.empty()) return gauss_number(a, b);
   // Height of b's circle above a's plane: alpha cos u + beta sin u + gamma.
   const Vec3 n = a.place.rotation.col(2);

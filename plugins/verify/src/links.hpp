@@ -7,8 +7,8 @@ namespace hauberk::verification {
 
 /// Linking number of two disjoint core circles, each oriented about its z axis: the crossings of b through
 /// a's disc, each counted by its direction. -1, 0 or 1.
-/// Of curves Gauss's integral; with surfaces of triangles the greatest common divisor of the linking numbers
-/// of loops that generate the homology of both.
+/// Of curves Gauss's integral; with surfaces of triangles or solids the greatest common divisor of the
+/// linking numbers of loops that generate the homology of both, of a solid those that its plugin gives.
 int linking_number(const Primitive& a, const Primitive& b);
 
 /// A pair of cycles that are linked.

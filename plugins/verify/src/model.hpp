@@ -1,6 +1,8 @@
 #pragma once
 /// What the checker knows: plain copies of what the file says. Lengths in file units.
 
+#include <hauberk/solid.hpp>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -51,13 +53,17 @@ struct Surface {
 
 /// An ellipse with half-axes r0 (radial) and r1 (axial), revolved at distance R about its own z axis; or a
 /// tube of radius r0 = r1 around a curve, the sum of c cos k u + s sin k u over k = 1, 2, ...;
-/// or R times a surface of triangles, and then r0 = r1 is its thickness.
+/// or R times a surface of triangles, and then r0 = r1 is its thickness; or a plugin's solid of radius R, and
+/// then r0 = r1 is how far its probe is from its surface, or its thickness where the probe is the surface.
 struct Primitive {
   std::string name;
   Place place;  ///< in its element's frame, or in space
   double R = 0.0, r0 = 0.0, r1 = 0.0;
   std::vector<std::array<Vec3, 2>> curve{};  ///< (c, s) of each k; none: a torus
   std::shared_ptr<const Surface> surface{};  ///< null: a torus, or a tube around a curve
+  std::shared_ptr<const Solid> solid{};      ///< null: none of a plugin
+  std::string solid_kind{};                  ///< what the file calls it
+  std::map<std::string, double> sizes{};     ///< of the solid, as the file has them
   int facets = 0;  ///< its surface is a mesh of facets x facets quadrilaterals; 0: the surface itself
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hauberk::verification {
 namespace {
@@ -75,7 +76,7 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
 }
 
 std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
-                                    double margin)
+                                    double margin, double width)
 {
   struct Candidate {
     Closest closest;  ///< distance is a lower bound
@@ -89,7 +90,7 @@ std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>
     const auto &first = scene.elements[k].tori, &second = scene.elements[l].tori;
     for (std::size_t p = 0; p < first.size(); ++p)
       for (std::size_t q = 0; q < second.size(); ++q) {
-        Candidate c{{0.0, pair, static_cast<int>(p), static_cast<int>(q)},
+        Candidate c{{0.0, 0.0, pair, static_cast<int>(p), static_cast<int>(q)},
                     placed(first[p], places[k]),
                     placed(second[q], image)};
         c.closest.distance = separation_bound(c.first, c.second);
@@ -99,13 +100,17 @@ std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.closest.distance < b.closest.distance; });
   std::optional<Closest> best;
-  for (Candidate& c : candidates) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& c : candidates) {
     if (best && c.closest.distance > best->distance) break;  // bounds only grow from here
-    const double distance = separation(c.first, c.second);
-    if (best && best->distance <= distance) continue;
+    const double enough = best ? best->distance : std::numeric_limits<double>::infinity();
+    const Enclosure found = enclosed_separation(c.first, c.second, width, enough);
+    least = std::min(least, found.least);
+    if (best && best->distance <= found.found) continue;
     best = c.closest;
-    best->distance = distance;
+    best->distance = found.found;
   }
+  if (best) best->least = std::min(least, best->distance);
   return best;
 }
 

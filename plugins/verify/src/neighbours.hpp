@@ -25,11 +25,13 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
 /// Smallest separation of surfaces over all pairs, and whose it is.
 struct Closest {
   double distance = 0.0;
+  double least = 0.0;  ///< no two surfaces are nearer; `distance` where no solids are
   Neighbour pair;
   int first_torus = 0, second_torus = 0;
 };
-/// Nothing when all bounding spheres are farther apart than `margin`.
+/// Nothing when all bounding spheres are farther apart than `margin`. Pairs with a solid are enclosed within
+/// `width`, as far as the search comes.
 std::optional<Closest> closest_pair(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
-                                    double margin);
+                                    double margin, double width);
 
 }  // namespace hauberk::verification

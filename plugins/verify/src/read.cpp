@@ -1,5 +1,6 @@
 #include "read.hpp"
 
+#include "layout.hpp"
 #include "loops.hpp"
 #include "surface.hpp"
 #include "together.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hauberk::verification {
 namespace {
@@ -108,6 +110,55 @@ void read_mesh(const json::value& v, const std::vector<std::shared_ptr<const Sur
     throw Malformed(where + "/parameters: not those of the surface (R > 0, r0 = r1 its thickness)");
 }
 
+/// What the file says of a solid: its kind, and its sizes by name.
+void read_solid(const json::value& v, Primitive& out, const std::string& where)
+{
+  out.solid_kind = text(member(v, "solid", where), where + "/solid");
+  const std::string at = where + "/parameters";
+  const json::value& sizes = member(v, "parameters", where);
+  if (!sizes.is_object()) throw Malformed(at + ": an object expected");
+  for (const auto& [name, value] : sizes.as_object())
+    out.sizes[std::string(name)] = number(value, at + "/" + std::string(name));
+}
+
+/// Makes the shapes of elements with solids, equal ones once.
+class SolidShapes {
+ public:
+  explicit SolidShapes(const ShapeSource& source) : source_(source) {}
+
+  /// Gives the solids of an element their surfaces.
+  void enter(const std::string& type, Element& element, const std::string& where)
+  {
+    const auto lacks = [](const Primitive& p) { return !p.solid_kind.empty(); };
+    if (std::none_of(element.tori.begin(), element.tori.end(), lacks)) return;
+    const std::vector<Primitive>& made = shape(type, element.parameters);
+    for (std::size_t p = 0; p < element.tori.size(); ++p) {
+      if (!lacks(element.tori[p])) continue;
+      if (p >= made.size() || !made[p].solid)
+        throw Malformed(where + "/primitives/" + std::to_string(p) + "/kind: its shape makes no solid here");
+      enter_solid(element.tori[p], made[p].solid);
+    }
+  }
+
+ private:
+  const std::vector<Primitive>& shape(const std::string& type,
+                                      const std::map<std::string, double>& parameters)
+  {
+    const auto known = made_.find({type, parameters});
+    if (known != made_.end()) return known->second;
+    const std::string at = source_.where + "/elements";
+    const json::value& section =
+        member(member(source_.experiment, "elements", source_.where), type.c_str(), at);
+    return made_
+        .emplace(std::pair(type, parameters),
+                 plugin_primitives(type, section, parameters, at + "/" + type, source_.shapes))
+        .first->second;
+  }
+
+  const ShapeSource& source_;
+  std::map<std::pair<std::string, std::map<std::string, double>>, std::vector<Primitive>> made_;
+};
+
 Primitive read_torus(const json::value& v, const std::vector<std::shared_ptr<const Surface>>& surfaces,
                      const std::string& where)
 {
@@ -115,11 +166,14 @@ Primitive read_torus(const json::value& v, const std::vector<std::shared_ptr<con
   out.name = text(member(v, "name", where), where + "/name");
   out.place = read_place(v, where);
   const std::string kind = text(member(v, "kind", where), where + "/kind");
-  if (kind == "solid")
-    throw Malformed(where + "/kind: solids are not known here; their states are not checked");
+  if (kind == "solid") {
+    read_solid(v, out, where);
+    return out;
+  }
   if (kind != "circle_tube" && kind != "revolved_ellipse" && kind != "curve_tube" && kind != "triangle_mesh")
     throw Malformed(
-        where + "/kind: circle_tube, revolved_ellipse, curve_tube or triangle_mesh expected, found " + kind);
+        where + "/kind: circle_tube, revolved_ellipse, curve_tube, triangle_mesh or solid expected, found " +
+        kind);
   const std::string at = where + "/parameters";
   const json::value& parameters = member(v, "parameters", where);
   out.R = number(member(parameters, "R", at), at + "/R");
@@ -239,7 +293,7 @@ const json::array& array(const json::value& v, const std::string& where)
   return v.get_array();
 }
 
-Scene read_scene(const json::value& scene, const std::string& where)
+Scene read_scene(const json::value& scene, const std::string& where, const ShapeSource& source)
 {
   Scene out;
   for (const json::value& vector : array(member(scene, "cell_vectors", where), where + "/cell_vectors")) {
@@ -265,6 +319,7 @@ Scene read_scene(const json::value& scene, const std::string& where)
       surfaces.push_back(
           std::make_shared<const Surface>(read_surface(v, at + "/" + std::to_string(surfaces.size()))));
   }
+  SolidShapes shapes(source);
   std::size_t k = 0;
   for (const json::value& e : array(member(scene, "elements", where), where + "/elements")) {
     const std::string at = where + "/elements/" + std::to_string(k++);
@@ -275,12 +330,12 @@ Scene read_scene(const json::value& scene, const std::string& where)
       for (const auto& [name, value] : parameters->as_object())
         element.parameters[std::string(name)] = number(value, at + "/parameters/" + std::string(name));
     }
-    for (const json::value& p : array(member(e, "primitives", at), at + "/primitives")) {
+    for (const json::value& p : array(member(e, "primitives", at), at + "/primitives"))
       element.tori.push_back(
           read_torus(p, surfaces, at + "/primitives/" + std::to_string(element.tori.size())));
-      const Primitive& torus = element.tori.back();
+    shapes.enter(text(member(e, "type", at), at + "/type"), element, at);
+    for (const Primitive& torus : element.tori)
       element.reach = std::max(element.reach, torus.place.position.norm() + reach(torus));
-    }
     out.elements.push_back(std::move(element));
   }
   find_loops(out);

@@ -1,13 +1,22 @@
 #pragma once
 #include "model.hpp"
 
+#include <hauberk/verify/verify.hpp>
+
 #include <boost/json/value.hpp>
 
 namespace hauberk::verification {
 
+/// Where the surfaces of solids come from: shapes of the experiment's elements.
+struct ShapeSource {
+  const boost::json::value& experiment;
+  std::string where;  ///< of the experiment
+  const VerifyShapes& shapes;
+};
+
 /// Readers of parts of a results document. `where` is the JSON pointer of the part, for messages; all throw
-/// Malformed.
-Scene read_scene(const boost::json::value& scene, const std::string& where);
+/// Malformed. A scene with solids whose shape cannot be asked throws Unknown.
+Scene read_scene(const boost::json::value& scene, const std::string& where, const ShapeSource& source);
 Limit read_limit(const boost::json::value& limit, Load load, const std::string& where);
 /// Throws Unknown for a load case that is not known here.
 Setting read_setting(const boost::json::value& experiment);

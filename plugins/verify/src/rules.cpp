@@ -84,8 +84,8 @@ constexpr std::array rules{
     VerifyRule{
         "/scene/elements/*/primitives/**",
         {scene},
-        "made anew from the parameters for `torus_union`, `closed_tube` and unions of these; of a `mesh` R, "
-        "r0, r1 against its surface"},
+        "made anew from the parameters for `torus_union`, `closed_tube` and unions of these, of solids by the "
+        "plugins of their shapes; of a `mesh` R, r0, r1 against its surface"},
     VerifyRule{
         "/scene/surfaces/**",
         {scene, gap},
@@ -119,7 +119,9 @@ constexpr std::array rules{
     VerifyRule{"/limits/*/evaluations", {}, cost},
     VerifyRule{"/limits/*/seconds", {}, cost},
     VerifyRule{
-        "/limits/*/min_gap", {gap}, "smallest separation of all pairs and images, by exhaustive search"},
+        "/limits/*/min_gap",
+        {gap},
+        "smallest separation of all pairs and images, by exhaustive search; with solids enclosed between bounds"},
     VerifyRule{"/limits/*/error_estimate", {}, estimate},
     VerifyRule{"/limits/*/links_kept", {links}, "linking numbers at rest and in the state"},
     VerifyRule{"/limits/*/z_range", {values}, "from the poses"},

@@ -132,8 +132,9 @@ std::optional<MovedState> brought_back(const Scene& scene, const Setting& settin
     state = moved(scene, setting, state, e);
     if (k >= steps && e.cwiseAbs().maxCoeff() < 1e-11) break;
   }
-  const auto closest = closest_pair(scene, state.places, state.macro.deformation(), scene.length);
-  if (closest && closest->distance < setting.clearance) return std::nullopt;
+  const auto closest =
+      closest_pair(scene, state.places, state.macro.deformation(), scene.length, 0.1 * room * scene.length);
+  if (closest && closest->least < setting.clearance) return std::nullopt;
   // A kick may be larger than a very thin tube is thick.
   if (!difference(links_here, links(scene, state.places, state.macro.deformation())).empty())
     return std::nullopt;

@@ -155,17 +155,28 @@ double tube_separation(const Primitive& tube, const Primitive& other)
 
 double separation(const Primitive& a, const Primitive& b)
 {
+  if (a.solid || b.solid) {
+    const double width = 1e-12 * (reach(a) + reach(b));
+    return enclose(a, b, width, std::numeric_limits<double>::infinity()).found;
+  }
   if (a.facets > 0) return mesh_separation(a, b);
-  if (a.r0 == a.r1) return tube_separation(a, b);
-  if (b.r0 == b.r1) return tube_separation(b, a);
+  if (is_tube(a)) return tube_separation(a, b);
+  if (is_tube(b)) return tube_separation(b, a);
   return torus_minimum([&](double u, double v) { return signed_distance(b, surface_point(a, u, v)); },
                        a.R + a.r0, std::max(a.r0, a.r1));
+}
+
+Enclosure enclosed_separation(const Primitive& a, const Primitive& b, double width, double enough)
+{
+  if (a.solid || b.solid) return enclose(a, b, width, enough);
+  const double exact = separation(a, b);
+  return {exact, exact};
 }
 
 double separation_bound(const Primitive& a, const Primitive& b)
 {
   const auto mesh_of_curve = [](const Primitive& t) { return t.facets > 0 && !t.curve.empty(); };
-  if (a.surface || b.surface || mesh_of_curve(a) || mesh_of_curve(b))
+  if (a.surface || b.surface || a.solid || b.solid || mesh_of_curve(a) || mesh_of_curve(b))
     return (a.place.position - b.place.position).norm() - reach(a) - reach(b);
   const double excess = a.facets > 0 ? mesh_excess(a) + mesh_excess(b) : 0.0;
   Primitive thin_a = a, thin_b = b;

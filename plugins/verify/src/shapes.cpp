@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
+#include <utility>
 
 namespace hauberk::verification {
 namespace {
@@ -183,7 +185,7 @@ std::optional<std::vector<Primitive>> rigid_union(const json::value& section, co
     const std::string at = where + "/parts/" + std::to_string(number++);
     const std::string name = text(member(item, "name", at), at + "/name");
     const Parameters own = of_part(parameters, name);
-    const auto made = primitives_of(item, own, at);
+    const auto made = primitives_of(name, item, own, at, {});
     if (!made) return std::nullopt;
     const Place place = place_of(item.as_object(), own, at);
     for (Primitive primitive : *made) {
@@ -196,15 +198,67 @@ std::optional<std::vector<Primitive>> rigid_union(const json::value& section, co
   return out;
 }
 
+Primitive from_plugin(const hauberk::Primitive& made)
+{
+  Primitive out;
+  out.name = made.name;
+  out.place = {made.position, made.rotation};
+  if (made.solid) {
+    enter_solid(out, made.solid);
+    out.solid_kind = made.solid->kind();
+    const std::vector<std::string> names = made.solid->size_names();
+    for (std::size_t k = 0; k < names.size(); ++k) out.sizes[names[k]] = made.solid->sizes().at(k);
+    return out;
+  }
+  out.R = made.R();
+  out.r0 = made.r0();
+  out.r1 = made.r1();
+  for (const Harmonic& h : made.curve) out.curve.push_back({h.c, h.s});
+  return out;
+}
+
 }  // namespace
 
-std::optional<std::vector<Primitive>> primitives_of(const json::value& section, const Parameters& parameters,
-                                                    const std::string& where)
+void enter_solid(Primitive& into, std::shared_ptr<const Solid> solid)
+{
+  into.R = solid->radius();
+  into.r0 = into.r1 = solid->probe_dimension() == 1 ? solid->offset() : solid->thickness();
+  into.solid = std::move(solid);
+}
+
+std::vector<Primitive> plugin_primitives(const std::string& type, const json::value& section,
+                                         const Parameters& parameters, const std::string& where,
+                                         const VerifyShapes& shapes)
+{
+  std::string why = "the surfaces of solids are known to their plugins alone, and none are at hand";
+  std::optional<std::vector<hauberk::Primitive>> made;
+  try {
+    if (shapes) made = shapes(type, section, parameters, why);
+  } catch (const std::exception& error) {
+    throw Malformed(where + ": " + error.what());
+  }
+  if (!made) throw Unknown(why);
+  std::vector<Primitive> out;
+  for (const hauberk::Primitive& p : *made) out.push_back(from_plugin(p));
+  return out;
+}
+
+std::optional<std::vector<Primitive>> primitives_of(const std::string& type, const json::value& section,
+                                                    const Parameters& parameters, const std::string& where,
+                                                    const VerifyShapes& shapes)
 {
   const std::string shape = text(member(section, "shape", where), where + "/shape");
   if (shape == "torus_union") return torus_union(section, parameters, where);
   if (shape == "closed_tube") return std::vector<Primitive>{closed_tube(section, parameters, where)};
-  if (shape == "union") return rigid_union(section, parameters, where);
+  if (shape == "union")
+    if (auto made = rigid_union(section, parameters, where)) return made;
+  if (shape == "mesh" || !shapes) return std::nullopt;
+  try {
+    std::vector<Primitive> made = plugin_primitives(type, section, parameters, where, shapes);
+    if (std::any_of(made.begin(), made.end(), [](const Primitive& p) { return p.solid != nullptr; }))
+      return made;
+  } catch (const Unknown&) {  // then nothing is known of the shape
+  }
   return std::nullopt;
 }
 

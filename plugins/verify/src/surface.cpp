@@ -69,7 +69,23 @@ double distance_from_curve(const Primitive& torus, const Vec3& x, Vec3* outward)
   return core - torus.r0;
 }
 
+/// Bounds of the derivatives of a solid's probe over all of it.
+ProbeBounds probe_bounds(const Primitive& torus)
+{
+  return torus.solid->probe_bounds(0.0, 0.0, std::numbers::pi, std::numbers::pi);
+}
+
+double distance_from_solid(const Primitive& torus, const Vec3& x, Vec3* outward)
+{
+  const SolidDistance found =
+      torus.solid->distance(torus.place.rotation.transpose() * (x - torus.place.position));
+  if (outward != nullptr) *outward = torus.place.rotation * found.normal;
+  return found.distance;
+}
+
 }  // namespace
+
+ProbeAngles probe_angles(double u, double v) { return {std::cos(u), std::sin(u), std::cos(v), std::sin(v)}; }
 
 Place compose(const Place& a, const Place& b)
 {
@@ -85,6 +101,7 @@ Primitive placed(const Primitive& torus, const Place& element)
 
 double signed_distance(const Primitive& torus, const Vec3& x, Vec3* outward)
 {
+  if (torus.solid) return distance_from_solid(torus, x, outward);
   if (!torus.curve.empty()) return distance_from_curve(torus, x, outward);
   const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
   const double rho = std::hypot(local.x(), local.y());
@@ -112,8 +129,15 @@ double signed_distance(const Primitive& torus, const Vec3& x, Vec3* outward)
   return distance;
 }
 
+bool is_tube(const Primitive& torus)
+{
+  return torus.solid ? torus.solid->probe_dimension() == 1 : torus.r0 == torus.r1;
+}
+
 Vec3 core_point(const Primitive& torus, double u)
 {
+  if (torus.solid)
+    return torus.place.position + torus.place.rotation * torus.solid->probe(probe_angles(u, 0.0)).x;
   if (!torus.curve.empty()) {
     Vec3 local = Vec3::Zero();
     for (std::size_t i = 0; i < torus.curve.size(); ++i) {
@@ -128,6 +152,7 @@ Vec3 core_point(const Primitive& torus, double u)
 
 Vec3 core_tangent(const Primitive& torus, double u)
 {
+  if (torus.solid) return torus.place.rotation * torus.solid->probe(probe_angles(u, 0.0)).u;
   Vec3 local(-torus.R * std::sin(u), torus.R * std::cos(u), 0.0);
   if (!torus.curve.empty()) local.setZero();
   for (std::size_t i = 0; i < torus.curve.size(); ++i) {
@@ -141,16 +166,41 @@ double core_reach(const Primitive& torus) { return torus.curve.empty() ? torus.R
 
 double reach(const Primitive& torus)
 {
+  if (torus.solid) return torus.solid->radius();
   return torus.surface ? torus.R * torus.surface->reach : core_reach(torus) + std::max(torus.r0, torus.r1);
 }
 
-double core_speed(const Primitive& torus) { return torus.curve.empty() ? torus.R : sum_of_terms(torus, 1); }
+double core_speed(const Primitive& torus)
+{
+  if (torus.solid) return probe_bounds(torus).u;
+  return torus.curve.empty() ? torus.R : sum_of_terms(torus, 1);
+}
+
+double core_bend(const Primitive& torus)
+{
+  if (torus.solid) return probe_bounds(torus).uu;
+  return torus.curve.empty() ? torus.R : sum_of_terms(torus, 2);
+}
 
 Vec3 surface_point(const Primitive& torus, double u, double v)
 {
+  if (torus.solid)
+    return torus.place.position + torus.place.rotation * torus.solid->probe(probe_angles(u, v)).x;
   const double rho = torus.R + torus.r0 * std::cos(v);
   return torus.place.position +
          torus.place.rotation * Vec3(rho * std::cos(u), rho * std::sin(u), torus.r1 * std::sin(v));
+}
+
+std::array<Vec3, 2> surface_tangents(const Primitive& torus, double u, double v)
+{
+  if (torus.solid) {
+    const ProbeDerivatives at = torus.solid->probe(probe_angles(u, v));
+    return {torus.place.rotation * at.u, torus.place.rotation * at.v};
+  }
+  const double cu = std::cos(u), su = std::sin(u), cv = std::cos(v), sv = std::sin(v);
+  const double rho = torus.R + torus.r0 * cv;
+  return {torus.place.rotation * Vec3(-rho * su, rho * cu, 0.0),
+          torus.place.rotation * Vec3(-torus.r0 * sv * cu, -torus.r0 * sv * su, torus.r1 * cv)};
 }
 
 }  // namespace hauberk::verification

@@ -125,8 +125,7 @@ double nearest_on_core(const Primitive& t, const Vec3& x)
 std::vector<Vec3> arc(const Primitive& t, double u, double w)
 {
   const double turn = std::remainder(w - u, full_turn);
-  const double bend = t.curve.empty() ? t.R : core_speed(t) * static_cast<double>(t.curve.size());
-  const double chord = std::min(0.5, std::sqrt(2.0 * std::min(t.r0, t.r1) / bend));
+  const double chord = std::min(0.5, std::sqrt(2.0 * std::min(t.r0, t.r1) / core_bend(t)));
   const int count = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / chord)));
   std::vector<Vec3> out;
   for (int k = 0; k <= count; ++k) out.push_back(core_point(t, u + turn * k / count));
@@ -172,7 +171,89 @@ Loop closed(const std::vector<Primitive>& tori, const std::vector<Way>& ways)
 bool same(const Primitive& a, const Primitive& b)
 {
   return a.place.position == b.place.position && a.place.rotation == b.place.rotation && a.R == b.R &&
-         a.r0 == b.r0 && a.r1 == b.r1 && a.curve == b.curve && a.surface == b.surface;
+         a.r0 == b.r0 && a.r1 == b.r1 && a.curve == b.curve && a.surface == b.surface &&
+         a.solid_kind == b.solid_kind && a.sizes == b.sizes;
+}
+
+/// A core as many points, of a curve with ends from one to the other.
+struct Along {
+  static constexpr int count = 720;
+  const Primitive& tube;
+  const Primitive& other;
+  bool ends = false;
+
+  int points() const { return ends ? count / 2 + 1 : count; }
+  double u(int n) const { return full_turn * n / count; }
+  int beside(int n, int way) const
+  {
+    return ends ? std::clamp(n + way, 0, points() - 1) : (n + way + count) % count;
+  }
+  /// How far the other surface is from the tube's, seen from its core.
+  double apart(double at) const { return signed_distance(other, core_point(tube, at)) - tube.r0; }
+};
+
+/// The lowest place between the neighbours of a sample.
+double lowest_along(const Along& along, int n)
+{
+  double low = along.u(n - 1), high = along.u(n + 1);
+  for (int k = 0; k < 80; ++k) {
+    const double first = low + (high - low) / 3.0, second = high - (high - low) / 3.0;
+    if (along.apart(first) < along.apart(second))
+      high = second;
+    else
+      low = first;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Places of a core where the other surface is lowest, one of each stretch in which it is no higher than
+/// `most`.
+std::vector<double> met_along(const Along& along, double most)
+{
+  std::vector<double> height;
+  for (int n = 0; n < along.points(); ++n) height.push_back(along.apart(along.u(n)));
+  std::vector<double> out;
+  std::vector<bool> taken(height.size(), false);
+  for (int n = 0; n < along.points(); ++n) {
+    if (taken[n]) continue;
+    if (height[n] <= most) {
+      int lowest = n;
+      taken[n] = true;
+      for (const int way : {-1, 1})
+        for (int k = along.beside(n, way); height[k] <= most && !taken[k]; k = along.beside(k, way)) {
+          if (height[k] < height[lowest]) lowest = k;
+          taken[k] = true;
+        }
+      out.push_back(along.u(lowest));
+      continue;
+    }
+    const int before = along.beside(n, -1), after = along.beside(n, 1);
+    if (height[n] > height[before] || height[n] > height[after]) continue;
+    if (const double at = lowest_along(along, n); along.apart(at) <= most) out.push_back(at);
+  }
+  return out;
+}
+
+/// Of a pair with a solid. From a core point c the way goes straight to the nearest point of the other
+/// surface, which is within the tube, unless c itself is inside of the other.
+std::vector<Overlap> solid_overlaps(const Primitive& a, const Primitive& b)
+{
+  if (!is_tube(a)) {
+    std::vector<Overlap> out = is_tube(b) ? solid_overlaps(b, a) : std::vector<Overlap>();
+    for (Overlap& o : out) std::swap(o.u, o.v);
+    return out;
+  }
+  if (b.solid && !is_tube(b)) return {};
+  std::vector<Overlap> out;
+  const Along along{a, b, a.solid && a.solid->fold() == Fold::mirror};
+  for (const double u : met_along(along, touching * std::min(a.R, b.R))) {
+    const Vec3 core = core_point(a, u);
+    Vec3 outward;
+    const double away = std::max(0.0, signed_distance(b, core, &outward));
+    const Vec3 shared = core - away * outward;
+    out.push_back({u, nearest_on_core(b, shared), shared});
+  }
+  return out;
 }
 
 }  // namespace
@@ -182,6 +263,7 @@ std::vector<Overlap> overlaps(const Primitive& a, const Primitive& b)
   std::vector<Overlap> out;
   if (a.surface || b.surface) return out;
   if ((a.place.position - b.place.position).norm() > reach(a) + reach(b) + touching * (a.R + b.R)) return out;
+  if (a.solid || b.solid) return solid_overlaps(a, b);
   const Grid grid;
   std::vector<double> depth;
   for (int n = 0; n < grid.count(); ++n) depth.push_back(signed_distance(b, solid_point(a, grid.at(n))));

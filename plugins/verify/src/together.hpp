@@ -11,8 +11,9 @@ struct Overlap {
 };
 
 /// One for every part that the solids of a and b share, of a sampled solid a: neighbouring samples inside of
-/// b are one part; a part between samples is found by descent of the signed distance to b. None for surfaces
-/// of triangles.
+/// b are one part; a part between samples is found by descent of the signed distance to b. Where one of the
+/// two is a plugin's solid, parts are stretches of a core along which the other surface is no farther than
+/// the tube's radius; both must have cores. None for surfaces of triangles.
 std::vector<Overlap> overlaps(const Primitive& a, const Primitive& b);
 
 /// Closed polygons inside of an element, in its frame, that generate with the cores of its primitives all

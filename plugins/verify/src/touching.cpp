@@ -16,10 +16,28 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 
 Touching flipped(const Touching& t) { return {t.distance, -t.normal, t.on_b, t.on_a}; }
 
+/// Angles of that one of many points of a solid's surface which is nearest to x.
+Eigen::Vector2d sampled_angles(const Primitive& solid, const Vec3& x)
+{
+  constexpr int count = 96;
+  Eigen::Vector2d nearest = Eigen::Vector2d::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) {
+      const Eigen::Vector2d at = full_turn / count * Eigen::Vector2d(i, j);
+      const double away = (surface_point(solid, at[0], at[1]) - x).norm();
+      if (away >= least) continue;
+      least = away;
+      nearest = at;
+    }
+  return nearest;
+}
+
 /// Angles of the surface point nearest to x; v is exact for circular sections and close enough to start from
 /// else.
 Eigen::Vector2d angles(const Primitive& torus, const Vec3& x)
 {
+  if (torus.solid) return sampled_angles(torus, x);
   const Vec3 local = torus.place.rotation.transpose() * (x - torus.place.position);
   const double p = std::hypot(local.x(), local.y()) - torus.R;
   return {std::atan2(local.y(), local.x()), std::atan2(local.z() * torus.r0, p * torus.r1)};
@@ -28,8 +46,8 @@ Eigen::Vector2d angles(const Primitive& torus, const Vec3& x)
 /// Coordinate of the point of a tube's core that is nearest to x, close enough to start from.
 double core_angle(const Primitive& tube, const Vec3& x)
 {
-  if (tube.curve.empty()) return angles(tube, x)[0];
-  const int count = 48 * static_cast<int>(tube.curve.size());
+  if (!tube.solid && tube.curve.empty()) return angles(tube, x)[0];
+  const int count = tube.solid ? 96 : 48 * static_cast<int>(tube.curve.size());
   int nearest = 0;
   for (int i = 1; i < count; ++i) {
     const auto distance = [&](int k) { return (core_point(tube, k * full_turn / count) - x).norm(); };
@@ -75,13 +93,10 @@ Touching descend_tube(const Primitive& tube, const Primitive& b, double u)
 /// Derivatives of the distance of b to the surface of a by a's angles.
 Eigen::Vector2d slope_on_surface(const Primitive& a, const Primitive& b, const Eigen::Vector2d& at)
 {
-  const double cu = std::cos(at[0]), su = std::sin(at[0]), cv = std::cos(at[1]), sv = std::sin(at[1]);
-  const double rho = a.R + a.r0 * cv;
   Vec3 outward;
   signed_distance(b, surface_point(a, at[0], at[1]), &outward);
-  const Vec3 local = a.place.rotation.transpose() * outward;
-  return {local.dot(Vec3(-rho * su, rho * cu, 0.0)),
-          local.dot(Vec3(-a.r0 * sv * cu, -a.r0 * sv * su, a.r1 * cv))};
+  const auto [along_u, along_v] = surface_tangents(a, at[0], at[1]);
+  return {outward.dot(along_u), outward.dot(along_v)};
 }
 
 /// Newton's method with differences of the slope, made positive definite, and halved steps.
@@ -122,19 +137,20 @@ Touching descend_surface(const Primitive& a, const Primitive& b, Eigen::Vector2d
 
 Touching touching_near(const Primitive& a, const Primitive& b, const Vec3& near)
 {
-  if (a.r0 == a.r1) return descend_tube(a, b, core_angle(a, near));
-  if (b.r0 == b.r1) return flipped(descend_tube(b, a, core_angle(b, near)));
+  if (is_tube(a)) return descend_tube(a, b, core_angle(a, near));
+  if (is_tube(b)) return flipped(descend_tube(b, a, core_angle(b, near)));
   return descend_surface(a, b, angles(a, near));
 }
 
 std::vector<Touching> touchings(const Primitive& a, const Primitive& b, double range)
 {
-  if (a.r0 != a.r1 && b.r0 == b.r1) {
+  if ((a.place.position - b.place.position).norm() - reach(a) - reach(b) > range) return {};
+  if (!is_tube(a) && is_tube(b)) {
     std::vector<Touching> out = touchings(b, a, range);
     for (Touching& t : out) t = flipped(t);
     return out;
   }
-  const bool tube = a.r0 == a.r1;
+  const bool tube = is_tube(a);
   const int around = std::max(96, 48 * static_cast<int>(a.curve.size()));
   constexpr int across = 24;
   const int nv = tube ? 1 : across;
@@ -148,9 +164,10 @@ std::vector<Touching> touchings(const Primitive& a, const Primitive& b, double r
   // A minimum between samples is lower than they are by at most half a cell.
   const double cell = 0.5 * (core_speed(a) + a.r0) * full_turn / around;
   for (int i = 0; i < around; ++i) {
-    const double core = signed_distance(b, core_point(a, u(i)));
+    const bool cored = tube || !a.solid;
+    const double core = cored ? signed_distance(b, core_point(a, u(i))) : 0.0;
     // No point of a section is farther from its core than this, and the distance changes by no more.
-    const bool far = core - std::max(a.r0, a.r1) > range + cell;
+    const bool far = cored && core - std::max(a.r0, a.r1) > range + cell;
     for (int j = 0; j < nv; ++j) {
       if (tube || far)
         at(i, j) = tube ? core - a.r0 : std::numeric_limits<double>::infinity();

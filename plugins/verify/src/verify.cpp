@@ -23,6 +23,7 @@ struct Work {
   const VerifyTolerances& tolerances;
   Record& record;
   std::vector<VerifyLine>& lines;
+  const VerifyShapes& shapes;
 
   /// Messages about malformed fields begin with their pointer.
   void malformed(const std::string& what) const
@@ -48,7 +49,7 @@ std::vector<Limit> check_limits(const Scene& scene, const json::value& limits_js
                                         : fmt::format("{:g} deg", limit.direction_deg);
       limit.label = fmt::format("{} ({}, {})", where, direction, limit.sense);
       work.lines.push_back(
-          check_limit(scene, setting, limit, item, experiment, work.tolerances, work.record));
+          check_limit(scene, setting, limit, item, experiment, work.tolerances, work.shapes, work.record));
       out.push_back(std::move(limit));
     } catch (const Malformed& error) {
       work.record.skip(where, "limits that cannot be read");
@@ -70,11 +71,12 @@ Malformed wrong_cell(const std::string& prefix)
 }
 
 /// The scene at `prefix`, as the setting has its surfaces.
-Scene read_placed_scene(const json::value& scene_json, const std::string& prefix, const Setting& setting)
+Scene read_placed_scene(const json::value& scene_json, const std::string& prefix, const Setting& setting,
+                        const ShapeSource& source)
 {
-  Scene scene = read_scene(scene_json, prefix + "/scene");
+  Scene scene = read_scene(scene_json, prefix + "/scene", source);
   for (Element& element : scene.elements)
-    for (Primitive& torus : element.tori) {
+    for (verification::Primitive& torus : element.tori) {
       torus.facets = setting.facets;
       if (torus.surface && setting.facets == 0)
         throw Malformed(prefix +
@@ -115,53 +117,46 @@ void check_unknown_load(const json::value& results, const std::string& prefix, c
     else
       work.malformed(where + "/load_case: not the experiment's");
   }
-  const Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene");
-  SceneCheck check{&member(results, "experiment", prefix),
+  const json::value& experiment = member(results, "experiment", prefix);
+  const Scene scene = read_scene(member(results, "scene", prefix), prefix + "/scene",
+                                 {experiment, prefix + "/experiment", work.shapes});
+  SceneCheck check{&experiment,
                    prefix + "/experiment",
                    &member(results, "scene", prefix),
                    prefix + "/scene",
                    &scene,
                    {},
                    {},
-                   false};
+                   false,
+                   false,
+                   &work.shapes};
   const json::value* design = results.as_object().if_contains("design");
   if (design != nullptr && !design->is_null()) return;
   check_length(scene, scene.length, prefix + "/scene");
   work.lines.push_back(check_scene(check, work.tolerances, work.record));
 }
 
-/// Whether an element of the scene has a solid, of which a plugin alone knows where its surface is.
-bool has_solids(const json::value& scene, const std::string& where)
+/// Does the check of a document; nothing is checked where the surfaces of its scene are not known.
+template <class F>
+void unless_unknown(const std::string& prefix, const Work& work, const F& check)
 {
-  const std::string at = where + "/elements";
-  for (const json::value& element : array(member(scene, "elements", where), at))
-    for (const json::value& primitive : array(member(element, "primitives", at), at + "/primitives"))
-      if (text(member(primitive, "kind", at), at + "/kind") == "solid") return true;
-  return false;
+  try {
+    check();
+  } catch (const Unknown& unknown) {
+    for (const char* part : {"/scene", "/limits", "/profiles", "/boundary", "/design", "/experiment"})
+      work.record.skip(prefix + part, unknown.what());
+    work.lines.push_back({true, fmt::format("{}/scene: {}", prefix, unknown.what()), false});
+  }
 }
 
-/// Nothing of a scene with solids is checked.
-void skip_solids(const std::string& prefix, const Work& work)
-{
-  const char* why = "the surfaces of solids are known to their plugins alone";
-  for (const char* part : {"/scene", "/limits", "/profiles", "/boundary", "/design", "/experiment"})
-    work.record.skip(prefix + part, why);
-  work.lines.push_back({true, fmt::format("{}/scene: {}", prefix, why), false});
-}
-
-/// One document's limits, profiles and scene; `prefix` is its place in the file.
-void check_scene_and_limits(const json::value& results, const std::string& prefix, const Work& work)
+/// One document's limits, profiles and scene under a known load case. Throws Unknown where the surfaces of
+/// solids cannot be asked for.
+void check_placed_scene(const json::value& results, const std::string& prefix, const Setting& setting,
+                        const Work& work)
 {
   const json::value& experiment = member(results, "experiment", prefix);
-  Setting setting;
-  try {
-    setting = read_setting(experiment);
-  } catch (const Unknown& unknown) {
-    return check_unknown_load(results, prefix, unknown.what(), work);
-  }
-  setting.where = prefix + "/experiment";
-  if (has_solids(member(results, "scene", prefix), prefix + "/scene")) return skip_solids(prefix, work);
-  const Scene scene = read_placed_scene(member(results, "scene", prefix), prefix, setting);
+  const Scene scene = read_placed_scene(member(results, "scene", prefix), prefix, setting,
+                                        {experiment, setting.where, work.shapes});
   check_length(scene, scene.length, prefix + "/scene");
   const auto limits =
       check_limits(scene, member(results, "limits", prefix), prefix, setting, experiment, work);
@@ -181,11 +176,31 @@ void check_scene_and_limits(const json::value& results, const std::string& prefi
     work.record.done(VerifyPart::boundary, prefix + "/boundary", line.ok);
     add(std::move(line));
   }
-  const SceneCheck check{
-      &experiment, setting.where, &member(results, "scene", prefix), prefix + "/scene", &scene, setting,
-      {},          false};
+  const SceneCheck check{&experiment,
+                         setting.where,
+                         &member(results, "scene", prefix),
+                         prefix + "/scene",
+                         &scene,
+                         setting,
+                         {},
+                         false,
+                         false,
+                         &work.shapes};
   work.lines.push_back(scene_and_asked(check, limits, work));
   work.record.done(VerifyPart::design, prefix + "/design", true);
+}
+
+/// One document's limits, profiles and scene; `prefix` is its place in the file. Throws as above.
+void check_scene_and_limits(const json::value& results, const std::string& prefix, const Work& work)
+{
+  Setting setting;
+  try {
+    setting = read_setting(member(results, "experiment", prefix));
+  } catch (const Unknown& unknown) {
+    return check_unknown_load(results, prefix, unknown.what(), work);
+  }
+  setting.where = prefix + "/experiment";
+  check_placed_scene(results, prefix, setting, work);
 }
 
 /// A swept number stands in the row's experiment, where its pointer leads there (those of a weave do not: it
@@ -262,7 +277,8 @@ void check_sweep(const json::value& sweep, const Work& work)
       }
       check_measured(member(sweep, "measures", "/sweep"), row, result, where);
       check_row_status(status, result, where);
-      check_scene_and_limits(result, where + "/result", work);
+      unless_unknown(where + "/result", work,
+                     [&] { check_scene_and_limits(result, where + "/result", work); });
     } catch (const Malformed& error) {
       work.malformed(error.what());
     }
@@ -281,7 +297,8 @@ void check_designed(const json::value& results, const Work& work)
   }
   setting.where = "/experiment";
   const json::value& scene_json = member(results, "scene", "");
-  const Scene scene = read_placed_scene(scene_json, "", setting);
+  const ShapeSource source{experiment, "/experiment", work.shapes};
+  const Scene scene = read_placed_scene(scene_json, "", setting, source);
   const json::value& design = member(results, "design", "");
   const auto limits = check_limits(scene, member(results, "limits", ""), "", setting, experiment, work);
   VerifyLine profiles = check_profiles(results, setting.load, limits, work.tolerances);
@@ -289,7 +306,7 @@ void check_designed(const json::value& results, const Work& work)
   work.lines.push_back(std::move(profiles));
   const json::value& initial = member(design, "initial", "/design");
   const json::value& initial_json = member(initial, "scene", "/design/initial");
-  const Scene initial_scene = read_placed_scene(initial_json, "/design/initial", setting);
+  const Scene initial_scene = read_placed_scene(initial_json, "/design/initial", setting, source);
   check_length(initial_scene, initial_scene.length, "/design/initial/scene");
   check_length(initial_scene, scene.length, "/scene");  // frozen during the design
   const auto initial_limits = check_limits(initial_scene, member(initial, "limits", "/design/initial"),
@@ -297,11 +314,11 @@ void check_designed(const json::value& results, const Work& work)
   DesignedScenes designed;
   VerifyLine line = check_design(results, initial_limits, limits, designed, work.tolerances, work.record);
   work.lines.push_back(std::move(line));
-  const SceneCheck last{&experiment, "/experiment", &scene_json,    "/scene",
-                        &scene,      setting,       designed.final, true};
-  const SceneCheck first{
-      &experiment,      "/experiment", &initial_json, "/design/initial/scene", &initial_scene, setting,
-      designed.initial, true,          true};
+  const SceneCheck last{&experiment, "/experiment",  &scene_json, "/scene", &scene,
+                        setting,     designed.final, true,        false,    &work.shapes};
+  const SceneCheck first{&experiment,    "/experiment", &initial_json,    "/design/initial/scene",
+                         &initial_scene, setting,       designed.initial, true,
+                         true,           &work.shapes};
   work.lines.push_back(scene_and_asked(last, limits, work));
   work.lines.push_back(scene_and_asked(first, initial_limits, work));
 }
@@ -330,23 +347,24 @@ void check_document(const json::value& results, const Work& work)
     check_stability(experiment, member(results, "stability", ""), work.lines, work.record);
   } else if (design != nullptr && !design->is_null()) {
     if (task != "design") throw Malformed("/experiment/task: design expected, as there is one");
-    check_designed(results, work);
+    unless_unknown("", work, [&] { check_designed(results, work); });
   } else {
     if (task != "limits" && task != "transition")
       throw Malformed("/experiment/task: limits or transition expected, as nothing else is here");
     member(results, "design", "");
-    check_scene_and_limits(results, "", work);
+    unless_unknown("", work, [&] { check_scene_and_limits(results, "", work); });
   }
   work.record.done(VerifyPart::format, "/experiment/task", true);
 }
 
 }  // namespace
 
-VerifyReport verify(const json::value& results, const VerifyTolerances& tolerances)
+VerifyReport verify(const json::value& results, const VerifyTolerances& tolerances,
+                    const VerifyShapes& shapes)
 {
   VerifyReport report;
   Record record;
-  const Work work{tolerances, record, report.lines};
+  const Work work{tolerances, record, report.lines, shapes};
   try {
     check_document(results, work);
   } catch (const std::exception& error) {

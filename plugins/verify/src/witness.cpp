@@ -22,6 +22,8 @@ constexpr double grown = 1e-2;
 constexpr int most_looks = 300;  ///< at pairs that balls do not keep apart, for one piece of a motion
 constexpr int samples = 33;      ///< of a piece that takes more
 constexpr int most_halvings = 30;
+/// How closely pairs with a solid are enclosed, over their size.
+constexpr double width_of_looks = 1e-10;
 
 Vec3 own_displacement(const Scene& scene, const MovedState& s, std::size_t k)
 {
@@ -36,9 +38,21 @@ bool apart(const Element& a, const Place& at, const Element& b, const Place& oth
       const Primitive x = placed(p, at), y = placed(q, other);
       if ((x.place.position - y.place.position).norm() - reach(x) - reach(y) > needed) continue;
       if (separation_bound(x, y) > needed) continue;
-      if (!(separation(x, y) > needed)) return false;
+      if (!(enclosed_separation(x, y, width_of_looks * (reach(x) + reach(y)), needed).least > needed))
+        return false;
     }
   return true;
+}
+
+/// Surfaces of two placed elements intersect, or touch.
+bool meet(const Element& a, const Place& at, const Element& b, const Place& other)
+{
+  for (const Primitive& p : a.tori)
+    for (const Primitive& q : b.tori) {
+      const Primitive x = placed(p, at), y = placed(q, other);
+      if (separation_bound(x, y) <= 0.0 && separation(x, y) <= 0.0) return true;
+    }
+  return false;
 }
 
 /// One piece of a motion.
@@ -127,7 +141,7 @@ class Piece {
       if ((s.places[i].position - other.position).norm() - a.reach - b.reach > comes) continue;
       if (++looks_ > most_looks) return Motion::undecided;
       if (apart(a, s.places[i], b, other, comes)) continue;
-      if (!apart(a, s.places[i], b, other, 0.0)) return Motion::meets;
+      if (meet(a, s.places[i], b, other)) return Motion::meets;
       out = Motion::undecided;
     }
     return out;

@@ -24,6 +24,7 @@ using test::Chain;
 using test::chain_document;
 using test::column_document;
 using test::limit_line;
+using verification::Primitive;
 
 TEST(Saddle, AColumnThatWouldBuckleIsNotLocked)
 {

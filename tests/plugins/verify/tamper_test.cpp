@@ -180,7 +180,7 @@ TEST(Malformed, EverythingMissingIsAFailingLine)
   document = chain_document();
   document.at_pointer("/scene/elements/0/primitives/0/kind") = "sphere";
   expect_caught(document,
-                "circle_tube, revolved_ellipse, curve_tube or triangle_mesh expected, found sphere");
+                "circle_tube, revolved_ellipse, curve_tube, triangle_mesh or solid expected, found sphere");
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ namespace hauberk::test {
 namespace {
 
 using namespace hauberk::verification;
+using verification::Primitive;
 namespace json = boost::json;
 
 Primitive torus(double R, double r, const Vec3& centre, const Vec3& axis = Vec3::UnitZ())

@@ -1,10 +1,14 @@
 #pragma once
 /// The independent check of a results file: from the file alone, by brute force, with no code of the solver.
 
+#include <hauberk/shape.hpp>
 #include <hauberk/verify/fields.hpp>
 
 #include <boost/json/value.hpp>
 
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +30,11 @@ struct VerifyTolerances {
   double balance_agreement = 1e-8;
   /// Of gaps against the points that they are listed with, over the sizes of the coordinates.
   double written = 1e-13;
+  /// How closely the smallest distance of a pair with a solid is to be enclosed; the search ends when its
+  /// lower bound is that near to the smallest distance that it found.
+  double enclosure = 1e-10;
+  /// Of a solid's chart against its distance, over its radius: Newton's method leaves about 1e-14.
+  double chart = 1e-9;
   /// Of what is held at zero, strains or curvatures times L; of reactions, beside ten times the imbalance.
   double held = 1e-9, reaction = 1e-7;
   /// Of the mean translation: one element in a thousand, moved by 1e-3 mm, shows.
@@ -70,6 +79,14 @@ struct VerifyReport {
   std::string text() const;
 };
 
+/// Makes the primitives of a shape whose rule only its plugin knows: from `section`, the entry of the stored
+/// experiment's `elements` that is called `type`, and parameters by name. Nothing where the shape cannot be
+/// asked, with a sentence that says why in `why`: what depends on it is then not checked. Throws
+/// std::exception for sections and parameters that the shape refuses, which fails the check.
+using VerifyShapes = std::function<std::optional<std::vector<Primitive>>(
+    const std::string& type, const boost::json::value& section,
+    const std::map<std::string, double>& parameters, std::string& why)>;
+
 /// Checks a document of format "hauberk-results/1": a line per limit (also those of a design's initial
 /// scene), one for the profiles, one for the scene, one for the design. What is done about which field, and
 /// why not, say the rules of fields.hpp.
@@ -93,7 +110,11 @@ struct VerifyReport {
 /// motion);
 /// - a locked bent state is a sheet on the scale of its elements, and one that is `not_a_sheet` is none.
 ///
-/// Never throws for a bad document: what is missing or malformed is a failing line. Thread safe.
-VerifyReport verify(const boost::json::value& results, const VerifyTolerances& tolerances = {});
+/// `shapes` is asked for solids alone; without it scenes that have any are not checked.
+///
+/// Never throws for a bad document: what is missing or malformed is a failing line. Thread safe where
+/// `shapes` is.
+VerifyReport verify(const boost::json::value& results, const VerifyTolerances& tolerances = {},
+                    const VerifyShapes& shapes = {});
 
 }  // namespace hauberk

@@ -1,8 +1,11 @@
 #include "dispatch.hpp"
 #include "document/json_text.hpp"
+#include "experiment_options.hpp"
 #include "options.hpp"
 #include "results/document.hpp"
 
+#include <hauberk/error.hpp>
+#include <hauberk/experiment/stored_shapes.hpp>
 #include <hauberk/verify/verify.hpp>
 
 #include <fmt/format.h>
@@ -38,6 +41,18 @@ json::object as_json(const VerifyReport& report)
   return out;
 }
 
+PluginLookup plugins_of(const Registry& registry)
+{
+  return [&registry](PluginKind kind, const std::string& id, std::string& error) -> const PluginTable* {
+    try {
+      return &registry.find(kind, id);
+    } catch (const InputError& problem) {
+      error = problem.what();
+      return nullptr;
+    }
+  };
+}
+
 }  // namespace
 
 Description verify_description()
@@ -48,9 +63,10 @@ Description verify_description()
           .synopsis = "verify RESULTS.json",
           .summary =
               "Rechecks a result from its file alone: gaps, links, force balance, values. A line per "
-              "limit; exits with 1 when anything fails. A folder stands for the results.json in it.",
+              "limit; exits with 1 when anything fails. A folder stands for the results.json in it. Of "
+              "solids it asks the plugins of their shapes where the surface is.",
           .arguments = {{.name = "RESULTS.json", .offer = Offer::results}},
-          .options = {json_option()}};
+          .options = {json_option(), plugin_path_option()}};
 }
 
 int verify_command(const std::vector<std::string>& words)
@@ -60,7 +76,8 @@ int verify_command(const std::vector<std::string>& words)
   std::filesystem::path file = options.positional();
   std::error_code unknown;  // then reading tells
   if (std::filesystem::is_directory(file, unknown)) file /= results_file;
-  const VerifyReport report = verify(read_json_file(file.string()));
+  const std::shared_ptr<const Registry> registry = open_registry(options);
+  const VerifyReport report = verify(read_json_file(file.string()), {}, StoredShapes(plugins_of(*registry)));
   fmt::print("{}", options.has("json") ? write_json(as_json(report)) : report.text());
   return report.ok ? exit_done : exit_failed;
 }

@@ -2,6 +2,7 @@
 
 #include "mutations.hpp"
 #include "program.hpp"
+#include "stored.hpp"
 
 #include <hauberk/verify/verify.hpp>
 
@@ -45,6 +46,7 @@ std::vector<Case> cases()
       {"solid",
        {HAUBERK_SOURCE_DIR "/loadcases/volumetric_periodic/example.json", "--set",
         "/load_case/directions=[[1, 0, 0, 0, 0, 0]]", "--set", "/expect=[]"}},
+      {"struts", {HAUBERK_SOURCE_DIR "/shapes/strut_frame/example.json", "--set", "/expect=[]"}},
       // A design that is short: one variable, one target, one step.
       {"design",
        {share("chain.json"), "--set", "/expect=[]", "--set", "/task=design", "--set",
@@ -58,9 +60,10 @@ std::vector<Case> cases()
 
 void expect_nothing_missed(const std::string& name, const boost::json::value& results)
 {
-  const VerifyReport whole = verify(results);
+  const VerifyShapes shapes = stored_shapes();
+  const VerifyReport whole = verify(results, {}, shapes);
   ASSERT_TRUE(whole.ok) << whole.text();
-  const MutationCounts counts = mutate(results, fields_per_pattern());
+  const MutationCounts counts = mutate(results, fields_per_pattern(), shapes);
   fmt::print("{}: {} fields, {} changed, {} caught, {} listed, {} missed\n", name, counts.fields,
              counts.tried, counts.caught, counts.listed, counts.missed.size());
   EXPECT_TRUE(counts.missed.empty()) << fmt::format("{}", fmt::join(counts.missed, "\n"));
@@ -88,12 +91,14 @@ INSTANTIATE_TEST_SUITE_P(Results, Mutation, ::testing::ValuesIn(cases()),
 void mutate_text(const std::string& name, const std::string& text, int code = 0)
 {
   const TemporaryFolder folder;
-  const Outcome run = run_program({"run", folder.write("e.json", text), "-o", folder / "out"});
+  const Outcome run = run_program(
+      {"run", folder.write("e.json", text), "-o", folder / "out", "--plugin-path", HAUBERK_SOLID_SHAPES});
   ASSERT_EQ(run.code, code) << run.err;
   expect_nothing_missed(name, read_results(folder / "out"));
 }
 
 TEST(MutationOfElements, Union) { mutate_text("union", union_text()); }
+TEST(MutationOfSolids, OfTheKit) { mutate_text("rings", solid_chain_text()); }
 TEST(MutationOfTables, Sweep) { mutate_text("sweep", sweep_text()); }
 TEST(MutationOfTables, Chart) { mutate_text("chart", chart_text()); }
 TEST(MutationOfTables, Stability) { mutate_text("stability", map_text()); }

@@ -1,7 +1,5 @@
 #include "mutations.hpp"
 
-#include <hauberk/verify/verify.hpp>
-
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
@@ -48,8 +46,11 @@ double largest_of(const json::value& v)
 double neighbours(const json::value& document, const std::string& pointer)
 {
   const std::string parent = pointer.substr(0, pointer.rfind('/'));
-  // Beside the load, which is 1; what is not balanced, up to 1e-5 of it, may be a reaction's.
-  if (pointer.find("/reactions/") != std::string::npos) return 1.0;
+  // Beside the load, which is 1; of what is not balanced ten times as much may be a reaction's.
+  if (const std::size_t at = pointer.find("/reactions/"); at != std::string::npos) {
+    const json::value& balance = document.at_pointer(pointer.substr(0, at) + "/force_balance");
+    return std::max(1.0, 20.0 * largest_of(balance) / share_of_neighbours);
+  }
   if (pointer.ends_with("/force")) {
     double largest = 0.0;
     for (const json::value& contact : document.at_pointer(parent.substr(0, parent.rfind('/'))).as_array())
@@ -96,10 +97,10 @@ json::value other(const json::value& v, double least)
   return 1.0;
 }
 
-MutationCounts mutate(const json::value& document, std::size_t most)
+MutationCounts mutate(const json::value& document, std::size_t most, const VerifyShapes& shapes)
 {
   MutationCounts counts;
-  const VerifyReport whole = verify(document);
+  const VerifyReport whole = verify(document, {}, shapes);
   counts.fields = whole.fields.size();
   std::map<std::string, std::vector<const VerifyField*>> by_pattern;
   for (const VerifyField& field : whole.fields) {
@@ -117,7 +118,7 @@ MutationCounts mutate(const json::value& document, std::size_t most)
       place =
           other(before, std::max(least_change, share_of_neighbours * neighbours(document, field.pointer)));
       ++counts.tried;
-      if (!verify(changed).ok)
+      if (!verify(changed, {}, shapes).ok)
         ++counts.caught;
       else if (field.outcome == VerifyOutcome::not_checked)
         ++counts.listed;

@@ -1,6 +1,8 @@
 #pragma once
 /// Changes of single fields of a document, and what the check makes of each.
 
+#include <hauberk/verify/verify.hpp>
+
 #include <boost/json/value.hpp>
 
 #include <string>
@@ -24,7 +26,7 @@ struct MutationCounts {
 boost::json::value other(const boost::json::value& v, double least);
 
 /// Changes fields of a true document one at a time. Of those with the same pattern `most` are taken, evenly
-/// over the document.
-MutationCounts mutate(const boost::json::value& document, std::size_t most);
+/// over the document. `shapes` know the surfaces of solids.
+MutationCounts mutate(const boost::json::value& document, std::size_t most, const VerifyShapes& shapes = {});
 
 }  // namespace hauberk::test

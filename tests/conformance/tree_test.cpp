@@ -36,6 +36,9 @@ HAUBERK_CONFORMANCE_TESTS(StrutFrameOctahedron, folder + "strut_frame.so",
 HAUBERK_CONFORMANCE_TESTS(StrutFrameListed, folder + "strut_frame.so",
                           R"({ "shape": "strut_frame", "nodes": [[0, 0, 0], [2, 0, 0], [1, 3, 1]],
                                "struts": [[0, 1], [1, 2], [2, 0]], "parameters": { "size": 1, "r": 0.1 } })");
+HAUBERK_CONFORMANCE_TESTS(RoundedRing, folder + "rounded_ring.so",
+                          R"({ "shape": "rounded_ring",
+                               "parameters": { "R": 5, "w": 0.7, "h": 0.5, "corner": 0.2 } })");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicEquation12, folder + "in_plane_periodic.so",
                           R"({ "measure": "equation_12", "hold": [] })");

@@ -164,6 +164,69 @@ TEST(ImplicitSolid, DoesNotBelieveThatATorusIsConvex)
   EXPECT_LE(ImplicitSolid<StatedConvex>({3.0, 1.0}).smoothness().reach, 2.0);
 }
 
+/// Authors who know that u turns their charts, and one who is wrong about it.
+struct RevolvedTorus : PlainTorus {
+  static constexpr bool revolved = true;
+};
+struct StatedRevolved : Ellipsoid {
+  static constexpr bool revolved = true;
+};
+
+TEST(ImplicitSolid, TakesOneMeridianOfARevolvedSurfaceForAll)
+{
+  const ImplicitSolid<PlainTorus> plain({3.0, 1.0});
+  const ImplicitSolid<RevolvedTorus> revolved({3.0, 1.0});
+  const SolidSmoothness a = plain.smoothness(), b = revolved.smoothness();
+  EXPECT_NEAR(b.convex, a.convex, 0.1 * a.convex);
+  EXPECT_NEAR(b.reach, a.reach, 0.1 * a.reach);
+  EXPECT_NEAR(b.change, a.change, 0.25 * a.change);
+  Random random;
+  for (int k = 0; k < 100; ++k) {
+    const double u = random(0.0, 7.0), v = random(0.0, 7.0), half = random(1e-3, 1.0);
+    const ProbeBounds p = plain.probe_bounds(u, v, half, half), q = revolved.probe_bounds(u, v, half, half);
+    EXPECT_NEAR(q.u, p.u, 0.05 * p.u);
+    EXPECT_NEAR(q.vvv, p.vvv, 0.05 * p.vvv);
+  }
+  const std::vector<double> sizes{3.0, 2.0, 1.0};
+  EXPECT_FALSE(kit::ChartDomain::of<StatedRevolved>(sizes.data()).revolved);
+  EXPECT_EQ(ImplicitSolid<StatedRevolved>(sizes).smoothness().convex,
+            ImplicitSolid<Ellipsoid>(sizes).smoothness().convex);
+}
+
+/// The largest distance of points of either solid's surface from the other.
+template <class Author>
+double moved(const std::vector<double>& from, const std::vector<double>& to)
+{
+  const ImplicitSolid<Author> a(from), b(to);
+  double most = 0.0;
+  for (int i = 0; i < 40; ++i)
+    for (int j = 0; j < 40; ++j) {
+      const ProbeAngles at = angles(pi * i / 20.0, pi * j / 20.0);
+      most = std::max({most, std::abs(a.distance(b.surface_point(at)).distance),
+                       std::abs(b.distance(a.surface_point(at)).distance)});
+    }
+  return most;
+}
+
+TEST(ImplicitSolid, BoundsHowFarItsSurfaceMovesToOtherSizes)
+{
+  const auto check = [](auto author, const std::vector<double>& from, const std::vector<double>& to,
+                        double most_slack) {
+    using Author = decltype(author);
+    const double speed = ImplicitSolid<Author>(from).speed(to), farthest = moved<Author>(from, to);
+    EXPECT_GE(speed, farthest);
+    EXPECT_LE(speed, most_slack * farthest) << Author::kind;
+  };
+  // Of a torus |dR| + |dr| at the outside.
+  EXPECT_NEAR(ImplicitSolid<PlainTorus>({3.0, 1.0}).speed(std::vector{3.2, 1.1}), 0.3, 0.003);
+  check(PlainTorus{}, {3.0, 1.0}, {3.2, 1.1}, 1.02);
+  check(RevolvedTorus{}, {3.0, 1.0}, {2.6, 0.5}, 2.5);  // points move along the surface, too
+  check(Ellipsoid{}, {3.0, 2.0, 1.0}, {3.0, 2.0, 1.3}, 1.02);
+  check(Capsule{}, {2.0, 1.0}, {2.2, 1.0}, 1.1);
+  check(RoundedRing{}, {4.0, 1.0, 0.8}, {4.0, 1.2, 0.7}, 1.6);
+  EXPECT_EQ(ImplicitSolid<PlainTorus>({3.0, 1.0}).speed(std::vector{3.0, 1.0}), 0.0);
+}
+
 TEST(ImplicitSolid, BoundsReachByTheTorusHole)
 {
   for (const auto& [R, r] : {std::pair{3.0, 1.0}, {5.0, 0.7}, {1.2, 1.0}}) {
@@ -251,6 +314,8 @@ void expect_distance(const std::vector<double>& q, double outside, double inside
     EXPECT_LE(s.at_least, s.distance);
     EXPECT_LE(s.at_least, s.at_least < 0.0 ? 0.0 : nearest + 1e-12) << x.transpose();
     EXPECT_TRUE(std::isfinite(s.distance) && std::isfinite(s.at_least));
+    // Where no foot is certain balls tell, which are small beside the distance.
+    if (s.distance > 0.0) EXPECT_GE(s.at_least, 0.9 * nearest - 0.1 * solid.radius()) << x.transpose();
   }
 }
 

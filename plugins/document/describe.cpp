@@ -58,6 +58,8 @@ std::string plural(const Field& item)
       return "objects";
     case Field::Kind::numbers:
       return "arrays of " + std::to_string(item.min_items) + " numbers";
+    case Field::Kind::choice:
+      return "names out of " + join(item.choices, ", ");
     default:
       return "values";
   }
@@ -69,7 +71,7 @@ std::string describe_expected(const Field& field)
 {
   switch (field.kind) {
     case Field::Kind::number:
-      return "a number" + range(field);
+      return field.minimum == field.maximum ? format_number(field.minimum) : "a number" + range(field);
     case Field::Kind::integer:
       return "an integer" + range(field);
     case Field::Kind::boolean:

@@ -50,5 +50,10 @@ HAUBERK_CONFORMANCE_TESTS(VolumetricPeriodic, folder + "volumetric_periodic.so")
 HAUBERK_CONFORMANCE_TESTS(ParaboloidBending, folder + "paraboloid_bending.so");
 HAUBERK_CONFORMANCE_TESTS(ParaboloidBendingPlaces, folder + "paraboloid_bending.so",
                           R"({ "hold": ["places", "twist"] })");
+HAUBERK_CONFORMANCE_TESTS(CylinderRoll, folder + "cylinder_roll.so");
+HAUBERK_CONFORMANCE_TESTS(CylinderRollFree, folder + "cylinder_roll.so",
+                          R"({ "hold": [], "out_of_plane": "free" })");
+HAUBERK_CONFORMANCE_TESTS(CylinderRollPlaces, folder + "cylinder_roll.so",
+                          R"({ "hold": ["places", "twist", "transverse"], "out_of_plane": "free" })");
 
 }  // namespace

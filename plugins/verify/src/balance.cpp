@@ -43,12 +43,12 @@ void add_contact(Vector& residual, const Scene& scene, const Setting& setting, c
   }
 }
 
-/// Weights of the components in the Frobenius norm: off-diagonal ones of strain stand twice in the matrix, C
-/// of A x^2 + B y^2 + C x y is twice the off-diagonal one.
+/// Weights of the components in the Frobenius norm: off-diagonal ones stand twice in the matrix, but C of A
+/// x^2 + B y^2 + C x y is twice the off-diagonal one.
 Macros weights(Load load)
 {
   if (load == Load::solid) return (Macros(6) << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0).finished();
-  return Vec3(1.0, 1.0, load == Load::strain ? 2.0 : 0.5);
+  return Vec3(1.0, 1.0, load == Load::paraboloid ? 0.5 : 2.0);
 }
 
 }  // namespace
@@ -70,6 +70,7 @@ Macros load(const Limit& limit)
   if (limit.load == Load::strain && (measure == "equation_12" || measure == "paper"))
     return Vec3(d / d.squaredNorm());
   if (limit.load == Load::paraboloid && measure == "normal_curvature") return Vec3(2.0 * d);
+  if (limit.load == Load::roll && measure == "roll_curvature") return Vec3(d.x(), d.y(), 2.0 * d.z());
   throw Malformed("the measure \"" + measure + "\" is not known to this check");
 }
 

@@ -29,7 +29,7 @@ std::optional<double> value_of(const std::vector<Limit>& limits, double directio
 /// Names of the senses, positive first.
 std::pair<std::string, std::string> senses(Load load)
 {
-  if (load != Load::paraboloid) return {"stretch", "compress"};
+  if (!is_bent(load)) return {"stretch", "compress"};
   return {"up", "down"};
 }
 
@@ -223,7 +223,7 @@ VerifyLine check_profiles(const json::value& results, Load load, const std::vect
         find_limit(limits, direction, negative) == nullptr)
       problems.push_back(fmt::format("{}/direction_deg: no limit has it", at));
     const auto e_s = value_of(limits, direction, positive), e_c = value_of(limits, direction, negative);
-    const auto joined = load != Load::paraboloid ? eta(e_s, e_c) : std::nullopt;
+    const auto joined = !is_bent(load) ? eta(e_s, e_c) : std::nullopt;
     for (const auto& [key, expected] :
          {std::pair("e_s", e_s), std::pair("e_c", e_c), std::pair("eta", joined)}) {
       const auto reported = optional_number(p, key, at);

@@ -115,8 +115,8 @@ VerifyLine check_not_a_sheet(const Scene& scene, const Setting& setting, const L
     problems.push_back(std::move(p));
   const std::string gap = check_gap(scene, setting, limit, tolerances, problems, record);
   const std::string kept = check_links(scene, limit, problems);
-  std::string how = "no patch on a paraboloid";
-  if (setting.load == Load::paraboloid) {
+  std::string how = "no patch that is bent";
+  if (is_bent(setting.load)) {
     const Sheet sheet = sheet_of_limit(scene, limit);
     how = sheet.text();
     if (sheet.holds()) problems.push_back("a sheet: " + how);
@@ -276,7 +276,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
       }
     });
     check.part(VerifyPart::held, [&] { check_held(scene, setting, limit, imbalance, tolerances, problems); });
-    if (setting.load == Load::paraboloid && limit.status == "locked") {
+    if (is_bent(setting.load) && limit.status == "locked") {
       check.part(VerifyPart::values, [&] {
         if (const Sheet sheet = sheet_of_limit(scene, limit); !sheet.holds())
           problems.push_back("no sheet: " + sheet.text());

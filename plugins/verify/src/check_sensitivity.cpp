@@ -56,7 +56,7 @@ bool unique_forces(const Scene& scene, const Setting& setting, const Limit& limi
 /// The length power of the value, applied: forces are those of an energy without unit.
 double unit_of_value(const Scene& scene, const Limit& limit)
 {
-  return limit.load == Load::paraboloid ? 1.0 / scene.length : 1.0;
+  return is_bent(limit.load) ? 1.0 / scene.length : 1.0;
 }
 
 /// The distance of one pair of primitives when one element has other tori.

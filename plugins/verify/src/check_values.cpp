@@ -15,7 +15,7 @@ namespace {
 void check_heights(const Scene& scene, const Setting& setting, const Limit& limit,
                    const VerifyTolerances& tolerances, Sentences& problems)
 {
-  if (!std::isfinite(setting.half_height)) return;
+  if (is_bent(setting.load) || !std::isfinite(setting.half_height)) return;
   double mean = 0.0, highest = 0.0;
   for (std::size_t k = 0; k < limit.poses.size(); ++k)
     mean += (limit.poses[k].position - scene.elements[k].rest.position).z() /
@@ -92,7 +92,7 @@ void check_values(const Scene& scene, const Setting& setting, const Limit& limit
       problems.push_back(fmt::format("starts/{}: value {:.10g} reported, {:.10g} from macro", i,
                                      limit.starts[i].value, reached));
   }
-  const double unit = macro.load != Load::paraboloid ? 1.0 : 1.0 / scene.length;
+  const double unit = is_bent(macro.load) ? 1.0 / scene.length : 1.0;
   if ((is_positive(limit) ? expected : -expected) < -tolerances.wrong_side * unit)
     problems.push_back(
         fmt::format("value {:.6g} is on the wrong side of zero for {}", expected, limit.sense));

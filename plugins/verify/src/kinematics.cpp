@@ -1,6 +1,7 @@
 #include "kinematics.hpp"
 
 #include "neighbours.hpp"
+#include "roll.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -13,12 +14,78 @@
 namespace hauberk::verification {
 namespace {
 
+/// What is smaller beside the others depends on them.
+constexpr double dependent = 1e-9;
+
 double height_on(const Macro& macro, double x, double y)
 {
   return macro.values[0] * x * x + macro.values[1] * y * y + macro.values[2] * x * y;
 }
 
 const Place& rest_of(const Scene& scene, std::size_t k) { return scene.elements[k].rest; }
+
+/// Where an element of a roll is on the flat sheet, over L.
+Vec3 flat_place(const Scene& scene, const MovedState& state, std::size_t k)
+{
+  return unrolled(scaled(state.macro, scene.length), state.places[k].position / scene.length,
+                  rest_of(scene, k).position / scene.length);
+}
+
+PositionDerivatives roll_derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
+                                     std::size_t k)
+{
+  const Eigen::Matrix<double, 3, 6> all =
+      rolled_derivatives(scaled(state.macro, scene.length), flat_place(scene, state, k));
+  PositionDerivatives out{all.leftCols<3>(), all.rightCols<3>()};
+  if (setting.places()) out.own.leftCols<2>().setZero();
+  if (setting.half_height == 0.0) out.own.col(2).setZero();
+  return out;
+}
+
+/// Rows of what holds a patch where it is: its mean and its turn about z, and where elements may leave a roll
+/// what fits the roll to them. They may depend on each other.
+Matrix gauge_rows(const Scene& scene, const Setting& setting)
+{
+  const bool slides = !setting.places();
+  const bool lifts = setting.load == Load::roll && setting.half_height > 0.0;
+  Matrix rows = Matrix::Zero(unknowns(scene), (slides ? 3 : 0) + (lifts ? 6 : 0));
+  for (std::size_t k = 0; k < scene.elements.size(); ++k) {
+    const Vec3 X = rest_of(scene, k).position / scene.length;
+    const Eigen::Index o = first_of(scene, static_cast<int>(k));
+    if (slides) rows.block<2, 3>(o, 0) << 1.0, 0.0, -X.y(), 0.0, 1.0, X.x();
+    if (lifts) rows.row(o + 2).tail<6>() << 1.0, X.x(), X.y(), X.x() * X.x(), X.y() * X.y(), X.x() * X.y();
+  }
+  return rows;
+}
+
+/// The same for a state: elements off the roll, and parts of its motion along what is held.
+std::vector<std::string> misplaced_on_roll(const Scene& scene, const Setting& setting,
+                                           const MovedState& state, double tolerance)
+{
+  std::vector<std::string> out;
+  const Macros K = scaled(state.macro, scene.length);
+  Vector motion = Vector::Zero(unknowns(scene));
+  for (std::size_t k = 0; k < state.places.size(); ++k) {
+    const Vec3 at = flat_place(scene, state, k), X = rest_of(scene, k).position / scene.length;
+    const double missed = (rolled(K, at) - state.places[k].position / scene.length).norm();
+    if (!(missed <= tolerance)) out.push_back(fmt::format("element {} is nowhere about the roll", k));
+    if (setting.half_height == 0.0 && !(std::abs(at.z() - X.z()) <= tolerance))
+      out.push_back(
+          fmt::format("element {} is {:.3g} off the roll", k, scene.length * std::abs(at.z() - X.z())));
+    if (setting.places() && !((at - X).head<2>().norm() <= tolerance))
+      out.push_back(
+          fmt::format("element {} is {:.3g} from its place", k, scene.length * (at - X).head<2>().norm()));
+    motion.segment<3>(first_of(scene, static_cast<int>(k))) = at - X;
+  }
+  const Matrix rows = gauge_rows(scene, setting);
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    const double part = rows.col(k).dot(motion) / std::max(1.0, rows.col(k).lpNorm<1>());
+    if (!(std::abs(part) <= tolerance))
+      out.push_back(
+          fmt::format("the patch moved against its roll: moment {} of the motion is {:.3g} L", k, part));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -29,7 +96,7 @@ Eigen::Index unknowns(const Scene& scene)
 
 Macros scaled(const Macro& macro, double length)
 {
-  return macro.load == Load::paraboloid ? Macros(macro.values * length) : macro.values;
+  return is_bent(macro.load) ? Macros(macro.values * length) : macro.values;
 }
 
 PositionDerivatives derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
@@ -51,6 +118,7 @@ PositionDerivatives derivatives(const Scene& scene, const Setting& setting, cons
     if (setting.half_height == 0.0) out.own(2, 2) = 0.0;
     return out;
   }
+  if (setting.load == Load::roll) return roll_derivatives(scene, setting, state, k);
   const Macros c = scaled(state.macro, scene.length);
   const double x = state.places[k].position.x() / scene.length;
   const double y = state.places[k].position.y() / scene.length;
@@ -67,13 +135,16 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
 {
   MovedState out = state;
   const double L = scene.length;
-  out.macro.values += y.head(macros(scene)) / (setting.load == Load::paraboloid ? L : 1.0);
+  out.macro.values += y.head(macros(scene)) / (is_bent(setting.load) ? L : 1.0);
   const Mat3 change = out.macro.deformation() - state.macro.deformation();
   for (std::size_t k = 0; k < out.places.size(); ++k) {
     Vec3 u = L * y.segment<3>(first_of(scene, static_cast<int>(k)));
-    if (setting.places()) u.setZero();
+    if (setting.places()) u.head<2>().setZero();
     Vec3& x = out.places[k].position;
-    if (setting.load != Load::paraboloid) {
+    if (setting.load == Load::roll) {
+      if (setting.half_height == 0.0) u.z() = 0.0;
+      x = L * rolled(scaled(out.macro, L), flat_place(scene, state, k) + u / L);
+    } else if (setting.load != Load::paraboloid) {
       x += change * rest_of(scene, k).position + Vec3(u.x(), u.y(), setting.half_height == 0.0 ? 0.0 : u.z());
     } else {
       // What lies off the paraboloid stays off it by as much.
@@ -94,19 +165,20 @@ HeldComponents held_components(const Scene& scene, const Setting& setting)
   const double theta = setting.direction_deg * std::numbers::pi / 180.0;
   const double c = std::cos(theta), s = std::sin(theta);
   HeldComponents out{{}, Matrix::Zero(macros(scene), 0)};
-  const bool bent = setting.load == Load::paraboloid;
+  const bool bent = is_bent(setting.load);
+  const double diagonal = setting.load == Load::paraboloid ? 2.0 : 1.0;
   for (const std::string& name : setting.hold) {
     if (bent && name == "places") continue;
     Vector row = Vector::Zero(macros(scene));
     const Eigen::Index last = row.size() - 1;
     // Of x^2, y^2 and x y, or of exx, eyy and exy, the last of all.
     if ((name == "shear" && !bent) || (name == "twist" && bent)) {
-      row[0] = -c * s * (bent ? 2.0 : 1.0);
-      row[1] = c * s * (bent ? 2.0 : 1.0);
+      row[0] = -c * s * diagonal;
+      row[1] = c * s * diagonal;
       row[last] = c * c - s * s;
     } else if ((name == "lateral" && !bent) || (name == "transverse" && bent)) {
-      row[0] = s * s * (bent ? 2.0 : 1.0);
-      row[1] = c * c * (bent ? 2.0 : 1.0);
+      row[0] = s * s * diagonal;
+      row[1] = c * c * diagonal;
       row[last] = -2.0 * c * s;
     } else {
       throw Unknown("hold \"" + name + "\" is not known to this check");
@@ -121,19 +193,14 @@ HeldComponents held_components(const Scene& scene, const Setting& setting)
 Matrix held(const Scene& scene, const Setting& setting)
 {
   const Matrix components = held_components(scene, setting).coefficients;
-  const bool gauged = setting.load == Load::paraboloid && !setting.places();
-  Matrix rows = Matrix::Zero(unknowns(scene), components.cols() + (gauged ? 3 : 0));
+  const Matrix gauge = is_bent(setting.load) ? gauge_rows(scene, setting) : Matrix(unknowns(scene), 0);
+  Matrix rows = Matrix::Zero(unknowns(scene), gauge.cols() + components.cols());
   if (rows.cols() == 0) return rows;
+  rows.leftCols(gauge.cols()) = gauge;
   rows.topRightCorner(components.rows(), components.cols()) = components;
-  for (std::size_t k = 0; gauged && k < scene.elements.size(); ++k) {
-    const Vec3 X = rest_of(scene, k).position / scene.length;
-    const Eigen::Index o = first_of(scene, static_cast<int>(k));
-    rows(o, 0) = rows(o + 1, 1) = 1.0;
-    rows(o, 2) = -X.y();
-    rows(o + 1, 2) = X.x();
-  }
-  const Eigen::HouseholderQR<Matrix> qr(rows);
-  return qr.householderQ() * Matrix::Identity(rows.rows(), rows.cols());
+  Eigen::ColPivHouseholderQR<Matrix> qr(rows);
+  qr.setThreshold(dependent);
+  return qr.householderQ() * Matrix::Identity(rows.rows(), qr.rank());
 }
 
 Vector free_part(const Matrix& held, const Vector& x)
@@ -144,6 +211,7 @@ Vector free_part(const Matrix& held, const Vector& x)
 std::vector<std::string> misplaced(const Scene& scene, const Setting& setting, const MovedState& state,
                                    double tolerance)
 {
+  if (setting.load == Load::roll) return misplaced_on_roll(scene, setting, state, tolerance);
   std::vector<std::string> out;
   const auto n = static_cast<double>(state.places.size());
   Vec3 moved = Vec3::Zero(), fluctuation = Vec3::Zero();

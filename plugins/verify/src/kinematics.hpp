@@ -8,6 +8,9 @@
 /// paraboloid: x = (X + u_x, Y + u_y, Z + A x^2 + B y^2 + C x y); the mean of u and sum of X x u are zero, or
 /// all of u
 ///             where places are held
+/// roll:       x = rolled(K, (X, Y, Z) + u), see roll.hpp, with u.z = 0 or, where elements may leave the
+/// sheet, no
+///             part of u.z that is a quadratic polynomial in X and Y; the rest as on a paraboloid
 #include "model.hpp"
 
 #include <string>
@@ -30,8 +33,8 @@ Eigen::Index unknowns(const Scene& scene);
 
 /// Components of the macroscopic unknowns that a limit holds at zero, in the order of `hold`: a column of
 /// coefficients each. With n = (c, s) along the load and m = (-s, c) across it they are n^T eps m (shear),
-/// m^T eps m (lateral), and of H = [[2A, C], [C, 2B]] n^T H m (twist), m^T H m (transverse); `places` is none
-/// of them. Throws Unknown.
+/// m^T eps m (lateral), and of H = [[2A, C], [C, 2B]] or K n^T H m (twist), m^T H m (transverse); `places` is
+/// none of them. Throws Unknown.
 struct HeldComponents {
   std::vector<std::string> names;
   Eigen::MatrixXd coefficients;
@@ -59,8 +62,8 @@ Matrix held(const Scene& scene, const Setting& setting);
 /// x without its part along the columns of `held`.
 Vector free_part(const Matrix& held, const Vector& x);
 
-/// Everything by which a state is not one of the load case's: positions off the paraboloid, a mean or a turn
-/// that is held, elements that left held places. Lengths within `tolerance` (L).
+/// Everything by which a state is not one of the load case's: positions off the paraboloid or the roll, a
+/// mean or a turn that is held, elements that left held places. Lengths within `tolerance` (L).
 std::vector<std::string> misplaced(const Scene& scene, const Setting& setting, const MovedState& state,
                                    double tolerance);
 

@@ -101,8 +101,12 @@ struct Contact {
 enum class Load {
   strain,      ///< in_plane_periodic: exx, eyy, exy
   paraboloid,  ///< paraboloid_bending: A, B, C
+  roll,        ///< cylinder_roll: kxx, kyy, kxy
   solid        ///< volumetric_periodic: exx, eyy, ezz, eyz, exz, exy
 };
+
+/// Of a patch, whose unknowns are curvatures.
+inline bool is_bent(Load load) { return load == Load::paraboloid || load == Load::roll; }
 
 /// Vectors that a scene's cell has under a load.
 inline std::size_t cell_dimension(Load load)
@@ -120,7 +124,7 @@ struct Macro {
   Mat3 deformation() const
   {
     Mat3 f = Mat3::Identity();
-    if (load == Load::paraboloid) return f;
+    if (is_bent(load)) return f;
     f(0, 0) += values[0];
     f(1, 1) += values[1];
     f(0, 1) = f(1, 0) = values[values.size() - 1];
@@ -175,7 +179,7 @@ struct Limit {
 struct Setting {
   Load load = Load::strain;
   double clearance = 0.0;
-  /// Half-height that elements keep to; infinite when free.
+  /// Half-height that elements keep to, of rolls about the rolled sheet; infinite when free.
   double half_height = std::numeric_limits<double>::infinity();
   int facets = 0;     ///< of contact mesh, else 0
   std::string where;  ///< of the experiment that it is from

@@ -217,6 +217,7 @@ Macro read_macro(const json::value& v, Load load, const std::string& where)
 {
   std::vector<const char*> names{"exx", "eyy", "exy"};
   if (load == Load::paraboloid) names = {"A", "B", "C"};
+  if (load == Load::roll) names = {"kxx", "kyy", "kxy"};
   if (load == Load::solid) names = {"exx", "eyy", "ezz", "eyz", "exz", "exy"};
   Macro out;
   out.load = load;
@@ -454,7 +455,9 @@ Setting read_setting(const json::value& experiment)
     out.load = Load::solid;
     return out;
   }
-  if (plugin != "in_plane_periodic")
+  if (plugin == "cylinder_roll")
+    out.load = Load::roll;
+  else if (plugin != "in_plane_periodic")
     throw Unknown("the load case \"" + plugin + "\" is not known to this check");
   const json::value& height = member(load, "out_of_plane", "/experiment/load_case");
   if (height.is_number())

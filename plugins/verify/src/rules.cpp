@@ -156,8 +156,8 @@ constexpr std::array rules{
     VerifyRule{"/limits/*/kink", {}, ambiguous},
     VerifyRule{"/limits/*/poses/**",
                {values, gap, contacts},
-               "give gaps, links, contacts, balance; mean position, paraboloid and heights as the load case "
-               "has them"},
+               "give gaps, links, contacts, balance; mean position, paraboloid or roll, and heights as the "
+               "load case has them"},
     VerifyRule{"/limits/*/poses", {values}, "empty only without a state"},
     VerifyRule{"/limits/*/contacts/*/force", {balance}, "not negative; balance"},
     VerifyRule{"/limits/*/contacts/**",

@@ -1,10 +1,14 @@
 #include "sheet.hpp"
 
+#include "roll.hpp"
+
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace hauberk::verification {
 namespace {
@@ -24,14 +28,40 @@ double length_above(const Macro& macro, const Vec3& p, const Vec3& q)
   return sum;
 }
 
+/// Where elements of a roll are on the flat sheet.
+std::vector<Eigen::Vector2d> flat_places(const Scene& scene, const Macro& macro,
+                                         const std::vector<Place>& places)
+{
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    out.emplace_back(unrolled(macro.values, places[k].position, scene.elements[k].rest.position).head<2>());
+  return out;
+}
+
+/// Extent of the places along the direction of the curvature that is largest in size, in turns.
+double turns_of(const Eigen::Matrix2d& curvature, const std::vector<Eigen::Vector2d>& places)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(curvature);
+  Eigen::Index most = 0;
+  const double largest = principal.eigenvalues().cwiseAbs().maxCoeff(&most);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Eigen::Vector2d& y : places) {
+    const double along = principal.eigenvectors().col(most).dot(y);
+    low = std::min(low, along);
+    high = std::max(high, along);
+  }
+  return largest * (high - low) / (2.0 * std::numbers::pi);
+}
+
 }  // namespace
 
 std::string Sheet::text() const
 {
+  const std::string around = turns > 0.0 ? fmt::format(", {:.3g} turns (below {:g})", turns, most_turns) : "";
   return fmt::format(
       "curvature times radius {:.3g} (a sheet below {:g}), linked elements {:.3g} times as far "
-      "apart along the surface as at rest (below {:g})",
-      curvature, most_curvature, apart, most_apart);
+      "apart along the surface as at rest (below {:g}){}",
+      curvature, most_curvature, apart, most_apart, around);
 }
 
 Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>& places,
@@ -40,15 +70,22 @@ Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>&
   Sheet out;
   double widest = 0.0;
   for (const Element& e : scene.elements) widest = std::max(widest, e.reach);
+  const bool roll = macro.load == Load::roll;
+  const double diagonal = roll ? 1.0 : 2.0;
   Eigen::Matrix2d second;  // derivatives of the height; at the apex they are the curvatures
-  second << 2.0 * macro.values[0], macro.values[2], macro.values[2], 2.0 * macro.values[1];
+  second << diagonal * macro.values[0], macro.values[2], macro.values[2], diagonal * macro.values[1];
+  const std::vector<Eigen::Vector2d> flat =
+      roll ? flat_places(scene, macro, places) : std::vector<Eigen::Vector2d>{};
+  if (roll) out.turns = turns_of(second, flat);
   out.curvature =
       widest * Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(second).eigenvalues().cwiseAbs().maxCoeff();
   for (const auto& [i, j] : linked) {
     const std::size_t k = i, l = j;
     const double at_rest = (scene.elements[l].rest.position - scene.elements[k].rest.position).norm();
     const double unit = std::max(at_rest, 0.5 * (scene.elements[k].reach + scene.elements[l].reach));
-    out.apart = std::max(out.apart, length_above(macro, places[k].position, places[l].position) / unit);
+    const double along =
+        roll ? (flat[l] - flat[k]).norm() : length_above(macro, places[k].position, places[l].position);
+    out.apart = std::max(out.apart, along / unit);
   }
   return out;
 }

@@ -7,9 +7,10 @@
 
 namespace hauberk::verification {
 
-/// Bounds of paraboloid_bending: its README says why these.
+/// Bounds of paraboloid_bending and cylinder_roll: the README of the first says why these.
 constexpr double most_curvature = 2.0;  ///< largest curvature times the largest radius of an element
 constexpr double most_apart = 3.0;      ///< of linked elements along the surface, over their distance at rest
+constexpr double most_turns = 1.0;      ///< of a patch around its roll
 
 /// How near a bent state comes to being no sheet.
 struct Sheet {
@@ -17,11 +18,13 @@ struct Sheet {
   /// Largest distance of linked elements along the surface, straight in plan, over the larger of their
   /// distance at rest and their mean radius.
   double apart = 0.0;
-  bool holds() const { return curvature < most_curvature && apart < most_apart; }
+  /// How often the patch goes around, along the direction in which it is curved most; 0 on a paraboloid.
+  double turns = 0.0;
+  bool holds() const { return curvature < most_curvature && apart < most_apart && turns < most_turns; }
   std::string text() const;
 };
 
-/// Of a patch on a paraboloid; `linked`: pairs of elements.
+/// Of a patch on a paraboloid or a roll; `linked`: pairs of elements.
 Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>& places,
                const std::vector<std::array<int, 2>>& linked);
 

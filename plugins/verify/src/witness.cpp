@@ -206,7 +206,7 @@ void check_witness(const Scene& scene, const Limit& limit, Sentences& problems, 
     problems.emplace_back("no witness is given");
     return;
   }
-  if (limit.load == Load::paraboloid) {
+  if (is_bent(limit.load)) {
     problems.emplace_back("witnesses of bending are not known to this check");
     return;
   }

@@ -1,0 +1,165 @@
+/// Patches rolled onto a cylinder: symmetries, the independent check, and where a paraboloid says something
+/// else.
+
+#include "document/json_text.hpp"
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
+
+#include <cmath>
+
+namespace hauberk::test {
+namespace {
+
+namespace json = boost::json;
+
+/// Seven threefold elements with oval tubes, all of a patch held but its curvature along the load.
+std::string oval_patch(const std::string& plugin, const std::string& clearance)
+{
+  return R"({
+  "name": "patch",
+  "elements": {
+    "threefold": { "shape": "torus_union",
+      "tori": [
+        { "name": "centre" },
+        { "name": "side_270", "group": "side", "position": { "direction_deg": -90, "distance": ["centre.R", "side.R"] }, "axis": "tangential" },
+        { "name": "side_30", "group": "side", "position": { "direction_deg": 30, "distance": ["centre.R", "side.R"] }, "axis": "tangential" },
+        { "name": "side_150", "group": "side", "position": { "direction_deg": 150, "distance": ["centre.R", "side.R"] }, "axis": "tangential" } ],
+      "parameters": { "centre.R": 4.25, "centre.r0": 0.95, "centre.r1": 1.5, "side.R": 2.575, "side.r0": 0.95, "side.r1": 1.4 } } },
+  "cell": {
+    "patch": { "vectors": [[9.591231359, 5.5375], [0, 11.075]], "outline": { "hexagon": 1 } },
+    "place": [ { "element": "threefold", "position": [0, 0, 0] } ] },
+  "load_case": { "plugin": ")" +
+         plugin + R"(", "directions_deg": [0], "senses": ["up"], "hold": ["places", "twist", "transverse"] },
+  "solver": { "preset": "accurate", "neighbours": 0, "clearance": )" +
+         clearance + "} }";
+}
+
+/// Four rings in a row, 8.5 apart; linked ones are taut at 8.6.
+std::string taut_row(const std::string& plugin)
+{
+  return R"({
+  "name": "row",
+  "elements": { "link": { "shape": "torus_union", "tori": [{ "name": "ring" }],
+    "parameters": { "ring.R": 5, "ring.r0": 0.7, "ring.r1": 0.7 } } },
+  "cell": {
+    "patch": { "vectors": [[17, 0], [0, 100]], "outline": { "rectangle": [2, 1] } },
+    "place": [ { "element": "link", "position": [0, 0, 0] },
+      { "element": "link", "position": [8.5, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 } } ] },
+  "load_case": { "plugin": ")" +
+         plugin + R"(", "directions_deg": [0], "senses": ["up"], "hold": ["places", "twist", "transverse"] }
+})";
+}
+
+json::value results_of(const std::string& text)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program({"run", folder.write("e.json", text), "-o", folder / "out"}).code, 0);
+  return read_results(folder / "out");
+}
+
+double value_of(const std::string& text) { return number_at(results_of(text), "/limits/0/value"); }
+
+/// The example in four directions and both senses, elements free to leave the sheet.
+class Rolling : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite()
+  {
+    const TemporaryFolder folder;
+    ASSERT_EQ(
+        run_program({"run", HAUBERK_SOURCE_DIR "/loadcases/cylinder_roll/example.json", "-o", folder / "out",
+                     "--set", "/load_case/directions_deg=[0, 60, 120]", "--set",
+                     "/load_case/senses=[\"up\", \"down\"]", "--set", "/load_case/out_of_plane=\"free\""})
+            .code,
+        0);
+    results_ = read_results(folder / "out");
+  }
+
+  static void expect_caught(const json::value& results, const std::string& message)
+  {
+    const TemporaryFolder folder;
+    const Outcome o = run_program({"verify", folder.write("results.json", write_json(results))});
+    EXPECT_EQ(o.code, 1);
+    EXPECT_NE(o.out.find(message), std::string::npos) << "missing: " << message << '\n' << o.out;
+  }
+
+  static inline json::value results_;
+};
+
+TEST_F(Rolling, HasTheSymmetriesOfThePatch)
+{
+  const double first = number_at(results_, "/limits/0/value");
+  EXPECT_GT(first, 0.11);
+  for (int k = 0; k < 6; ++k) {
+    const std::string at = "/limits/" + std::to_string(k);
+    EXPECT_EQ(results_.at_pointer(at + "/status").as_string(), "locked");
+    const double sign = results_.at_pointer(at + "/sense").as_string() == "up" ? 1.0 : -1.0;
+    EXPECT_NEAR(sign * number_at(results_, at + "/value"), first, 2e-9 * first) << at;
+  }
+}
+
+TEST_F(Rolling, TheCheckSeesWhatIsNoStateOfIt)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program({"verify", folder.write("results.json", write_json(results_))}).code, 0);
+  json::value r = results_;
+  for (int k = 0; k < 7; ++k) {  // a patch that left its roll as a whole
+    const std::string at = "/limits/0/poses/" + std::to_string(k) + "/position/2";
+    r.at_pointer(at) = number_at(r, at) + 1e-5;
+  }
+  expect_caught(r, "the patch moved against its roll");
+  r = results_;
+  r.at_pointer("/limits/0/contacts/0/force") = 1.01 * number_at(r, "/limits/0/contacts/0/force");
+  expect_caught(r, "forces miss the load");
+}
+
+TEST_F(Rolling, TheCheckSeesWhatIsOffTheRoll)
+{
+  const json::value on = results_of(oval_patch("cylinder_roll", "0"));
+  json::value r = on;
+  r.at_pointer("/limits/0/poses/2/position/2") = number_at(r, "/limits/0/poses/2/position/2") + 1e-6;
+  expect_caught(r, "off the roll");
+  r = on;
+  r.at_pointer("/limits/0/macro/kxx") = number_at(r, "/limits/0/macro/kxx") + 1e-6;
+  expect_caught(r, "off the roll");
+  r = on;
+  r.at_pointer("/limits/0/poses/2/position/1") = number_at(r, "/limits/0/poses/2/position/1") + 1e-4;
+  expect_caught(r, "element 2 is 0.0001 from its place");
+}
+
+/// Roll and paraboloid differ in second order, while what locks a patch does so in first: their limits differ
+/// by a part that falls with curvature times size. The clearance leaves less and less room to bend.
+TEST(RollAndParaboloid, AgreeWhereAPatchBendsLittle)
+{
+  constexpr double size = 11.075;
+  double last = 1.0;
+  for (const char* clearance : {"0", "0.1", "0.124"}) {
+    const double roll = value_of(oval_patch("cylinder_roll", clearance)),
+                 paraboloid = value_of(oval_patch("paraboloid_bending", clearance));
+    const double difference = roll / paraboloid - 1.0;
+    EXPECT_GT(difference, 0.05 * roll * size) << clearance;
+    EXPECT_LT(difference, 0.1 * roll * size) << clearance;
+    EXPECT_LT(difference, 0.5 * last) << clearance;
+    last = difference;
+  }
+  EXPECT_LT(last, 5e-4);
+}
+
+/// Over places that are held a paraboloid is longer than they are: linked rings d apart are taut at the
+/// latest where d^2 + (k d^2)^2 = 8.6^2. On a roll they come nearer to each other.
+TEST(RollAndParaboloid, DifferWhereLinksAreNearlyTaut)
+{
+  constexpr double taut = 8.6, d = 8.5;
+  const double bound = std::sqrt(taut * taut - d * d) / (d * d);
+  const double paraboloid = value_of(taut_row("paraboloid_bending")),
+               roll = value_of(taut_row("cylinder_roll"));
+  EXPECT_LT(paraboloid, bound * (1.0 + 1e-8));
+  EXPECT_GT(paraboloid, 0.99 * bound);
+  EXPECT_GT(roll / paraboloid, 12.0);
+  EXPECT_LT(2.0 / roll * std::sin(0.5 * roll * d), d);
+}
+
+}  // namespace
+}  // namespace hauberk::test

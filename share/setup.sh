@@ -3,6 +3,7 @@
 #
 #   share/setup.sh              packages, then the program and its plugins in build/release
 #   share/setup.sh --no-build   packages only
+#   share/setup.sh --optional   the libraries of optimizers/ipopt and optimizers/pagmo, too
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -17,12 +18,16 @@ packages=(
   libgtest-dev python3-jsonschema   # tests only
   libbenchmark-dev                  # tests/bench only
 )
+optional_packages=(
+  coinor-libipopt-dev pkg-config    # optimizers/ipopt
+)
 
-usage() { sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
-build=yes
+usage() { sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+build=yes optional=no
 for argument in "$@"; do
   case $argument in
     --no-build) build=no ;;
+    --optional) optional=yes ;;
     -h | --help) usage; exit 0 ;;
     *) echo "setup: unknown option '$argument'" >&2; usage >&2; exit 2 ;;
   esac
@@ -62,6 +67,25 @@ install_packages() {
   exit 1
 }
 
+# pagmo (optimizers/pagmo) where its package can be installed. On Debian 12 it wants another Boost: then its library is
+# installed, and its headers and those of that Boost are unpacked where share/cmake/FindPagmo.cmake finds them.
+install_pagmo() {
+  if [[ -f build/pagmo/usr/include/pagmo/pagmo.hpp || -f /usr/include/pagmo/pagmo.hpp ]]; then return; fi
+  if apt-get -qq --simulate --no-remove install libpagmo-dev >/dev/null 2>&1; then
+    install_packages libpagmo-dev
+    return
+  fi
+  echo "setup: unpacking the headers of pagmo in build/pagmo"
+  install_packages libpagmo8 libboost-serialization1.74.0
+  local folder package
+  folder=$(mktemp -d)
+  (cd "$folder" && apt-get -qq download libpagmo-dev libboost1.74-dev)
+  mkdir -p build/pagmo
+  for package in "$folder"/*.deb; do dpkg-deb --fsys-tarfile "$package" | tar -x -C build/pagmo ./usr/include; done
+  rm -r "$folder"
+}
+
+if [[ $optional == yes ]]; then packages+=("${optional_packages[@]}"); fi
 if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
   mapfile -t missing < <(missing_packages)
   if ((${#missing[@]} == 0)); then
@@ -70,6 +94,7 @@ if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
     echo "setup: installing ${missing[*]}"
     install_packages "${missing[@]}"
   fi
+  if [[ $optional == yes ]]; then install_pagmo; fi
 else
   echo "setup: no Debian package manager; these must be there already: ${packages[*]}"
 fi

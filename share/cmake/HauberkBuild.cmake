@@ -79,3 +79,12 @@ function(hauberk_add_children)
     endif()
   endforeach()
 endfunction()
+
+# hauberk_absent_plugin(<id> <why>)
+#
+# For the folder of a plugin whose library is optional and was not found: says so, and lets tests of all plugins know
+# (global property HAUBERK_ABSENT_PLUGINS).
+function(hauberk_absent_plugin id why)
+  message(STATUS "Plugin ${id} is not built: ${why}")
+  set_property(GLOBAL APPEND PROPERTY HAUBERK_ABSENT_PLUGINS ${id})
+endfunction()

@@ -41,15 +41,20 @@ std::vector<Configuration> configurations()
         R"({"algorithm": ")" + algorithm + R"(", "tolerance": 1e-10, "max_iterations": 20000)" + more + "}",
         algorithm != "cobyla"};
   };
-  return {{"sqp", "sqp", R"({"tolerance": 1e-10, "max_iterations": 1000})"},
-          {"sqp_bfgs", "sqp", R"({"tolerance": 1e-10, "hessian": "bfgs", "max_iterations": 1000})"},
-          {"bfgs", "bfgs", R"({"tolerance": 1e-10, "max_iterations": 1000})"},
-          {"bfgs_all", "bfgs", R"({"tolerance": 1e-10, "memory": 0, "max_iterations": 1000})"},
-          nlopt("slsqp"),
-          nlopt("mma"),
-          nlopt("ccsaq"),
-          nlopt("lbfgs"),
-          nlopt("cobyla", R"(, "min_step": 1e-9)")};
+  std::vector<Configuration> all = {
+      {"sqp", "sqp", R"({"tolerance": 1e-10, "max_iterations": 1000})"},
+      {"sqp_bfgs", "sqp", R"({"tolerance": 1e-10, "hessian": "bfgs", "max_iterations": 1000})"},
+      {"bfgs", "bfgs", R"({"tolerance": 1e-10, "max_iterations": 1000})"},
+      {"bfgs_all", "bfgs", R"({"tolerance": 1e-10, "memory": 0, "max_iterations": 1000})"},
+      nlopt("slsqp"),
+      nlopt("mma"),
+      nlopt("ccsaq"),
+      nlopt("lbfgs"),
+      nlopt("cobyla", R"(, "min_step": 1e-9)")};
+#ifdef HAUBERK_WITH_IPOPT
+  all.push_back({"ipopt", "ipopt", R"({"tolerance": 1e-10, "min_step": 1e-12, "max_iterations": 1000})"});
+#endif
+  return all;
 }
 
 const std::string plugin_folder = HAUBERK_BINARY_DIR "/lib/hauberk/plugins";
@@ -57,8 +62,12 @@ const std::string plugin_folder = HAUBERK_BINARY_DIR "/lib/hauberk/plugins";
 const bool registered = [] {
   for (const Configuration& c : configurations())
     register_tests(("Conforms_" + c.name).c_str(), plugin_folder + "/" + c.plugin + ".so", c.section);
-  // Of this one no more is asked than of those from elsewhere.
+  // Of these no more is asked than of those from elsewhere.
   register_tests("Conforms_nelder_mead", plugin_folder + "/nelder_mead.so");
+#ifdef HAUBERK_WITH_PAGMO
+  register_tests("Conforms_pagmo", plugin_folder + "/pagmo.so");
+  register_tests("Conforms_pagmo_seed_2", plugin_folder + "/pagmo.so", R"({"seed": 2})");
+#endif
   return true;
 }();
 

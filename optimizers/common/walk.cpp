@@ -56,6 +56,16 @@ const Walk::Place& Walk::look(const VectorXd& x, bool want_gradient)
   return last_;
 }
 
+std::optional<double> Walk::violation(const VectorXd& x)
+{
+  if (stop_ != Stop::none || !x.allFinite()) return std::nullopt;
+  blocked_ = !reachable(x);
+  if (blocked_) return std::nullopt;
+  const VectorXd c = problem_.constraints(x);
+  if (!c.allFinite()) return std::nullopt;
+  return largest_violation(c);
+}
+
 bool Walk::reachable(const VectorXd& x)
 {
   const VectorXd d = problem_.step_between(accepted_.x, x);
@@ -65,6 +75,7 @@ bool Walk::reachable(const VectorXd& x)
     const double off = (d - part * direction_).cwiseAbs().maxCoeff();
     const double size = std::max(1.0, problem_.scaled(x).cwiseAbs().maxCoeff());
     if (off <= rounding * size && part > safe_ && part <= 1.0) return false;
+    if (d == direction_) return safe_ >= 1.0;
   }
   safe_ = problem_.largest_safe_step(accepted_.x, d);
   direction_ = d.squaredNorm() > 0.0 ? d : VectorXd();

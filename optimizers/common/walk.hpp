@@ -7,6 +7,7 @@
 
 #include <hauberk/optimizer.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -44,6 +45,9 @@ class Walk {
   /// Value, constraints and, when wanted, gradient at x. The place is valid until the next look. Nothing is
   /// evaluated after a stop, and where the budget of evaluations is spent that is the reason to stop.
   const Place& look(const Eigen::VectorXd& x, bool want_gradient);
+  /// Largest violation of the constraints at x, without an evaluation; nothing where x is not on a safe way
+  /// or after a stop.
+  std::optional<double> violation(const Eigen::VectorXd& x);
   /// Makes the place that was looked at last, which must be ok, the accepted point. It may have another value
   /// then.
   void accept_last();

@@ -97,6 +97,7 @@ void check_handshake(const Handshake& plugin, const std::filesystem::path& file)
   compare(file, "standard library", plugin.standard_library, program.standard_library);
   compare(file, "Eigen", plugin.eigen, program.eigen);
   compare(file, "Eigen alignment", plugin.eigen_alignment, program.eigen_alignment);
+  compare(file, "a layout of the interface's types of", plugin.layout, program.layout);
   compare(file, "sanitizers", plugin.sanitizers, program.sanitizers);
 }
 

@@ -7,6 +7,8 @@
 
 #include <sys/stat.h>
 #include <unistd.h>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -77,6 +79,8 @@ TEST(PluginLibrary, EachHandshakeFieldNamesBothSides)
   EXPECT_EQ(error_of(bad("bad_alignment")),
             differs("bad_alignment", "Eigen alignment", number(2 * EIGEN_MAX_ALIGN_BYTES),
                     number(EIGEN_MAX_ALIGN_BYTES)));
+  EXPECT_EQ(error_of(bad("bad_layout")), differs("bad_layout", "a layout of the interface's types of",
+                                                 number(interface_layout + 1), number(interface_layout)));
   EXPECT_EQ(error_of(bad("bad_sanitizers")),
             differs("bad_sanitizers", "sanitizers", "\"memory\"", text(HAUBERK_SANITIZERS)));
 }
@@ -91,7 +95,7 @@ TEST(PluginLibrary, HandshakeIsCheckedInTheOrderOfItsFields)
 {
   // Start with every field wrong, mend one after the other: the next one is reported each time.
   const Handshake good = program_handshake();
-  Handshake h{{'x'}, 1, 999, "a", "b", "c", 3, "d"};
+  Handshake h{{'x'}, 1, 999, "a", "b", "c", 3, 4, "d"};
   const auto what = [&] { return message_of<PluginError>([&] { check_handshake(h, "/p.so"); }); };
   EXPECT_NE(what().find("begins with \"x\""), std::string::npos);
   std::memcpy(h.magic, good.magic, sizeof h.magic);
@@ -107,9 +111,22 @@ TEST(PluginLibrary, HandshakeIsCheckedInTheOrderOfItsFields)
   h.eigen = good.eigen;
   EXPECT_NE(what().find("Eigen alignment 3,"), std::string::npos);
   h.eigen_alignment = good.eigen_alignment;
+  EXPECT_NE(what().find("a layout of the interface's types of 4,"), std::string::npos);
+  h.layout = good.layout;
   EXPECT_NE(what().find("sanitizers \"d\","), std::string::npos);
   h.sanitizers = good.sanitizers;
   EXPECT_NO_THROW(check_handshake(h, "/p.so"));
+}
+
+TEST(PluginLibrary, LayoutsDifferBySizeAlignmentAndOrder)
+{
+  struct alignas(8) Wide {
+    std::int32_t a;
+  };
+  EXPECT_EQ(layout_of<std::int32_t>(), layout_of<float>());
+  EXPECT_NE(layout_of<std::int32_t>(), layout_of<std::int64_t>());
+  EXPECT_NE((layout_of<std::array<std::int32_t, 2>>()), layout_of<Wide>());
+  EXPECT_NE((layout_of<std::int32_t, std::int64_t>()), (layout_of<std::int64_t, std::int32_t>()));
 }
 
 TEST(PluginLibrary, Table)
@@ -167,6 +184,14 @@ TEST(PluginLibrary, OtherFlags)
   EXPECT_EQ(error_of(bad("other_strings")), differs("other_strings", "standard library",
                                                     "\"libstdc++ cxx11-abi=0\"", "\"" HAUBERK_STDLIB "\""));
 #endif
+#if defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG)
+  EXPECT_EQ(error_of(bad("debug_library")),
+            differs("debug_library", "standard library", "\"libstdc++ cxx11-abi=1 debug\"",
+                    "\"" HAUBERK_STDLIB "\""));
+  EXPECT_NO_THROW(PluginLibrary::load(bad("library_assertions"))) << "they change no layout";
+#endif
+  EXPECT_EQ(error_of(bad("row_major")),
+            differs("row_major", "Eigen", "\"" HAUBERK_EIGEN " row-major\"", "\"" HAUBERK_EIGEN "\""));
 }
 
 TEST(PluginLibrary, ConstructorsThatMisbehaveDoNotEndTheProgram)

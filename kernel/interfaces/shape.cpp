@@ -53,6 +53,9 @@ std::string curve_defect(const Primitive& primitive)
 /// Empty when the primitive is sound, else what is wrong with it.
 std::string defect(const Primitive& primitive)
 {
+  // A number that is none of the enumerators would be taken for whatever a switch does by default.
+  if (*name_of(primitive.kind) == '\0')
+    return fmt::format("is of the unknown kind {}", static_cast<int>(primitive.kind));
   if (!primitive.position.allFinite()) return "has a position that is not finite";
   const Mat3& Q = primitive.rotation;
   // Negated so that not-a-number counts as a defect.

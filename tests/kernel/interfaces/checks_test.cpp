@@ -86,6 +86,8 @@ TEST(ShapeChecks, Primitives)
             "shape: primitive 'a' is a circle tube with two radii");
   EXPECT_EQ(with([](AnyShape& s) { s.answer[0].kind = PrimitiveKind::solid; }),
             "shape: primitive 'a' is a solid without one");
+  EXPECT_EQ(with([](AnyShape& s) { s.answer[0].kind = static_cast<PrimitiveKind>(17); }),
+            "shape: primitive 'a' is of the unknown kind 17");
 }
 
 TEST(ShapeChecks, Jacobians)

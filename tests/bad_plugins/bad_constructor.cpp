@@ -1,5 +1,6 @@
 // A shape that would be good, but for a static constructor: CMake defines HOW it misbehaves while it is
 // loaded.
+#include <unistd.h>
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
@@ -13,6 +14,7 @@ namespace {
 {
   for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
 }
+[[maybe_unused]] bool moves() { return chdir("/") == 0; }
 
 const bool ready = HOW();
 

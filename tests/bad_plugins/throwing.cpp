@@ -3,7 +3,11 @@
 #include <hauberk/error.hpp>
 #include <hauberk/plugin.hpp>
 
+#include <unistd.h>
 #include <cfenv>
+#include <clocale>
+#include <iostream>
+#include <locale>
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
@@ -19,6 +23,12 @@ void misbehave(const std::string& how)
   if (how == "input") throw InputError("ring.R: 3 is too small");
   if (how == "computation") throw ComputationError("no convergence");
   if (how == "plugin") throw PluginError("shape: 2 sizes expected");
+  if (how == "directory" && chdir("/") != 0) throw std::runtime_error("no root");
+  if (how == "locale") std::setlocale(LC_ALL, "C.UTF-8");
+  if (how == "precision") std::cout.precision(3);
+  if (how == "directory_and_throw") {
+    if (chdir("/") == 0) throw std::runtime_error("the dog ate it");
+  }
   if (how == "rounding") std::fesetround(FE_UPWARD);
   if (how == "rounding_and_throw") {
     std::fesetround(FE_UPWARD);

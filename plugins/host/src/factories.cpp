@@ -15,7 +15,7 @@ auto make(const PluginTable& table, const char* call, Problems& problems, Make&&
     -> decltype(factory())
 {
   const std::size_t before = problems.list().size();
-  auto object = Guard(table.id)(call, std::forward<Make>(factory));
+  auto object = Guard(table.id).with_process_state(call, std::forward<Make>(factory));
   if (problems.list().size() > before) return nullptr;  // made or not, the section is wrong
   if (!object) {
     throw PluginError(
@@ -29,7 +29,7 @@ auto make(const PluginTable& table, const char* call, Problems& problems, Make&&
 std::vector<Field> plugin_fields(const PluginTable& table)
 {
   std::vector<Field> fields;
-  Guard(table.id)("fields", [&] { table.fields(fields); });
+  Guard(table.id).with_process_state("fields", [&] { table.fields(fields); });
   return fields;
 }
 

@@ -17,6 +17,15 @@ void Guard::throw_mode_changed(const char* call, const FloatingPointMode& before
                   plugin_, call, describe_change(before, after)));
 }
 
+void Guard::restore_state(const char* call, const ProcessState& before) const
+{
+  const std::string changed = before.restore();
+  if (changed.empty()) return;
+  throw PluginError(fmt::format(
+      "plugin '{}': {} changed the state of the process ({}); it was restored, but a plugin must leave it alone",
+      plugin_, call, changed));
+}
+
 void Guard::rethrow(const char* call) const
 {
   try {

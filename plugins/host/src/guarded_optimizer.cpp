@@ -107,8 +107,8 @@ class GuardedOptimizer final : public Optimizer {
     WatchedProblem watched_problem(problem, callbacks);
     WatchedObserver watched_observer(observer, callbacks);
     try {
-      OptimizerResult result =
-          guard_("minimize", [&] { return inner_->minimize(watched_problem, start, watched_observer); });
+      OptimizerResult result = guard_.with_process_state(
+          "minimize", [&] { return inner_->minimize(watched_problem, start, watched_observer); });
       callbacks.rethrow_if_any();
       return result;
     } catch (...) {

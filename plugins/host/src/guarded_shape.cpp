@@ -16,11 +16,11 @@ class GuardedShape final : public Shape {
   const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
   void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
   {
-    guard_("primitives", [&] { out = inner_->primitives(p); });
+    guard_.with_process_state("primitives", [&] { out = inner_->primitives(p); });
   }
   void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const override
   {
-    guard_("jacobians", [&] { out = inner_->jacobians(p); });
+    guard_.with_process_state("jacobians", [&] { out = inner_->jacobians(p); });
   }
 
  private:

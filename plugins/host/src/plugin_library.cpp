@@ -5,6 +5,7 @@
 #include <hauberk/host/floating_point.hpp>
 #include <hauberk/host/handshake.hpp>
 #include <hauberk/host/plugin_library.hpp>
+#include <hauberk/host/process_state.hpp>
 
 #include <fmt/format.h>
 #include <boost/dll/shared_library.hpp>
@@ -141,13 +142,21 @@ PluginLibrary PluginLibrary::load(const fs::path& file)
   check_is_file(path);
   try_constructors(path, check_contents(path));
 
+  const ProcessState state;
   const FloatingPointMode before = floating_point_mode();
   const void* entry = load_entry(path);
   const FloatingPointMode after = floating_point_mode();
   set_floating_point_mode(before);
+  const std::string changed = state.restore();
   if (after != before) {
     fail("plugin '{}' changed the floating-point mode ({}) when it was loaded; build it without -ffast-math",
          path.native(), describe_change(before, after));
+  }
+  if (!changed.empty()) {
+    fail(
+        "plugin '{}' changed the state of the process ({}) when it was loaded; a plugin must not have static "
+        "constructors with effects",
+        path.native(), changed);
   }
   if (!entry) fail("plugin '{}' does not export '{}'", path.native(), entry_name);
 

@@ -206,6 +206,16 @@ TEST(PluginLibrary, ConstructorsThatMisbehaveDoNotEndTheProgram)
   EXPECT_EQ(error_of(bad("waits_on_load")), cannot("waits_on_load", "did not return within 5 s"));
 }
 
+TEST(PluginLibrary, ConstructorsThatChangeTheProcessAreRefused)
+{
+  const fs::path before = fs::current_path();
+  EXPECT_EQ(error_of(bad("moves_on_load")),
+            quote(bad("moves_on_load")) +
+                " changed the state of the process (current directory) when it was loaded; a plugin must not "
+                "have static constructors with effects");
+  EXPECT_EQ(fs::current_path(), before);
+}
+
 /// Permissions mean nothing to root: then the file is looked at by somebody else.
 class AsSomebodyElse {
  public:

@@ -5,6 +5,8 @@
 #include <hauberk/host/floating_point.hpp>
 #include <hauberk/host/plugin_library.hpp>
 
+#include <clocale>
+#include <iostream>
 #include <stdexcept>
 
 namespace hauberk::test {
@@ -127,6 +129,29 @@ TEST(GuardedShape, FloatingPointModeIsKept)
       message_of<PluginError>([] { make_throwing("primitives", "rounding_and_throw")->primitives({}); }),
       "plugin 'throwing': primitives failed: the dog ate it");
   EXPECT_EQ(floating_point_mode(), before);
+}
+
+TEST(GuardedShape, ProcessStateIsKept)
+{
+  const fs::path directory = fs::current_path();
+  const std::string rest = "); it was restored, but a plugin must leave it alone";
+  const auto changed = [](const std::string& where, const std::string& how) {
+    return message_of<PluginError>([&] {
+      const auto shape = make_throwing(where, how);
+      static_cast<void>(shape->primitives({}));
+      static_cast<void>(shape->jacobians({}));
+    });
+  };
+  const std::string begin = " changed the state of the process (";
+  EXPECT_EQ(changed("make", "directory"),
+            "plugin 'throwing': make_shape" + begin + "current directory" + rest);
+  EXPECT_EQ(changed("primitives", "locale"), "plugin 'throwing': primitives" + begin + "locale" + rest);
+  EXPECT_EQ(changed("jacobians", "precision"),
+            "plugin 'throwing': jacobians" + begin + "state of std::cout" + rest);
+  EXPECT_EQ(std::string(std::setlocale(LC_ALL, nullptr)), "C");
+  EXPECT_EQ(std::cout.precision(), 6);
+  EXPECT_EQ(changed("make", "directory_and_throw"), "plugin 'throwing': make_shape failed: the dog ate it");
+  EXPECT_EQ(fs::current_path(), directory);
 }
 
 /// f(x) = x^2 on [0, 2]; evaluation throws when asked to.

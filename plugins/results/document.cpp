@@ -20,7 +20,11 @@ json::object provenance_json(const Provenance& provenance)
   for (const auto& [name, version] : provenance.libraries) libraries[name] = version;
   json::array& plugins = out["plugins"].emplace_array();
   for (const Provenance::Plugin& plugin : provenance.plugins)
-    plugins.push_back({{"id", plugin.id}, {"kind", plugin.kind}, {"version", plugin.version}});
+    plugins.push_back({{"id", plugin.id},
+                       {"kind", plugin.kind},
+                       {"version", plugin.version},
+                       {"file", plugin.file},
+                       {"sha256", plugin.sha256}});
   if (!provenance.weaves.empty()) {
     json::object& weaves = out["weaves"].emplace_object();
     for (const auto& [name, text] : provenance.weaves) weaves[name] = text;

@@ -29,6 +29,7 @@ struct Machine {
 struct Provenance {
   struct Plugin {
     std::string id, kind, version;
+    std::string file, sha256;  ///< name of the library, without its folder, and digest of its content
   };
   std::string version;     ///< of Hauberk
   std::string build_type;  ///< build type and instrumentation

@@ -3,6 +3,8 @@
 #include "run/nearest_node.hpp"
 #include "run/presets.hpp"
 
+#include <hauberk/host/sha256.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +37,10 @@ PluginLookup recording_lookup(const Registry& registry, std::vector<Provenance::
     try {
       const PluginTable& table = registry.find(kind, id);
       const bool known = std::any_of(used.begin(), used.end(), [&id](const auto& p) { return p.id == id; });
-      if (!known) used.push_back({id, kind_word(kind), table.version});
+      if (!known) {
+        const std::filesystem::path file = registry.files(id).front();
+        used.push_back({id, kind_word(kind), table.version, file.filename().string(), sha256_of_file(file)});
+      }
       return &table;
     } catch (const InputError& problem) {
       error = problem.what();

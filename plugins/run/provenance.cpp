@@ -34,6 +34,22 @@ bool same_texts(const json::object& provenance, const char* key, const Named& no
          });
 }
 
+/// Throws where a plugin was another library then. Documents that tell no digest are taken.
+void check_plugins(const json::value& then, const std::vector<Provenance::Plugin>& now)
+{
+  for (const json::value& plugin : then.at("plugins").as_array()) {
+    const json::value* digest = plugin.as_object().if_contains("sha256");
+    for (const Provenance::Plugin& own : now) {
+      if (digest == nullptr || plugin.at("id").as_string() != own.id) continue;
+      if (digest->as_string() != own.sha256)
+        throw InputError(fmt::format(
+            "it was computed with another library of the plugin '{}', see /provenance/plugins; bring that back, "
+            "or start anew with --force",
+            own.id));
+    }
+  }
+}
+
 }  // namespace
 
 Provenance provenance(const Prepared& prepared, unsigned threads, bool machine)
@@ -75,6 +91,7 @@ void check_origin(const json::value& document, const Prepared& prepared)
     throw InputError(
         "it was computed from another experiment; give the same file and --set, or start anew with --force");
   const json::value& then = document.at("provenance");
+  check_plugins(then, now.plugins);
   // Rows and members are made of weaves that the experiment only names, elements of files.
   if (!same_texts(then.as_object(), "files", now.files))
     throw InputError(

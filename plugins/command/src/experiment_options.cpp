@@ -3,6 +3,11 @@
 #include "run/weave_library.hpp"
 
 #include <hauberk/host/search_path.hpp>
+#include <hauberk/host/trust.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
 
 namespace hauberk::command {
 
@@ -11,6 +16,24 @@ std::shared_ptr<const Registry> open_registry(const Options& options)
   std::vector<std::filesystem::path> folders;
   for (const std::string& folder : options.list("plugin-path")) folders.emplace_back(folder);
   return std::make_shared<Registry>(plugin_search_path(folders));
+}
+
+std::string shadow_text(const std::string& id, const std::filesystem::path& used,
+                        const std::filesystem::path& shadowed)
+{
+  return fmt::format("of the plugin '{}' the file '{}' is used, and '{}' is not", id, used.string(),
+                     shadowed.string());
+}
+
+void warn_of_plugins(const Prepared& prepared)
+{
+  for (const std::string& warning : open_to_others(prepared.registry->directories()))
+    fmt::print(stderr, "hauberk: warning: {}\n", warning);
+  for (const Provenance::Plugin& plugin : prepared.plugins) {
+    const std::vector<std::filesystem::path> files = prepared.registry->files(plugin.id);
+    for (std::size_t k = 1; k < files.size(); ++k)
+      fmt::print(stderr, "hauberk: warning: {}\n", shadow_text(plugin.id, files[0], files[k]));
+  }
 }
 
 Job open_job(const Options& options)

@@ -9,6 +9,14 @@ namespace hauberk::command {
 /// The registry for --plugin-path, HAUBERK_PLUGIN_PATH and this program's place.
 std::shared_ptr<const Registry> open_registry(const Options& options);
 
+/// "of the plugin 'ID' the file 'A' is used, and 'B' is not".
+std::string shadow_text(const std::string& id, const std::filesystem::path& used,
+                        const std::filesystem::path& shadowed);
+
+/// Says on stderr where somebody else may write plugins, and which files of those that the experiment uses are
+/// shadowed.
+void warn_of_plugins(const Prepared& prepared);
+
 /// The experiment that `options` name, with --set. Throws as prepare_job.
 Job open_job(const Options& options);
 

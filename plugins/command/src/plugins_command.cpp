@@ -6,6 +6,7 @@
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/experiment/union_shape.hpp>
 #include <hauberk/host/factories.hpp>
+#include <hauberk/host/trust.hpp>
 #include <hauberk/suggestion.hpp>
 
 #include <fmt/format.h>
@@ -49,11 +50,24 @@ void describe_in(boost::json::object& out, const PluginTable& table)
   out["summary"] = table.summary;
 }
 
+/// What whoever trusts the listed plugins should know, on stderr.
+void warn(const Registry& registry, const std::vector<PluginEntry>& entries)
+{
+  for (const std::string& warning : open_to_others(registry.directories()))
+    fmt::print(stderr, "hauberk: warning: {}\n", warning);
+  for (const PluginEntry& entry : entries) {
+    if (entry.shadowed_by)
+      fmt::print(stderr, "hauberk: warning: {}\n", shadow_text(entry.id, *entry.shadowed_by, entry.file));
+  }
+}
+
 /// The built-in union comes last. Broken plugins are said so and make the exit code 1.
 int list(const Registry& registry)
 {
   bool broken = false;
-  for (const PluginEntry& entry : registry.list()) {
+  const std::vector<PluginEntry> entries = registry.list();
+  warn(registry, entries);
+  for (const PluginEntry& entry : entries) {
     if (entry.table != nullptr) {
       print_line(*entry.table);
     } else if (entry.shadowed_by) {
@@ -74,7 +88,9 @@ int list_as_json(const Registry& registry)
 {
   boost::json::array out;
   bool broken = false;
-  for (const PluginEntry& entry : registry.list()) {
+  const std::vector<PluginEntry> entries = registry.list();
+  warn(registry, entries);
+  for (const PluginEntry& entry : entries) {
     boost::json::object plugin{{"id", entry.id}, {"file", entry.file.string()}};
     if (entry.table != nullptr) {
       describe_in(plugin, *entry.table);

@@ -193,6 +193,7 @@ int run_command(const std::vector<std::string>& words)
   const unsigned threads = thread_count(options);
   const std::filesystem::path folder = output_folder(options);
   Job job = open_job(options);
+  warn_of_plugins(*job.prepared);
   Provenance origin = provenance(*job.prepared, threads, job.task->measures_time());
   const Former former = options.has("resume") ? resume(folder, job, origin) : Former{};
   if (former.left == Left::nothing) return already_complete(job, former.document, folder);

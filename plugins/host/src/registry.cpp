@@ -108,9 +108,7 @@ const PluginTable& Registry::find(PluginKind kind, std::string_view id) const
   if (!well_formed(id)) {
     throw InputError(fmt::format("'{}' is not a plugin id; expected letters, digits, '_' and '-'", id));
   }
-  for (const fs::path& folder : directories_) {
-    const fs::path file = folder / (std::string(id) + ".so");
-    if (!present(file)) continue;
+  for (const fs::path& file : files(id)) {
     const Loaded& loaded = load(file);
     if (!loaded.table) throw InputError(loaded.problem);
     if (loaded.table->kind != kind) {
@@ -120,6 +118,16 @@ const PluginTable& Registry::find(PluginKind kind, std::string_view id) const
     return *loaded.table;
   }
   report_missing(kind, id);
+}
+
+std::vector<fs::path> Registry::files(std::string_view id) const
+{
+  std::vector<fs::path> out;
+  for (const fs::path& folder : directories_) {
+    fs::path file = folder / (std::string(id) + ".so");
+    if (well_formed(id) && present(file)) out.push_back(std::move(file));
+  }
+  return out;
 }
 
 void Registry::report_missing(PluginKind kind, std::string_view id) const

@@ -80,6 +80,14 @@ TEST_F(RegistryTest, ListShowsBrokenAndShadowedOnes)
   EXPECT_FALSE(entries[4].problem.empty());
 }
 
+TEST_F(RegistryTest, FilesOfAnIdAreInTheOrderOfFolders)
+{
+  const std::vector<fs::path> both{one_ / "good_shape.so", two_ / "good_shape.so"};
+  EXPECT_EQ(registry_.files("good_shape"), both);
+  EXPECT_TRUE(registry_.files("../two/good_shape").empty());
+  EXPECT_TRUE(registry_.files("absent").empty());
+}
+
 TEST_F(RegistryTest, Missing)
 {
   EXPECT_EQ(find_error(PluginKind::shape, "god_shape"),

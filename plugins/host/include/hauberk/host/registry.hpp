@@ -45,6 +45,9 @@ class Registry {
   /// another kind, or when the library cannot be used (with the reason).
   const PluginTable& find(PluginKind kind, std::string_view id) const;
 
+  /// The files of that name, in the order of folders: the first one is used, the others are shadowed by it.
+  std::vector<std::filesystem::path> files(std::string_view id) const;
+
  private:
   struct Loaded {
     const PluginTable* table = nullptr;

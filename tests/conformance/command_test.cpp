@@ -24,15 +24,15 @@ TEST(Conform, SaysWhatPassedAndHowToRepeatWhatFailed)
                           "passed   shape.parameters\n"),
             std::string::npos)
       << good.out;
-  EXPECT_NE(good.out.find("\n\n10 checks: 10 passed, 0 failed, 0 skipped\n"), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("\n\n11 checks: 10 passed, 0 failed, 1 skipped\n"), std::string::npos) << good.out;
 
   const std::string file = mutants + "mutant_shape.so", section = R"({"defect": "hang"})";
   const Outcome bad = run_program({"plugins", "conform", file, "--filter", "shape.(primitives|parameters)",
                                    "--section", section, "--seconds", "1", "--seed", "7"});
   EXPECT_EQ(bad.code, 1);
   EXPECT_NE(bad.out.find("seed 7\n\npassed   shape.parameters\n"
-                         "FAILED   shape.primitives: did not return within 1 s\n\n"
-                         "2 checks: 1 passed, 1 failed, 0 skipped\n"),
+                         "SLOW     shape.primitives: did not return within 1 s of processor time\n\n"
+                         "2 checks: 1 passed, 0 failed, 0 skipped, 1 slow\n"),
             std::string::npos)
       << bad.out;
   EXPECT_NE(bad.out.find("\n    again: hauberk plugins conform '" + file + "' --seed 7 --section '" +
@@ -41,13 +41,43 @@ TEST(Conform, SaysWhatPassedAndHowToRepeatWhatFailed)
       << bad.out;
 }
 
-/// The child processes change nothing but what a crash does.
+/// One cause is told once, with the seed that it was met with; what else it broke refers to it.
+TEST(Conform, SaysOnceWhatHasOneCause)
+{
+  const Outcome o =
+      run_program({"plugins", "conform", mutants + "mutant_shape.so", "--filter", "shape.(prim|jac|rot)",
+                   "--section", R"({"defect": "throws"})", "--seeds", "3"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(
+      o.out.find("seeds 1 to 3\n\n"
+                 "FAILED   shape.primitives: plugin 'mutant_shape': primitives failed: no primitives today"),
+      std::string::npos)
+      << o.out;
+  EXPECT_NE(o.out.find("\nFAILED   shape.jacobians: as shape.primitives\n"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("\nFAILED   shape.rotations: as shape.primitives\n"), std::string::npos) << o.out;
+  EXPECT_EQ(o.out.find("    again: "), o.out.rfind("    again: ")) << o.out;
+}
+
+TEST(Conform, TellsTheTimeOfACall)
+{
+  const Outcome o = run_program({"plugins", "conform", plugins + "torus_union.so", "--filter", "speed"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.out.find("\na call takes: primitives "), std::string::npos) << o.out;
+  const Outcome slow = run_program({"plugins", "conform", mutants + "mutant_shape.so", "--filter", "speed",
+                                    "--section", R"({"defect": "slow"})"});
+  EXPECT_EQ(slow.code, 1);
+  EXPECT_NE(slow.out.find("SLOW     speed: 'primitives' takes 0.15"), std::string::npos) << slow.out;
+  EXPECT_NE(slow.out.find("0 failed, 0 skipped, 1 slow"), std::string::npos) << slow.out;
+}
+
+/// The child processes change nothing but what a crash does, and times.
 TEST(Conform, TheSameInProcess)
 {
   const std::vector<std::string> words{"plugins", "conform", plugins + "paraboloid_bending.so"};
   std::vector<std::string> in_process = words;
   in_process.emplace_back("--in-process");
-  EXPECT_EQ(run_program(words).out, run_program(in_process).out);
+  const auto timeless = [](const std::string& text) { return text.substr(0, text.find("\na call takes: ")); };
+  EXPECT_EQ(timeless(run_program(words).out), timeless(run_program(in_process).out));
 }
 
 TEST(Conform, AsJson)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace hauberk::conformance {
 namespace {
@@ -32,6 +33,19 @@ TEST(Differences, TellRightFromWrong)
   const Along constant = [](double) { return std::vector<double>{0.0}; };
   EXPECT_EQ(wrong(constant, 0.0), 0U);
   EXPECT_EQ(wrong(constant, 1e-9), 1U);
+}
+
+/// R cos(pi/2) is 6e-17 R, and its derivative is rightly said to be 0.
+TEST(Differences, TakeRoundingForNought)
+{
+  const Along corner = [](double s) {
+    const double R = 5.0 + s;
+    return std::vector<double>{R, R * std::cos(0.5 * std::numbers::pi)};
+  };
+  const std::vector<double> claimed{1.0, 0.0};
+  EXPECT_TRUE(deviations(corner, claimed, 0.1).empty());
+  const std::vector<double> wrong_by_little{1.0, 1e-8};
+  EXPECT_EQ(deviations(corner, wrong_by_little, 0.1).size(), 1U);
 }
 
 TEST(Differences, KnowTheSlope)

@@ -1,4 +1,5 @@
-/// Every plugin of the tree conforms, in the settings that differ most. (Optimizers: optimizers/common/test.)
+/// Every plugin of the tree conforms, in the settings that differ most: those of which each is a test of its
+/// own have no switches set otherwise. (Optimizers: optimizers/common/test.)
 
 #include <hauberk/conformance/gtest.hpp>
 
@@ -21,21 +22,23 @@ HAUBERK_CONFORMANCE_TESTS(Mesh, folder + "mesh.so",
                           R"({ "shape": "mesh", "file": ")" HAUBERK_SOURCE_DIR
                           R"(/shapes/mesh/frame.obj" })");
 HAUBERK_CONFORMANCE_TESTS(ClosedTubeOval, folder + "closed_tube.so",
-                          R"({ "shape": "closed_tube", "curve": "oval" })");
+                          R"({ "shape": "closed_tube", "curve": "oval" })", 1, false);
 HAUBERK_CONFORMANCE_TESTS(ClosedTubeRacetrack, folder + "closed_tube.so",
-                          R"({ "shape": "closed_tube", "curve": "racetrack" })");
+                          R"({ "shape": "closed_tube", "curve": "racetrack" })", 1, false);
 HAUBERK_CONFORMANCE_TESTS(ClosedTubePolygon, folder + "closed_tube.so",
-                          R"({ "shape": "closed_tube", "curve": "polygon" })");
+                          R"({ "shape": "closed_tube", "curve": "polygon" })", 1, false);
 HAUBERK_CONFORMANCE_TESTS(ClosedTubeKnot, folder + "closed_tube.so",
-                          R"({ "shape": "closed_tube", "curve": "knot" })");
+                          R"({ "shape": "closed_tube", "curve": "knot" })", 1, false);
 HAUBERK_CONFORMANCE_TESTS(ClosedTubeFourier, folder + "closed_tube.so",
-                          R"({ "shape": "closed_tube", "curve": "fourier" })");
+                          R"({ "shape": "closed_tube", "curve": "fourier" })", 1, false);
 HAUBERK_CONFORMANCE_TESTS(StrutFrameOctahedron, folder + "strut_frame.so",
                           R"({ "shape": "strut_frame", "polyhedron": "octahedron",
-                               "parameters": { "size": 10, "r": 0.5 } })");
+                               "parameters": { "size": 10, "r": 0.5 } })",
+                          1, false);
 HAUBERK_CONFORMANCE_TESTS(StrutFrameListed, folder + "strut_frame.so",
                           R"({ "shape": "strut_frame", "nodes": [[0, 0, 0], [2, 0, 0], [1, 3, 1]],
-                               "struts": [[0, 1], [1, 2], [2, 0]], "parameters": { "size": 1, "r": 0.1 } })");
+                               "struts": [[0, 1], [1, 2], [2, 0]], "parameters": { "size": 1, "r": 0.1 } })",
+                          1, false);
 HAUBERK_CONFORMANCE_TESTS(RoundedRing, folder + "rounded_ring.so",
                           R"({ "shape": "rounded_ring",
                                "parameters": { "R": 5, "w": 0.7, "h": 0.5, "corner": 0.2 } })");

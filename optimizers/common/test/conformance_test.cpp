@@ -61,7 +61,8 @@ const std::string plugin_folder = HAUBERK_BINARY_DIR "/lib/hauberk/plugins";
 
 const bool registered = [] {
   for (const Configuration& c : configurations())
-    register_tests(("Conforms_" + c.name).c_str(), plugin_folder + "/" + c.plugin + ".so", c.section);
+    register_tests(("Conforms_" + c.name).c_str(), plugin_folder + "/" + c.plugin + ".so", c.section, 1,
+                   false);
   // Of these no more is asked than of those from elsewhere.
   register_tests("Conforms_nelder_mead", plugin_folder + "/nelder_mead.so");
 #ifdef HAUBERK_WITH_PAGMO

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <exception>
 #include <set>
 #include <thread>
@@ -161,6 +162,9 @@ void repeatable(Trial& trial)
     const std::vector<double> again = exercise(object);
     require(same_bits(first, again), "asked again, it answers otherwise: {}", first_difference(first, again));
   }
+  const std::vector<double> backwards = exercise.backwards(object);
+  require(same_bits(first, backwards), "asked in another order, it answers otherwise: {}",
+          first_difference(first, backwards));
   const std::vector<double> other = exercise(trial.make());
   require(same_bits(first, other), "an object made of the same section answers otherwise: {}",
           first_difference(first, other));
@@ -168,6 +172,9 @@ void repeatable(Trial& trial)
 
 void in_threads(Trial& trial)
 {
+  // A few calls hardly ever meet: quick ones are made for some time.
+  constexpr int least_rounds = 4;
+  constexpr std::chrono::milliseconds longest{20};
   const Object object = trial.make();
   // Two sets of questions: threads that keep step with the same one would overwrite each other with the same.
   const std::array<Exercise, 2> exercises{Exercise(object, trial), Exercise(object, trial)};
@@ -180,7 +187,8 @@ void in_threads(Trial& trial)
     for (std::size_t k = 0; k < threads; ++k) {
       running.emplace_back([&, k] {
         try {
-          for (int round = 0; round < 4; ++round) {
+          const auto end = std::chrono::steady_clock::now() + longest;
+          for (int round = 0; round < least_rounds || std::chrono::steady_clock::now() < end; ++round) {
             found[k] = exercises[k % 2](object);
             if (!same_bits(alone[k % 2], found[k])) return;
           }
@@ -217,24 +225,75 @@ Check of_table(const char* name, const char* about, void (*function)(const Plugi
           }};
 }
 
+/// Whether the factory takes the section of a trial.
+bool is_taken(const Trial& trial)
+{
+  Problems problems;
+  try {
+    static_cast<void>(trial.make(trial.section.values, problems));
+  } catch (const InputError&) {
+    return false;
+  }
+  return problems.empty();
+}
+
+/// One run of a check's function. Skip passes through.
+Outcome attempt(Trial& trial, const std::function<void(Trial&)>& function)
+{
+  const auto where = [&] {
+    return trial.looked_at.empty() ? std::string() : " (parameters: " + trial.looked_at + ")";
+  };
+  try {
+    function(trial);
+  } catch (const Skip&) {
+    throw;
+  } catch (const Slow& slow) {
+    return {Outcome::Status::slow, slow.what() + where()};
+  } catch (const NoParameters& error) {
+    if (trial.switched) throw Skip(error.what());
+    return {Outcome::Status::failed, error.what()};
+  } catch (const std::exception& error) {
+    return {Outcome::Status::failed, error.what() + where()};
+  }
+  return {};
+}
+
+/// The check with every switch of the section set otherwise, one at a time, until one fails.
+Outcome with_switches(const PluginTable& table, const Section& base, std::uint64_t seed,
+                      const std::function<void(Trial&)>& function)
+{
+  for (const Variant& variant : switched(base)) {
+    Section section = base;
+    section.values = variant.values;
+    Trial trial(table, std::move(section), seed);
+    trial.switched = true;
+    if (!is_taken(trial)) continue;
+    Outcome outcome;
+    try {
+      outcome = attempt(trial, function);
+    } catch (const Skip&) {
+      continue;
+    }
+    if (outcome.status == Outcome::Status::passed) continue;
+    outcome.text += fmt::format(" (with {})", variant.field);
+    return outcome;
+  }
+  return {};
+}
+
 }  // namespace
 
 Check of_trial(std::string name, std::optional<PluginKind> kind, const char* about,
                std::function<void(Trial&)> function)
 {
   return {std::move(name), kind, about,
-          [function = std::move(function)](const PluginTable& table, const Setup& setup, std::uint64_t seed) {
-            Trial trial(table, setup, seed);
-            try {
-              function(trial);
-            } catch (const Skip&) {
-              throw;
-            } catch (const std::exception& error) {
-              const std::string where =
-                  trial.looked_at.empty() ? "" : " (parameters: " + trial.looked_at + ")";
-              return Outcome{Outcome::Status::failed, error.what() + where};
-            }
-            return Outcome{};
+          [kind, function = std::move(function)](const PluginTable& table, const Setup& setup,
+                                                 std::uint64_t seed) {
+            const Section section = read_section(table, setup);
+            Trial trial(table, section, seed);
+            Outcome outcome = attempt(trial, function);
+            if (!kind || !setup.switches || outcome.status != Outcome::Status::passed) return outcome;
+            return with_switches(table, section, seed, function);
           }};
 }
 
@@ -246,9 +305,11 @@ void add_checks_of_every_kind(std::vector<Check>& out)
     out.push_back(of_trial(name, std::nullopt, about, function));
   };
   add("bad_values", "a value that is refused is refused by an error that names its field", bad_values);
+  add_speed_check(out);
   add("instances", "objects do not influence each other", instances);
   add("repeatable", "the same question gets the same answer, to the bit", repeatable);
   add("threads", "several threads get the answers of one, to the bit", in_threads);
+  add_process_checks(out);
   add("floating_point", "rounding, flush-to-zero and traps are left alone by every call", floating_point);
 }
 

@@ -17,6 +17,8 @@ const char* status_name(Outcome::Status status)
       return "failed";
     case Outcome::Status::skipped:
       return "skipped";
+    case Outcome::Status::slow:
+      return "slow";
   }
   return "";
 }
@@ -66,6 +68,8 @@ Outcome run(const Check& check, const PluginTable& table, const Setup& setup, st
     return {Status::failed, failure.what()};
   } catch (const Skip& reason) {
     return {Status::skipped, reason.what()};
+  } catch (const Slow& slow) {
+    return {Status::slow, slow.what()};
   } catch (const std::exception& error) {
     return {Status::failed, error.what()};
   } catch (...) {

@@ -10,11 +10,15 @@
 
 namespace hauberk::conformance {
 
-/// A check whose function works with a Trial and ends early by Failure or Skip.
+/// A check whose function works with a Trial and ends early by Failure, Skip or Slow. One of a kind is run
+/// with every switch of the section set otherwise, too.
 Check of_trial(std::string name, std::optional<PluginKind> kind, const char* about,
                std::function<void(Trial&)> function);
 
 void add_checks_of_every_kind(std::vector<Check>& out);
+/// Of those: what a plugin does to its process, and what the process does to it.
+void add_process_checks(std::vector<Check>& out);
+void add_speed_check(std::vector<Check>& out);
 void add_shape_checks(std::vector<Check>& out);
 /// Of those, in files of their own: parameters that are said to be smooth are.
 void check_smoothness(Trial& trial);

@@ -17,6 +17,10 @@ constexpr double least_slope = 1.6;
 /// Roundings of the largest value that a value may be off by: compositions of a few dozen operations.
 constexpr double roundings = 64.0;
 
+/// Roundings of the largest of all values compared: a component that is nought but for them, as R cos(pi/2)
+/// is, is a difference of such values.
+constexpr double roundings_of_largest = 4.0;
+
 /// Mean slope over the last three halvings.
 double final_slope(std::span<const double, steps> error)
 {
@@ -41,6 +45,8 @@ std::vector<Deviation> deviations(const Along& f, std::span<const double> claime
     }
     h *= 0.5;
   }
+  double largest_size = 0.0;
+  for (const double s : size) largest_size = std::max(largest_size, s);
   std::vector<Deviation> out;
   for (std::size_t i = 0; i < claimed.size(); ++i) {
     std::array<double, steps> error, floor;
@@ -48,7 +54,8 @@ std::vector<Deviation> deviations(const Along& f, std::span<const double> claime
     h = largest;
     for (std::size_t k = 0; k < steps; ++k, h *= 0.5) {
       error[k] = std::abs(difference[k][i] - claimed[i]);
-      floor[k] = roundings * std::numeric_limits<double>::epsilon() * (size[i] / h + std::abs(claimed[i]));
+      floor[k] = std::numeric_limits<double>::epsilon() *
+                 (roundings * (size[i] / h + std::abs(claimed[i])) + roundings_of_largest * largest_size / h);
       const bool within = error[k] <= floor[k];  // false for not-a-number
       stayed = stayed && (within || !reached);   // a wrong derivative may be crossed once
       reached = reached || within;

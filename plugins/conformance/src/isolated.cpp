@@ -7,24 +7,50 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <utility>
+#include <vector>
 
 namespace hauberk::conformance {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Outcome outcome_in_child(const Check& check, const std::filesystem::path& file, const Conditions& conditions)
+/// What sleeps, or waits for itself, is ended after this much more than the processor time it may use.
+TimeLimits limits_of(double seconds) { return {.processor = seconds, .elapsed = 4.0 * seconds + 5.0}; }
+
+/// An outcome through a pipe: its status, then text, names and times, each ended by a zero.
+std::string packed(const Outcome& outcome)
+{
+  std::string out = static_cast<char>('0' + static_cast<int>(outcome.status)) + outcome.text + '\0';
+  for (const auto& [name, seconds] : outcome.times)
+    out += fmt::format("{}{}{:.17g}{}", name, '\0', seconds, '\0');
+  return out;
+}
+
+Outcome unpacked(const std::string& bytes)
+{
+  std::vector<std::string> parts;
+  for (std::size_t at = 1, end = 0; (end = bytes.find('\0', at)) != std::string::npos; at = end + 1)
+    parts.push_back(bytes.substr(at, end - at));
+  Outcome outcome{static_cast<Outcome::Status>(bytes.front() - '0'), parts.at(0)};
+  for (std::size_t k = 1; k + 1 < parts.size(); k += 2)
+    outcome.times.emplace_back(parts[k], std::strtod(parts[k + 1].c_str(), nullptr));
+  return outcome;
+}
+
+Outcome outcome_in_child(const Check& check, const std::filesystem::path& file, const Conditions& conditions,
+                         std::uint64_t seed)
 {
   const Child child = in_child(
       [&] {
         const PluginTable& table = PluginLibrary::load(file).table();
-        const Outcome outcome = run(check, table, conditions.setup, conditions.seed);
-        return static_cast<char>('0' + static_cast<int>(outcome.status)) + outcome.text;
+        return packed(run(check, table, conditions.setup, seed));
       },
-      conditions.seconds);
+      limits_of(conditions.seconds));
+  if (child.out_of_time) return {Outcome::Status::slow, child.ending};
   if (!child.returned) return {Outcome::Status::failed, child.ending};
-  return {static_cast<Outcome::Status>(child.text.front() - '0'), child.text.substr(1)};
+  return unpacked(child.text);
 }
 
 /// The parts of a table that say what it is.
@@ -66,6 +92,20 @@ Identity identify_in_child(const std::filesystem::path& file, double seconds)
   return found;
 }
 
+/// A check with one seed after the other, until it does not pass.
+Result with_seeds(const Check& check, const std::filesystem::path& file, const Conditions& conditions)
+{
+  Result result{check.name, check.about, {}};
+  for (int k = 0; k < conditions.seeds; ++k) {
+    result.seed = conditions.seed + static_cast<std::uint64_t>(k);
+    result.outcome = conditions.in_process
+                         ? run(check, PluginLibrary::load(file).table(), conditions.setup, result.seed)
+                         : outcome_in_child(check, file, conditions, result.seed);
+    if (result.outcome.status != Outcome::Status::passed) break;
+  }
+  return result;
+}
+
 double seconds_since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -79,6 +119,7 @@ Report conform(const std::filesystem::path& file, const Conditions& conditions)
   report.file = file.string();
   report.setup = conditions.setup;
   report.seed = conditions.seed;
+  report.seeds = conditions.seeds;
   const auto start = Clock::now();
   const Identity identity =
       conditions.in_process ? identify(file) : identify_in_child(file, conditions.seconds);
@@ -86,6 +127,7 @@ Report conform(const std::filesystem::path& file, const Conditions& conditions)
     report.results.push_back({"load",
                               "the library can be loaded and its table agrees with this program",
                               {Outcome::Status::failed, identity.error},
+                              conditions.seed,
                               seconds_since(start)});
     return report;
   }
@@ -94,10 +136,9 @@ Report conform(const std::filesystem::path& file, const Conditions& conditions)
   report.kind = with_article(identity.kind);
   for (const Check& check : matching(checks(identity.kind), conditions.filter)) {
     const auto begin = Clock::now();
-    Outcome outcome = conditions.in_process
-                          ? run(check, PluginLibrary::load(file).table(), conditions.setup, conditions.seed)
-                          : outcome_in_child(check, file, conditions);
-    report.results.push_back({check.name, check.about, std::move(outcome), seconds_since(begin)});
+    report.results.push_back(with_seeds(check, file, conditions));
+    report.results.back().seconds = seconds_since(begin);
+    if (conditions.until_failure && !report.passed()) break;
   }
   return report;
 }

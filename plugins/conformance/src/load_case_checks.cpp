@@ -2,6 +2,7 @@
 
 #include "checks.hpp"
 #include "differences.hpp"
+#include "maximise.hpp"
 #include "trace.hpp"
 
 #include <Eigen/LU>
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <set>
 
@@ -185,34 +188,170 @@ void images(Trial& trial)
   }
 }
 
+/// A path between two states, its acceleration and the bound of it.
+struct Path {
+  static constexpr double h = 1e-4;  ///< of central differences
+
+  State from;
+  Values d;
+  double s;
+
+  double bound(const LoadCase& load_case) const
+  {
+    const std::span<const double> y(from.y), dy(d);
+    return load_case.acceleration_bound(y.first(from.macros), dy.first(from.macros), y.subspan(from.macros),
+                                        dy.subspan(from.macros), from.X, from.T);
+  }
+  Vec3 velocity(const LoadCase& load_case, double at) const
+  {
+    Values y = from.y;
+    for (std::size_t k = 0; k < d.size(); ++k) y[k] += at * d[k];
+    const PositionMap map = from.of(load_case, y);
+    Vec3 v = Vec3::Zero();
+    for (std::size_t k = 0; k < d.size(); ++k) v += map.J.col(static_cast<Eigen::Index>(k)) * d[k];
+    return v;
+  }
+  double acceleration(const LoadCase& load_case) const
+  {
+    return ((velocity(load_case, s + h) - velocity(load_case, s - h)) / (2.0 * h)).norm();
+  }
+  /// Everything that a search may change: the states, the element and its image, the place on the path.
+  Values unknowns() const
+  {
+    Values out = from.y;
+    out.insert(out.end(), d.begin(), d.end());
+    out.insert(out.end(), from.X.begin(), from.X.end());
+    out.insert(out.end(), from.T.begin(), from.T.end());
+    out.push_back(s);
+    return out;
+  }
+  Path with(const Values& x) const
+  {
+    const auto n = static_cast<std::ptrdiff_t>(d.size());
+    Path path = *this;
+    path.from.y.assign(x.begin(), x.begin() + n);
+    path.d.assign(x.begin() + n, x.begin() + 2 * n);
+    for (std::ptrdiff_t k = 0; k < 3; ++k) {
+      path.from.X[k] = x[static_cast<std::size_t>(2 * n + k)];
+      if (from.T[k] != 0.0) path.from.T[k] = x[static_cast<std::size_t>(2 * n + 3 + k)];
+    }
+    path.s = std::clamp(x.back(), h, 1.0 - h);
+    return path;
+  }
+  /// Both ends are admissible, and nothing is farther than elements of a cell are.
+  bool is_sensible(const LoadCase& load_case) const
+  {
+    constexpr double farthest = 4.0;
+    Values end = from.y;
+    for (std::size_t k = 0; k < d.size(); ++k) end[k] += d[k];
+    const std::span<const double> a(from.y), b(end);
+    const auto size = [](const Values& v) {
+      double most = 0.0;
+      for (const double x : v) most = std::max(most, std::abs(x));
+      return most;
+    };
+    return load_case.admissible(a.first(from.macros)) && load_case.admissible(b.first(from.macros)) &&
+           std::max({size(from.y), size(end), from.X.norm(), from.T.norm()}) <= farthest;
+  }
+};
+
 void acceleration(Trial& trial)
 {
-  constexpr int samples = 64;
-  constexpr double h = 1e-4, tolerance = 1e-6;
+  constexpr int samples = 64, searches = 6, sweeps = 40;
+  constexpr double tolerance = 1e-6;
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
+  const auto require_bound = [&](const Path& path) {
+    const double bound = path.bound(load_case), found = path.acceleration(load_case);
+    require(std::isfinite(bound) && bound >= 0.0, "the bound of the acceleration is {}", bound);
+    require(found <= bound + tolerance * (1.0 + found),
+            "|x''| is {:.9g} at s = {:.4g} of a path whose bound is {:.9g}", found, path.s, bound);
+  };
   for (int draw = 0; draw < 4 * states; ++draw) {
     const State from = draw_state(load_case, trial.random), to = draw_state(load_case, trial.random);
-    Values d(from.y.size());
-    for (std::size_t k = 0; k < d.size(); ++k) d[k] = to.y[k] - from.y[k];
-    const std::span<const double> y(from.y), dy(d);
-    const double bound =
-        load_case.acceleration_bound(y.first(from.macros), dy.first(from.macros), y.subspan(from.macros),
-                                     dy.subspan(from.macros), from.X, from.T);
-    require(std::isfinite(bound) && bound >= 0.0, "the bound of the acceleration is {}", bound);
-    const auto velocity = [&](double s) {
-      Values at = from.y;
-      for (std::size_t k = 0; k < d.size(); ++k) at[k] += s * d[k];
-      const PositionMap map = from.of(load_case, at);
-      Vec3 v = Vec3::Zero();
-      for (std::size_t k = 0; k < d.size(); ++k) v += map.J.col(static_cast<Eigen::Index>(k)) * d[k];
-      return v;
-    };
+    Path path{from, Values(from.y.size()), 0.0};
+    for (std::size_t k = 0; k < path.d.size(); ++k) path.d[k] = to.y[k] - from.y[k];
     for (int i = 0; i <= samples; ++i) {
-      const double s = static_cast<double>(i) / samples;
-      const double found = ((velocity(s + h) - velocity(s - h)) / (2.0 * h)).norm();
-      require(found <= bound + tolerance * (1.0 + found),
-              "|x''| is {:.9g} at s = {:.4g} of a path whose bound is {:.9g}", found, s, bound);
+      path.s = static_cast<double>(i) / samples;
+      require_bound(path);
+    }
+    if (draw >= searches) continue;
+    path.s = trial.random.between(0.2, 0.8);
+    const auto excess = [&](const Values& x) {
+      const Path at = path.with(x);
+      if (!at.is_sensible(load_case)) return -std::numeric_limits<double>::infinity();
+      return at.acceleration(load_case) / (at.bound(load_case) + tolerance);
+    };
+    const Values start = path.unknowns();
+    require_bound(path.with(maximise(excess, start, Values(start.size(), 0.2), sweeps)));
+  }
+}
+
+/// What a scene of another length makes of the same file. Lengths of states are in units of the file: an
+/// unknown of power p is `length`^-p times as large there, places of elements are 1/`length` of theirs.
+struct Rescaled {
+  const LoadCase& load_case;
+  double length;
+
+  Values macro(const Values& of_file, const std::vector<MacroInfo>& infos) const
+  {
+    Values out = of_file;
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] *= std::pow(length, -infos[k].length_power);
+    return out;
+  }
+  Vec3 position(const Values& scaled, const Vec3& X, const Vec3& T) const
+  {
+    const Values e(static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
+    PositionMap map;
+    load_case.position(scaled, e, X / length, T / length, map);
+    return length * map.x;
+  }
+};
+
+/// The power p with which `of(p)` is the same in both scenes, for people.
+std::string power_that_fits(const std::function<bool(int)>& same)
+{
+  for (int p = -4; p <= 4; ++p) {
+    if (same(p)) return fmt::format("{} would agree", p);
+  }
+  return "no power would agree";
+}
+
+void length_powers(Trial& trial)
+{
+  constexpr double length = 2.0, exact = 1e-9;
+  Problems problems;
+  const Object one = trial.make(), two = trial.make(trial.section.values, problems, length);
+  if (!two.load_case) skip("it refuses its section in a scene of another length");
+  const LoadCase& load_case = *one.load_case;
+  const Rescaled here{load_case, 1.0}, there{*two.load_case, length};
+  const std::vector<MacroInfo>& infos = load_case.macros();
+  const int power = load_case.value_length_power();
+  for (int draw = 0; draw < states; ++draw) {
+    const Values drawn = draw_macro(load_case, trial.random, 0.2);
+    const Vec3 X = trial.random.vector(2.0), T = draw_translation(load_case, trial.random);
+    const Direction direction = Direction::at_radians(trial.random.between(0.0, 3.0));
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      Values macro(drawn.size(), 0.0);
+      macro[k] = drawn[k];
+      const Values scaled = there.macro(macro, infos);
+      if (!load_case.admissible(macro) || !two.load_case->admissible(scaled)) continue;
+      const Vec3 x = here.position(macro, X, T);
+      const auto fits = [&](int p) {
+        Values other = macro;
+        other[k] *= std::pow(length, -p);
+        return (there.position(other, X, T) - x).norm() <= exact * (1.0 + x.norm());
+      };
+      require(fits(infos[k].length_power),
+              "in a scene of another length, '{}' moves elements otherwise: its length_power is {}; {}",
+              infos[k].name, infos[k].length_power, power_that_fits(fits));
+      const double value = load_case.value(direction, macro), other = two.load_case->value(direction, scaled);
+      const auto value_fits = [&](int p) {
+        return std::abs(std::pow(length, p) * other - value) <= exact * (1e-3 + std::abs(value));
+      };
+      require(value_fits(power),
+              "in a scene of another length, a state of '{}' has another value: value_length_power is {}; {}",
+              infos[k].name, power, power_that_fits(value_fits));
     }
   }
 }
@@ -388,6 +527,9 @@ void add_load_case_motion_checks(std::vector<Check>& out)
       second_derivatives);
   add("load_case.images", "an image of an image is an image; all elements are displaced alike", images);
   add("load_case.acceleration", "acceleration_bound bounds |x''| along every path", acceleration);
+  add("load_case.length_powers",
+      "the powers of length of unknowns and value are those by which scenes of two lengths differ",
+      length_powers);
   add("load_case.walls", "walls hold at rest; conditions are independent; terms refer to what exists", walls);
   add("load_case.stricter", "states of stricter load cases are states of this one, with the same value",
       stricter);

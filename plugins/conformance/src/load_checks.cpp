@@ -2,6 +2,7 @@
 
 #include "checks.hpp"
 #include "differences.hpp"
+#include "maximise.hpp"
 
 #include <fmt/ranges.h>
 #include <Eigen/QR>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hauberk::conformance {
 namespace {
@@ -94,11 +96,40 @@ void admissible(Trial& trial)
   }
 }
 
+/// Factor by which a macroscopic state lengthens a lattice translation.
+double lengthening(const LoadCase& load_case, const Values& macro, const Vec3& T)
+{
+  const Values e(static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
+  PositionMap image, itself;
+  load_case.position(macro, e, Vec3::Zero(), T, image);
+  load_case.position(macro, e, Vec3::Zero(), Vec3::Zero(), itself);
+  return (image.x - itself.x).norm() / T.norm();
+}
+
+void require_stretch(const LoadCase& load_case, const Values& macro, const Vec3& T)
+{
+  const auto [smallest, largest] = load_case.stretch_range(macro);
+  const double factor = lengthening(load_case, macro, T);
+  require(factor >= smallest * (1.0 - rounding) && factor <= largest * (1.0 + rounding),
+          "a lattice translation is lengthened by {:.9g}, outside the range of stretch [{:.9g}, {:.9g}]",
+          factor, smallest, largest);
+}
+
+/// The two parts of what a search changes; components in which the translation is 0 stay so.
+std::pair<Values, Vec3> macro_and_translation(const Values& x, const Vec3& like)
+{
+  Vec3 T = like;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (T[static_cast<Eigen::Index>(k)] != 0.0) T[static_cast<Eigen::Index>(k)] = x[x.size() - 3 + k];
+  }
+  return {Values(x.begin(), x.end() - 3), T};
+}
+
 void stretch_range(Trial& trial)
 {
+  constexpr int searches = 8, sweeps = 40;
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
-  const Values e(static_cast<std::size_t>(load_case.coordinate_count()), 0.0);
   const auto at_rest =
       load_case.stretch_range(Values(static_cast<std::size_t>(load_case.macro_count()), 0.0));
   require(std::abs(at_rest.first - 1.0) <= rounding && std::abs(at_rest.second - 1.0) <= rounding,
@@ -110,13 +141,20 @@ void stretch_range(Trial& trial)
             "the range of stretch is [{}, {}] at an admissible state", smallest, largest);
     if (!load_case.periodic()) continue;
     const Vec3 T = draw_translation(load_case, trial.random);
-    PositionMap image, itself;
-    load_case.position(macro, e, Vec3::Zero(), T, image);
-    load_case.position(macro, e, Vec3::Zero(), Vec3::Zero(), itself);
-    const double factor = (image.x - itself.x).norm() / T.norm();
-    require(factor >= smallest * (1.0 - rounding) && factor <= largest * (1.0 + rounding),
-            "a lattice translation is lengthened by {:.9g}, outside the range of stretch [{:.9g}, {:.9g}]",
-            factor, smallest, largest);
+    require_stretch(load_case, macro, T);
+    if (draw >= searches) continue;
+    const auto farthest_out = [&](const Values& x) {
+      const auto [at, along] = macro_and_translation(x, T);
+      if (!load_case.admissible(at) || along.norm() < 1e-3) return -std::numeric_limits<double>::infinity();
+      const auto [least, most] = load_case.stretch_range(at);
+      const double factor = lengthening(load_case, at, along);
+      return std::max(factor / most, least / factor);
+    };
+    Values start = macro;
+    start.insert(start.end(), T.begin(), T.end());
+    const auto [worst, along] =
+        macro_and_translation(maximise(farthest_out, start, Values(start.size(), 0.3), sweeps), T);
+    require_stretch(load_case, worst, along);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hauberk::conformance {
 namespace {
@@ -136,7 +137,156 @@ void add_variant(std::vector<Variant>& out, const Section& section, const std::s
   out.push_back(std::move(variant));
 }
 
+/// What else a value may be, when one switch in it is set otherwise.
+class Switches {
+ public:
+  /// The other values of a node of this field, and what was changed in each: "crossed = true".
+  struct Other {
+    std::string what;
+    Node value;
+  };
+
+  std::vector<Other> of(const Field& field, const Node& node, const std::string& place) const
+  {
+    switch (field.kind) {
+      case Kind::boolean:
+      case Kind::choice:
+        return values(field, &node, place);
+      case Kind::any_of:
+        return any_of(field, node, place);
+      case Kind::object:
+        return members(field, node, place);
+      case Kind::list:
+        return items(field, node, place);
+      case Kind::map:
+        return entries(field, node, place);
+      default:
+        return {};
+    }
+  }
+
+ private:
+  static std::vector<Other> values(const Field& field, const Node* now, const std::string& place)
+  {
+    std::vector<Other> out;
+    const auto add = [&](Node value, bool same) {
+      if (!same) out.push_back({fmt::format("{} = {}", place, write_json(value)), std::move(value)});
+    };
+    if (field.kind == Kind::boolean) {
+      for (const bool value : {false, true}) {
+        Node node;
+        node.type = Type::boolean;
+        node.boolean = value;
+        add(node, now != nullptr && now->is(Type::boolean) && now->boolean == value);
+      }
+    }
+    if (field.kind == Kind::choice) {
+      for (const std::string& choice : field.choices)
+        add(text_node(choice), now != nullptr && now->is(Type::string) && now->string == choice);
+    }
+    return out;
+  }
+
+  static bool takes(const Field& field, const Node& node)
+  {
+    Node copy = node;
+    Problems problems;
+    return check_fields(copy, field, problems) && problems.empty();
+  }
+
+  std::vector<Other> any_of(const Field& field, const Node& node, const std::string& place) const
+  {
+    std::vector<Other> out;
+    for (const Field& child : field.children) {
+      std::vector<Other> more;
+      if (takes(child, node)) {
+        more = of(child, node, place);
+      } else if (child.kind == Kind::boolean || child.kind == Kind::choice) {
+        more = values(child, nullptr, place);
+      } else {
+        Node value = Maker().make(child);
+        if (!value.is(Type::null)) more.push_back({fmt::format("{} = {}", place, write_json(value)), value});
+      }
+      std::move(more.begin(), more.end(), std::back_inserter(out));
+    }
+    return out;
+  }
+
+  std::vector<Other> members(const Field& field, const Node& node, const std::string& place) const
+  {
+    std::vector<Other> out;
+    for (const Field& child : field.children) {
+      const std::string there = place.empty() ? child.name : place + "/" + child.name;
+      const Node* now = node.find(child.name);
+      for (Other& other : now != nullptr ? of(child, *now, there) : values(child, nullptr, there)) {
+        Node whole = node;
+        if (now == nullptr) {
+          whole.members.emplace_back(child.name, std::move(other.value));
+        } else {
+          for (auto& [key, value] : whole.members) {
+            if (key == child.name) value = other.value;
+          }
+        }
+        out.push_back({std::move(other.what), std::move(whole)});
+      }
+    }
+    return out;
+  }
+
+  std::vector<Other> items(const Field& field, const Node& node, const std::string& place) const
+  {
+    std::vector<Other> out;
+    if (field.children.empty()) return out;
+    const Field& item = field.children.front();
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      for (Other& other : of(item, node.items[i], fmt::format("{}/{}", place, i))) {
+        Node whole = node;
+        whole.items[i] = std::move(other.value);
+        out.push_back({std::move(other.what), std::move(whole)});
+      }
+    }
+    // Of choices also none, and each by itself.
+    if (item.kind != Kind::choice) return out;
+    Node list = node;
+    list.items.clear();
+    if (!node.items.empty()) out.push_back({place + " = []", list});
+    for (Other& other : values(item, node.items.size() == 1 ? &node.items.front() : nullptr, place + "/0")) {
+      list.items.assign(1, std::move(other.value));
+      out.push_back({std::move(other.what), list});
+    }
+    return out;
+  }
+
+  std::vector<Other> entries(const Field& field, const Node& node, const std::string& place) const
+  {
+    std::vector<Other> out;
+    for (std::size_t i = 0; i < node.members.size() && !field.children.empty(); ++i) {
+      for (Other& other :
+           of(field.children.front(), node.members[i].second, place + "/" + node.members[i].first)) {
+        Node whole = node;
+        whole.members[i].second = std::move(other.value);
+        out.push_back({std::move(other.what), std::move(whole)});
+      }
+    }
+    return out;
+  }
+};
+
 }  // namespace
+
+std::vector<Variant> switched(const Section& section)
+{
+  std::vector<Variant> out;
+  for (Switches::Other& other : Switches().of(section.fields, section.values, "")) {
+    relocate(other.value, "", 0);
+    Problems problems;
+    if (!check_fields(other.value, section.fields, problems) || !problems.empty()) continue;
+    const bool known =
+        std::any_of(out.begin(), out.end(), [&](const Variant& v) { return v.field == other.what; });
+    if (!known) out.push_back({std::move(other.what), "", std::move(other.value)});
+  }
+  return out;
+}
 
 Section read_section(const PluginTable& table, const Setup& setup)
 {

@@ -27,6 +27,10 @@ struct Variant {
 /// Extremes of numbers, the other choices, flipped switches.
 std::vector<Variant> variants(const Section& section);
 
+/// Sections in which one switch is set otherwise: every boolean, every choice and every other kind of value
+/// that a field takes, at any depth. Those that the fields themselves refuse are left out.
+std::vector<Variant> switched(const Section& section);
+
 /// Multiplies every number of unit "length" in `node`, which has the form of `field`, by `factor`.
 void scale_lengths(Node& node, const Field& field, double factor);
 

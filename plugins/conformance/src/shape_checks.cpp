@@ -5,6 +5,7 @@
 #include "solid_checks.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,11 +17,17 @@
 namespace hauberk::conformance {
 namespace {
 
-constexpr int points = 8;
+/// Half of them near the defaults, half from the whole bounds; fewer where a switch is set otherwise.
+int points(const Trial& trial) { return trial.switched ? 4 : 12; }
 /// Of equal quantities that come from different arithmetic, relative to the largest of them.
 constexpr double rounding = 1e-12;
 
 using Values = std::vector<double>;
+
+Point draw(const Shape& shape, Trial& trial, int number)
+{
+  return number % 2 == 0 ? draw_point(shape, trial) : draw_far_point(shape, trial);
+}
 
 void parameters(Trial& trial)
 {
@@ -75,17 +82,64 @@ void require_closed(const Primitive& primitive)
           primitive.name, primitive.r0(), primitive.R());
 }
 
+/// Whether a refusal tells one of the parameters.
+bool names_one(const std::string& message, const std::vector<ParameterInfo>& infos)
+{
+  return std::any_of(infos.begin(), infos.end(),
+                     [&](const ParameterInfo& info) { return mentions(message, info.name); });
+}
+
+std::vector<std::string> names_of(const Shape& shape, const Values& p)
+{
+  std::vector<std::string> out;
+  for (const Primitive& primitive : shape.primitives(p)) out.push_back(primitive.name);
+  return out;
+}
+
+void require_names(const Shape& shape, const Values& p, const std::vector<std::string>& names)
+{
+  const std::vector<std::string> found = names_of(shape, p);
+  require(found == names,
+          "names, number or order of primitives depend on the parameters: {} ('{}', ...) and {} ('{}', ...)",
+          names.size(), names.front(), found.size(), found.front());
+}
+
+/// The corners of the parameters' box, of many parameters some of them: there, too, a shape either answers
+/// both questions or refuses by name.
+void corners(Trial& trial, const Shape& shape)
+{
+  constexpr std::size_t all_of = 6;
+  const std::vector<ParameterInfo>& infos = shape.parameters();
+  const std::size_t count = std::size_t{1} << std::min(infos.size(), all_of);
+  const std::vector<std::string> names = names_of(shape, draw_point(shape, trial).p);
+  for (std::size_t corner = 0; corner < count; ++corner) {
+    Values p;
+    for (std::size_t k = 0; k < infos.size(); ++k) {
+      const bool upper =
+          infos.size() <= all_of ? (corner >> k & 1U) != 0 : trial.random.between(0.0, 1.0) < 0.5;
+      const auto [low, high] = whole_range(infos[k]);
+      const double end = upper ? infos[k].upper : infos[k].lower;
+      p.push_back(std::isfinite(end) ? end : (upper ? high : low));
+    }
+    trial.look_at(shape, p);
+    const auto message = refused(shape, p);
+    require(!message || names_one(*message, infos),
+            "a corner of the bounds is refused without the name of a parameter: '{}'", message.value_or(""));
+    if (message) continue;
+    require_names(shape, p, names);
+    static_cast<void>(shape.jacobians(p));
+  }
+}
+
 /// Inside the bounds a shape may refuse what makes no sense; it must say which parameter.
 void refusals(Trial& trial)
 {
   const Object object = trial.make();
   const std::vector<ParameterInfo>& infos = object.shape->parameters();
-  const auto named = [&](const std::string& message) {
-    return std::any_of(infos.begin(), infos.end(),
-                       [&](const ParameterInfo& info) { return mentions(message, info.name); });
-  };
-  for (int draw = 0; draw < points; ++draw) {
-    const Point inside = draw_point(*object.shape, trial);
+  corners(trial, *object.shape);
+  const std::vector<std::string> names = names_of(*object.shape, draw_point(*object.shape, trial).p);
+  for (int draw_number = 0; draw_number < points(trial); ++draw_number) {
+    const Point inside = draw(*object.shape, trial, draw_number);
     for (std::size_t k = 0; k < infos.size(); ++k) {
       for (const double end : {infos[k].lower, infos[k].upper}) {
         if (!std::isfinite(end)) continue;
@@ -93,10 +147,11 @@ void refusals(Trial& trial)
         p[k] = end;
         trial.look_at(*object.shape, p);
         const auto message = refused(*object.shape, p);
-        require(!message || named(*message),
+        require(!message || names_one(*message, infos),
                 "'{}' = {} is within its bounds and refused without the name of a parameter: '{}'",
                 infos[k].name, end, message.value_or(""));
         if (message) continue;
+        require_names(*object.shape, p, names);
         for (const Primitive& primitive : object.shape->primitives(p)) require_closed(primitive);
       }
     }
@@ -107,8 +162,8 @@ void primitives(Trial& trial)
 {
   const Object object = trial.make();
   std::vector<std::string> names;
-  for (int draw = 0; draw < points; ++draw) {
-    const Point point = draw_point(*object.shape, trial);
+  for (int draw_number = 0; draw_number < points(trial); ++draw_number) {
+    const Point point = draw(*object.shape, trial, draw_number);
     std::vector<std::string> found;
     const std::vector<Primitive> here = object.shape->primitives(point.p);
     found.reserve(here.size());
@@ -118,14 +173,25 @@ void primitives(Trial& trial)
       require_closed(primitive);
     }
     require(std::set(found.begin(), found.end()).size() == found.size(), "two primitives have the same name");
-    if (draw == 0) names = found;
-    require(
-        found == names,
-        "names, number or order of primitives depend on the parameters: {} ('{}', ...) and {} ('{}', ...)",
-        names.size(), names.front(), found.size(), found.front());
+    if (draw_number == 0) names = found;
+    require_names(*object.shape, point.p, names);
     const std::size_t jacobians = object.shape->jacobians(point.p).size();
     require(jacobians == found.size(), "{} Jacobians for {} primitives", jacobians, found.size());
   }
+}
+
+/// Deviations with steps as large as the shape accepts: what it accepts need not be convex.
+std::vector<Deviation> accepted_deviations(const Along& moved, const Values& column, double margin)
+{
+  constexpr int shrinkings = 6;
+  for (int k = 0; k < shrinkings; ++k) {
+    try {
+      return deviations(moved, column, margin);
+    } catch (const InputError&) {
+      margin *= 0.25;
+    }
+  }
+  return {};
 }
 
 void jacobians(Trial& trial)
@@ -134,8 +200,8 @@ void jacobians(Trial& trial)
   const Shape& shape = *object.shape;
   const std::size_t count = shape.parameters().size();
   if (count == 0) skip("it has no parameters");
-  for (int draw = 0; draw < points; ++draw) {
-    const Point point = draw_point(shape, trial);
+  for (int draw_number = 0; draw_number < points(trial); ++draw_number) {
+    const Point point = draw(shape, trial, draw_number);
     const std::vector<Primitive> here = shape.primitives(point.p);
     const std::vector<PrimitiveJacobian> claimed = shape.jacobians(point.p);
     require(claimed.size() == here.size(), "{} Jacobians for {} primitives", claimed.size(), here.size());
@@ -149,7 +215,7 @@ void jacobians(Trial& trial)
           p[k] += s;
           return quantities(shape.primitives(p).at(i));
         };
-        for (const Deviation& wrong : deviations(moved, column, point.margin[k]))
+        for (const Deviation& wrong : accepted_deviations(moved, column, point.margin[k]))
           fail("d({} of '{}')/d {} at {} = {:.6g}: {}", quantity_name(here[i], wrong.component), here[i].name,
                shape.parameters()[k].name, shape.parameters()[k].name, point.p[k], text_of(wrong));
       }
@@ -157,13 +223,96 @@ void jacobians(Trial& trial)
   }
 }
 
+/// Distances of a solid from points near it and its probe, as functions of its sizes; `claimed` are
+/// derivatives by them, as the solid gives them.
+struct SolidSamples {
+  std::vector<Vec3> points;
+  std::vector<ProbeAngles> angles;
+  std::vector<Vec3> directions;
+
+  SolidSamples(const Solid& solid, Random& random)
+  {
+    constexpr int count = 6;
+    for (int k = 0; k < count; ++k) {
+      const double u = random.between(0.0, 6.28), v = random.between(0.0, 6.28);
+      angles.push_back({std::cos(u), std::sin(u), 1.0, 0.0});
+      if (solid.probe_dimension() == 2) angles.back() = {std::cos(u), std::sin(u), std::cos(v), std::sin(v)};
+      directions.push_back(random.vector(1.0));
+      const Vec3 x = solid.surface_point({std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
+      const double far = std::min(0.3 * solid.smoothness().reach, 0.3 * solid.radius());
+      points.push_back(x + far * solid.distance(x).normal);
+    }
+  }
+  Values values(const Solid& solid) const
+  {
+    Values out;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      out.push_back(solid.distance(points[k]).distance);
+      out.push_back(directions[k].dot(solid.probe(angles[k]).x) - solid.offset());
+    }
+    return out;
+  }
+  /// Along a change of the sizes.
+  Values claimed(const Solid& solid, const Values& sizes_change) const
+  {
+    Values out, by_size(sizes_change.size());
+    const auto along = [&] {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < by_size.size(); ++j) sum += by_size[j] * sizes_change[j];
+      out.push_back(sum);
+    };
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      solid.distance_sizes(points[k], by_size);
+      along();
+      solid.probe_sizes(angles[k], directions[k], by_size);
+      along();
+    }
+    return out;
+  }
+};
+
+/// Sizes move the surface as the solid says: an element's sizes are designed by these derivatives.
+void solid_sizes(Trial& trial)
+{
+  const Object object = trial.make();
+  const Shape& shape = *object.shape;
+  const std::size_t count = shape.parameters().size();
+  bool any = false;
+  for (int draw_number = 0; draw_number < 3; ++draw_number) {
+    const Point point = draw_point(shape, trial);
+    const std::vector<Primitive> here = shape.primitives(point.p);
+    const std::vector<PrimitiveJacobian> jacobian = shape.jacobians(point.p);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      if (!here[i].solid) continue;
+      any = true;
+      const SolidSamples samples(*here[i].solid, trial.random);
+      for (std::size_t k = 0; k < count; ++k) {
+        Values change(here[i].solid->sizes().size());
+        for (std::size_t j = 0; j < change.size(); ++j)
+          change[j] = jacobian[i][(primitive_dofs + j) * count + k];
+        const Along moved = [&](double s) {
+          Values p = point.p;
+          p[k] += s;
+          return samples.values(*shape.primitives(p).at(i).solid);
+        };
+        for (const Deviation& wrong :
+             accepted_deviations(moved, samples.claimed(*here[i].solid, change), 0.2 * point.margin[k]))
+          fail("the {} of '{}' by its sizes is not what its derivatives say, along {}: {}",
+               wrong.component % 2 == 0 ? "distance" : "probe", here[i].name, shape.parameters()[k].name,
+               text_of(wrong));
+      }
+    }
+  }
+  if (!any) skip("none of its primitives is a solid");
+}
+
 /// A rotation of a primitive may not depend on parameters: nothing carries its derivative.
 void rotations(Trial& trial)
 {
   const Object object = trial.make();
   const std::vector<Primitive> first = object.shape->primitives(draw_point(*object.shape, trial).p);
-  for (int draw = 0; draw < points; ++draw) {
-    const std::vector<Primitive> other = object.shape->primitives(draw_point(*object.shape, trial).p);
+  for (int draw_number = 0; draw_number < points(trial); ++draw_number) {
+    const std::vector<Primitive> other = object.shape->primitives(draw(*object.shape, trial, draw_number).p);
     for (std::size_t i = 0; i < std::min(first.size(), other.size()); ++i) {
       const double turned = (first[i].rotation - other[i].rotation).cwiseAbs().maxCoeff();
       require(turned <= rounding, "the rotation of '{}' depends on the parameters, by {:.3g}", first[i].name,
@@ -179,8 +328,8 @@ void scaling(Trial& trial)
   const auto is_length = [](const ParameterInfo& info) { return info.unit == "length"; };
   if (std::none_of(infos.begin(), infos.end(), is_length)) skip("none of its parameters is a length");
   int compared = 0;
-  for (int draw = 0; draw < points; ++draw) {
-    const Point point = draw_point(*object.shape, trial);
+  for (int draw_number = 0; draw_number < points(trial); ++draw_number) {
+    const Point point = draw(*object.shape, trial, draw_number);
     const std::vector<Primitive> small = object.shape->primitives(point.p);
     for (const double factor : {2.0, 0.5}) {
       Node values = trial.section.values;
@@ -225,6 +374,7 @@ void add_shape_checks(std::vector<Check>& out)
   add("shape.primitives", "primitives are closed; names, number and order do not depend on parameters",
       primitives);
   add("shape.jacobians", "Jacobians are the derivatives: differences approach them with slope 2", jacobians);
+  add("shape.solid_sizes", "sizes of solids move distance and probe as the solid says", solid_sizes);
   add("shape.rotations", "rotations of primitives do not depend on parameters", rotations);
   add("shape.scaling", "all lengths times c gives positions and sizes times c", scaling);
   add("shape.surface",

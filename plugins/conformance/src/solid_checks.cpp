@@ -1,5 +1,6 @@
 #include "solid_checks.hpp"
 
+#include "maximise.hpp"
 #include "verdict.hpp"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ constexpr double rounding = 1e-9;
 constexpr double coarse = 1e-5;
 constexpr double step = 1e-4;
 constexpr int samples = 40;
+constexpr int searches = 5;  ///< of worst cases
 
 ProbeAngles angles(double u, double v) { return {std::cos(u), std::sin(u), std::cos(v), std::sin(v)}; }
 
@@ -194,6 +196,91 @@ class SolidCheck {
         require(over <= rounding * size_,
                 "a derivative of the probe of '{}' is longer than its bound by {:.3g}", name_, over);
       }
+      third_derivatives(b, u, v);
+      if (k < searches) worst_of_probe(u, v, hu, hv);
+    }
+  }
+
+  /// The five derivatives of the probe that have bounds, over these.
+  static std::array<double, 5> over_bounds(const ProbeDerivatives& d, const ProbeBounds& b, double floor)
+  {
+    return {d.u.norm() / (b.u + floor), d.v.norm() / (b.v + floor), d.uu.norm() / (b.uu + floor),
+            d.uv.norm() / (b.uv + floor), d.vv.norm() / (b.vv + floor)};
+  }
+
+  /// Searches the worst point of the worst box of these half-widths.
+  void worst_of_probe(double u, double v, double hu, double hv)
+  {
+    constexpr int sweeps = 30;
+    const double floor = rounding * size_;
+    const auto ratios = [&](const std::vector<double>& x) {
+      const ProbeBounds b = solid_.probe_bounds(x[0], x[1], hu, hv);
+      const double a = std::clamp(x[2], -1.0, 1.0), c = std::clamp(x[3], -1.0, 1.0);
+      return over_bounds(solid_.probe(angles(x[0] + a * hu, x[1] + c * hv)), b, floor);
+    };
+    for (std::size_t k = 0; k < 5; ++k) {
+      const std::vector<double> worst =
+          maximise([&](const std::vector<double>& x) { return ratios(x)[k]; }, {u, v, 0.0, 0.0},
+                   {0.4, hv == 0.0 ? 0.0 : 0.4, 0.5, 0.5}, sweeps);
+      const double ratio = ratios(worst)[k];
+      require(ratio <= 1.0 + 1e-6, "a derivative of the probe of '{}' is {:.9g} times its bound", name_,
+              ratio);
+    }
+  }
+
+  /// The bounds of the curvatures, where they are nearest to being broken.
+  void worst_curvature(const SolidSmoothness& s)
+  {
+    constexpr int sweeps = 30;
+    const auto over = [&](const std::vector<double>& x) {
+      const SolidDistance d = solid_.distance(solid_.surface_point(angles(x[0], x[1])));
+      const double most = std::max(d.bend_along, d.bend_across),
+                   least = std::min(d.bend_along, d.bend_across);
+      const double concave = std::isfinite(s.reach) ? -least * s.reach : 0.0;
+      return std::max(most / (s.convex + rounding / size_), concave);
+    };
+    for (int k = 0; k < searches; ++k) {
+      const double ratio = over(maximise(over, {angle(), angle()}, {0.4, 0.4}, sweeps));
+      require(ratio <= 1.0 + 1e-5, "'{}' bends {:.9g} times as much as its smoothness allows", name_, ratio);
+    }
+  }
+
+  /// Third derivatives of the probe at a place of a box, by differences of second ones, against its bounds.
+  void third_derivatives(const ProbeBounds& b, double u, double v)
+  {
+    const auto by = [&](double du, double dv) {
+      const ProbeDerivatives a = solid_.probe(angles(u + du, v + dv)),
+                             c = solid_.probe(angles(u - du, v - dv));
+      return std::array<double, 2>{(a.uu - c.uu).norm() / (2.0 * step), (a.vv - c.vv).norm() / (2.0 * step)};
+    };
+    const auto [uuu, uvv] = by(step, 0.0);
+    const auto [uuv, vvv] = by(0.0, step);
+    const double over = std::max({uuu - b.uuu, uuv - b.uuv, uvv - b.uvv, vvv - b.vvv});
+    require(jumps_ || over <= coarse * size_,
+            "a third derivative of the probe of '{}' is longer than its bound by {:.3g}", name_, over);
+  }
+
+  /// Normal curvature of the surface along the tangent nearest to `t` at the point nearest to x.
+  double curvature_along(const Vec3& x, const Vec3& t) const
+  {
+    const SolidDistance d = solid_.distance(x - solid_.distance(x).distance * solid_.distance(x).normal);
+    const Vec3 along = (t - t.dot(d.normal) * d.normal).normalized();
+    const double a = along.dot(d.along), c = along.dot(d.normal.cross(d.along));
+    return a * a * d.bend_along + c * c * d.bend_across;
+  }
+
+  /// A geodesic with the tangent t goes through x + s t, projected, up to the order s^3.
+  void change_of_curvature(double most)
+  {
+    for (int k = 0; k < samples; ++k) {
+      const Vec3 x = solid_.surface_point(angles(angle(), angle())), n = solid_.distance(x).normal;
+      const Vec3 other = random_.vector(1.0), t = (other - other.dot(n) * n).normalized();
+      const double h = 1e-3 * solid_.thickness();
+      const double change =
+          std::abs(curvature_along(x + h * t, t) - curvature_along(x - h * t, t)) / (2.0 * h);
+      require(change <= most * (1.0 + 1e-3) + coarse / (size_ * solid_.thickness()),
+              "the normal curvature of '{}' changes by {:.6g} along a geodesic, its bound is {:.6g}", name_,
+              change, most);
     }
   }
 
@@ -228,6 +315,8 @@ class SolidCheck {
             s.reach, name_, d.norm());
       }
     }
+    worst_curvature(s);
+    if (!jumps_) change_of_curvature(s.change);
   }
 
   const std::string& name_;

@@ -224,7 +224,7 @@ void check_motions(const Shape& shape, const Point& point, Random& random)
 void check_surfaces(Trial& trial)
 {
   const Object object = trial.make();
-  for (int draw = 0; draw < 3; ++draw) {
+  for (int draw = 0; draw < (trial.switched ? 1 : 3); ++draw) {
     const Point point = draw_point(*object.shape, trial);
     check_motions(*object.shape, point, trial.random);
     for (const Primitive& primitive : object.shape->primitives(point.p)) {
@@ -335,7 +335,7 @@ void check_distances(Trial& trial)
 {
   constexpr int n = 48;
   const Object object = trial.make();
-  for (int draw = 0; draw < 2; ++draw) {
+  for (int draw = 0; draw < (trial.switched ? 1 : 2); ++draw) {
     const std::vector<Primitive> primitives = object.shape->primitives(draw_point(*object.shape, trial).p);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const Primitive &p = primitives[i], &f = primitives[(i + 1) % primitives.size()];

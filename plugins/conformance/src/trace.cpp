@@ -88,40 +88,52 @@ Exercise::Exercise(const Object& object, Trial& trial)
   }
 }
 
-std::vector<double> Exercise::operator()(const Object& object) const
+std::vector<double> Exercise::operator()(const Object& object) const { return all(object, false); }
+
+std::vector<double> Exercise::backwards(const Object& object) const { return all(object, true); }
+
+void Exercise::trace_state(const LoadCase& load_case, const State& s, const std::vector<Vec3>& cycles,
+                           Numbers& out)
 {
-  Numbers out;
-  if (object.shape) {
-    for (const Point& point : points_) trace_shape(*object.shape, point.p, out);
-  }
-  if (object.optimizer) trace_optimizer(*object.optimizer, out);
-  if (!object.load_case) return out;
-  const LoadCase& load_case = *object.load_case;
+  trace_position(load_case, s.macro, s.e, s.X, s.T, out);
+  out.push_back(load_case.acceleration_bound(s.macro, s.step, s.e, s.de, s.X, s.T));
+  out.push_back(load_case.admissible(s.macro) ? 1.0 : 0.0);
+  const auto [smallest, largest] = load_case.stretch_range(s.macro);
+  const Direction direction = Direction::at_radians(s.theta);
+  Numbers load(s.macro.size()), metric(s.macro.size());
+  load_case.load(direction, load);
+  load_case.metric(metric);
+  append(out, load);
+  append(out, metric);
+  append(out, Numbers{smallest, largest, load_case.value(direction, s.macro)});
+  for (const auto& [name, value] : load_case.companions(direction, s.macro)) out.push_back(value);
+  for (const MacroCondition& held : load_case.conditions(direction))
+    append(out, {held.coefficients.data(), s.macro.size()});
+  out.push_back(static_cast<double>(load_case.boundedness(load, cycles)));
+}
+
+std::vector<double> Exercise::all(const Object& object, bool reversed) const
+{
+  std::vector<Numbers> parts(points_.size() + states_.size());
   std::vector<Vec3> X, cycles;
-  X.reserve(states_.size());
-  cycles.reserve(states_.size());
   for (const State& s : states_) {
     X.push_back(s.X);
     cycles.push_back(s.T);
-    trace_position(load_case, s.macro, s.e, s.X, s.T, out);
-    out.push_back(load_case.acceleration_bound(s.macro, s.step, s.e, s.de, s.X, s.T));
-    out.push_back(load_case.admissible(s.macro) ? 1.0 : 0.0);
-    const auto [smallest, largest] = load_case.stretch_range(s.macro);
-    const Direction direction = Direction::at_radians(s.theta);
-    Numbers load(s.macro.size()), metric(s.macro.size());
-    load_case.load(direction, load);
-    load_case.metric(metric);
-    append(out, load);
-    append(out, metric);
-    append(out, Numbers{smallest, largest, load_case.value(direction, s.macro)});
-    for (const auto& [name, value] : load_case.companions(direction, s.macro)) out.push_back(value);
-    out.push_back(static_cast<double>(load_case.boundedness(load, cycles)));
   }
-  for (const LinearInequality& wall : load_case.inequalities(X)) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::size_t at = reversed ? parts.size() - 1 - k : k;
+    if (object.shape) trace_shape(*object.shape, points_[at].p, parts[at]);
+    if (object.load_case) trace_state(*object.load_case, states_[at], cycles, parts[at]);
+  }
+  Numbers out;
+  for (const Numbers& part : parts) append(out, part);
+  if (object.optimizer) trace_optimizer(*object.optimizer, out);
+  if (!object.load_case) return out;
+  for (const LinearInequality& wall : object.load_case->inequalities(X)) {
     out.push_back(wall.offset);
     for (const LinearTerm& term : wall.terms) out.push_back(term.coefficient);
   }
-  for (const LinearEquality& held : load_case.equalities(X)) {
+  for (const LinearEquality& held : object.load_case->equalities(X)) {
     for (const LinearTerm& term : held.terms) out.push_back(term.coefficient);
   }
   return out;

@@ -14,14 +14,20 @@ class Exercise {
   Exercise(const Object& object, Trial& trial);
   /// Calls every method with these arguments and lists what came back. Thread safe where the object is.
   std::vector<double> operator()(const Object& object) const;
+  /// The same list, asked for from the last arguments to the first.
+  std::vector<double> backwards(const Object& object) const;
 
  private:
+  std::vector<double> all(const Object& object, bool reversed) const;
+
   std::vector<Point> points_;  ///< of shapes
   struct State {
     std::vector<double> macro, step, e, de;
     Vec3 X, T;
     double theta;
   };
+  static void trace_state(const LoadCase& load_case, const State& s, const std::vector<Vec3>& cycles,
+                          std::vector<double>& out);
   std::vector<State> states_;  ///< of load cases
 };
 

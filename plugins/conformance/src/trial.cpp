@@ -85,6 +85,31 @@ std::optional<std::string> refused_around(const Shape& shape, const Point& point
   return message;
 }
 
+/// A point of these ranges that the shape accepts, with its margins; `last` is the last refusal.
+std::optional<Point> draw_from(const Shape& shape, const std::vector<Range>& ranges, Trial& trial, int draws,
+                               std::optional<std::string>& last)
+{
+  for (int draw = 0; draw < draws; ++draw) {
+    Point point;
+    point.p.reserve(ranges.size());
+    point.margin.reserve(ranges.size());
+    for (const Range& r : ranges) {
+      const bool wide = r.low > 0.0 && r.high > 20.0 * r.low;
+      const double middle = r.low == r.high ? r.low : 0.0;
+      const double inside = margin_part * (r.high - r.low);
+      const double value = wide ? trial.random.scale(1.2 * r.low, r.high / 1.2)
+                                : trial.random.between(r.low + inside, r.high - inside);
+      point.p.push_back(r.low == r.high ? middle : value);
+      point.margin.push_back(wide ? margin_part * value : inside);
+    }
+    last = refused_around(shape, point);
+    if (last) continue;
+    trial.look_at(shape, point.p);
+    return point;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool mentions(std::string_view text, std::string_view name)
@@ -174,31 +199,48 @@ std::string quantity_name(const Primitive& primitive, std::size_t row)
 
 Point draw_point(const Shape& shape, Trial& trial)
 {
-  check_given(shape, trial.section.parameters);
+  if (!trial.switched) check_given(shape, trial.section.parameters);
   const std::vector<Range> ranges = ranges_of(shape, trial.section.parameters);
   std::optional<std::string> last;
-  for (int draw = 0; draw < most_draws; ++draw) {
-    Point point;
-    point.p.reserve(ranges.size());
-    point.margin.reserve(ranges.size());
-    for (const Range& r : ranges) {
-      const bool wide = r.low > 0.0 && r.high > 20.0 * r.low;
-      const double middle = r.low == r.high ? r.low : 0.0;
-      const double inside = margin_part * (r.high - r.low);
-      const double value = wide ? trial.random.scale(1.2 * r.low, r.high / 1.2)
-                                : trial.random.between(r.low + inside, r.high - inside);
-      point.p.push_back(r.low == r.high ? middle : value);
-      point.margin.push_back(wide ? margin_part * value : inside);
-    }
-    last = refused_around(shape, point);
-    if (last) continue;
-    trial.look_at(shape, point.p);
-    return point;
+  const std::optional<Point> point = draw_from(shape, ranges, trial, most_draws, last);
+  if (!point)
+    throw NoParameters(fmt::format(
+        "no parameters found that the shape accepts, the last refusal: {}; give defaults to its parameters, or "
+        "--section '{{\"parameters\": {{...}}}}'",
+        last.value_or("")));
+  return *point;
+}
+
+std::pair<double, double> whole_range(const ParameterInfo& info)
+{
+  constexpr double decades = 1e3;
+  const bool given = std::isfinite(info.default_value) && info.default_value != 0.0;
+  const double typical = given ? std::abs(info.default_value) : 1.0;
+  const double least = info.lower > 0.0 ? typical / decades : -typical * decades;
+  const double low = std::min(std::max(info.lower, least), info.upper);
+  return {low, std::max(low, std::min(info.upper, typical * decades))};
+}
+
+Point draw_far_point(const Shape& shape, Trial& trial)
+{
+  constexpr int tries = 40;
+  const std::vector<ParameterInfo>& infos = shape.parameters();
+  std::vector<Range> whole;
+  whole.reserve(infos.size());
+  for (const ParameterInfo& info : infos) {
+    const auto [low, high] = whole_range(info);
+    whole.push_back({low, high});
   }
-  fail(
-      "no parameters found that the shape accepts, the last refusal: {}; give defaults to its parameters, or "
-      "--section '{{\"parameters\": {{...}}}}'",
-      last.value_or(""));
+  std::optional<std::string> last;
+  if (const auto point = draw_from(shape, whole, trial, tries, last)) return *point;
+  const std::vector<Range> near = ranges_of(shape, trial.section.parameters);
+  for (int draw = 0; draw < tries && !infos.empty(); ++draw) {
+    std::vector<Range> mixed = near;
+    const auto k = static_cast<std::size_t>(trial.random.between(0.0, static_cast<double>(infos.size())));
+    mixed[k] = whole[k];
+    if (const auto point = draw_from(shape, mixed, trial, 1, last)) return *point;
+  }
+  return draw_point(shape, trial);
 }
 
 std::vector<double> draw_macro(const LoadCase& load_case, Random& random, double size)

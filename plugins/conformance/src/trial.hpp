@@ -8,9 +8,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hauberk::conformance {
+
+/// Ends a check: no parameters were found that a shape accepts.
+class NoParameters : public Failure {
+ public:
+  using Failure::Failure;
+};
 
 /// A plugin's object, behind the guard of the program: what it throws and what it does to the floating-point
 /// mode becomes a PluginError that says so.
@@ -23,14 +30,15 @@ struct Object {
 /// One run of a check. Everything in it follows from its arguments.
 class Trial {
  public:
-  Trial(const PluginTable& plugin_table, const Setup& setup, std::uint64_t seed)
-      : table(plugin_table), section(read_section(plugin_table, setup)), random(seed)
+  Trial(const PluginTable& plugin_table, Section at, std::uint64_t seed)
+      : table(plugin_table), section(std::move(at)), random(seed)
   {
   }
 
   const PluginTable& table;
   Section section;
   Random random;
+  bool switched = false;  ///< a switch of the section is set otherwise than the setup has it
   std::string looked_at;  ///< the parameters looked at last, for messages: "R = 1.2, r = 0.25"
   /// Says what is looked at.
   void look_at(const Shape& shape, const std::vector<double>& p);
@@ -59,6 +67,11 @@ struct Point {
   std::vector<double> p, margin;
 };
 Point draw_point(const Shape& shape, Trial& trial);
+/// The same with one of the parameters, or all where the shape accepts that, drawn from their whole bounds;
+/// from three decades to both sides of the default where those are wider.
+Point draw_far_point(const Shape& shape, Trial& trial);
+/// Where a parameter is drawn from then.
+std::pair<double, double> whole_range(const ParameterInfo& info);
 /// Message of the refusal of p; null where the shape accepts it.
 std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p);
 

@@ -21,6 +21,12 @@ class Skip : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Ends a check: the plugin takes too long.
+class Slow : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args)
 {

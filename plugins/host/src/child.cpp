@@ -12,8 +12,11 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
+#include <ctime>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -82,15 +85,56 @@ void write_all(int fd, std::string_view text)
   ::_exit(0);  // no destructor of the parent's objects may run here
 }
 
+/// Processor time of another process and of its threads, seconds; 0 where the system does not tell.
+double processor_seconds(pid_t pid)
+{
+  clockid_t clock{};
+  timespec used{};
+  if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0.0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+/// The time of a child.
+class Watch {
+ public:
+  Watch(pid_t pid, const TimeLimits& limits) : pid_(pid), limits_(limits) {}
+
+  /// Milliseconds until it must be looked at again; null: its time is over.
+  std::optional<int> wait()
+  {
+    constexpr double longest = 1.0, shortest = 0.001;
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    used_ = std::max(used_, processor_seconds(pid_));
+    // Several threads may use it up faster than it passes.
+    const double left = std::min(limits_.elapsed - elapsed, 0.25 * (limits_.processor - used_) + shortest);
+    over_processor_ = used_ >= limits_.processor;
+    if (over_processor_ || elapsed >= limits_.elapsed) return std::nullopt;
+    return static_cast<int>(std::ceil(1e3 * std::clamp(left, shortest, longest)));
+  }
+  double used() const { return used_; }
+  std::string ending() const
+  {
+    return over_processor_ ? fmt::format("did not return within {} s of processor time", limits_.processor)
+                           : fmt::format("did not return within {} s", limits_.elapsed);
+  }
+
+ private:
+  pid_t pid_;
+  TimeLimits limits_;
+  Clock::time_point start_ = Clock::now();
+  double used_ = 0.0;
+  bool over_processor_ = false;
+};
+
 /// Reads both pipes until they end or time is over; returns whether they ended.
-bool read_until(Clock::time_point end, int result, std::string& text, int output, std::string& printed)
+bool read_until(Watch& watch, int result, std::string& text, int output, std::string& printed)
 {
   std::array<pollfd, 2> waiting{pollfd{result, POLLIN, 0}, pollfd{output, POLLIN, 0}};
   std::array<std::string*, 2> into{&text, &printed};
   while (waiting[0].fd >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    if (left <= 0) return false;
-    const int ready = ::poll(waiting.data(), waiting.size(), static_cast<int>(std::min<long>(left, 1000)));
+    const std::optional<int> wait = watch.wait();
+    if (!wait) return false;
+    const int ready = ::poll(waiting.data(), waiting.size(), *wait);
     if (ready < 0 && errno != EINTR) cannot("poll");
     if (ready <= 0) continue;
     for (std::size_t k = 0; k < waiting.size(); ++k) {
@@ -127,6 +171,11 @@ std::string ending_of(int status, const std::string& printed)
 
 Child in_child(const std::function<std::string()>& f, double seconds)
 {
+  return in_child(f, TimeLimits{.elapsed = seconds});
+}
+
+Child in_child(const std::function<std::string()>& f, const TimeLimits& limits)
+{
   Pipe result, output;
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
@@ -135,11 +184,13 @@ Child in_child(const std::function<std::string()>& f, double seconds)
   result.close(1);
   output.close(1);
   ::setpgid(pid, pid);  // whoever comes first
-  const auto end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  Watch watch(pid, limits);
   Child child;
   std::string printed;
-  const bool in_time = read_until(end, result.read_end(), child.text, output.read_end(), printed);
+  const bool in_time = read_until(watch, result.read_end(), child.text, output.read_end(), printed);
+  static_cast<void>(watch.wait());
+  child.processor_seconds = watch.used();
+  child.out_of_time = !in_time;
   if (!in_time) ::kill(-pid, SIGKILL);
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
@@ -147,7 +198,7 @@ Child in_child(const std::function<std::string()>& f, double seconds)
   ::kill(-pid, SIGKILL);  // what it started and left
   child.returned = in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0 && !child.text.empty();
   if (!in_time) {
-    child.ending = fmt::format("did not return within {} s", seconds);
+    child.ending = watch.ending();
   } else if (!child.returned) {
     child.ending = ending_of(status, printed);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -38,6 +39,29 @@ TEST(InChild, SurvivesWhateverHappens)
             "ended the process with exit code 0");
   EXPECT_EQ(in_child([]() -> std::string { throw std::runtime_error("no licence"); }, 20.0).ending,
             "ended by signal 6 (Aborted); it last printed:   what():  no licence");
+}
+
+TEST(InChild, CountsProcessorTime)
+{
+  const auto busy = []() -> std::string {
+    std::atomic<bool> forever{true};
+    while (forever.load()) {
+    }
+    return "never";
+  };
+  const Child computes = in_child(busy, TimeLimits{.processor = 0.2, .elapsed = 60.0});
+  EXPECT_TRUE(computes.out_of_time);
+  EXPECT_EQ(computes.ending, "did not return within 0.2 s of processor time");
+  EXPECT_GE(computes.processor_seconds, 0.2);
+  // What sleeps uses none.
+  const auto sleep = []() -> std::string {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return "slept";
+  };
+  const Child sleeps = in_child(sleep, TimeLimits{.processor = 0.2, .elapsed = 60.0});
+  EXPECT_EQ(sleeps.text, "slept");
+  EXPECT_FALSE(sleeps.out_of_time);
+  EXPECT_LT(sleeps.processor_seconds, 0.2);
 }
 
 TEST(InChild, EndsWhatDoesNotReturn)

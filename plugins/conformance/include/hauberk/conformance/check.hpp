@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hauberk::conformance {
@@ -18,16 +19,21 @@ struct Setup {
   /// and the `parameters` of a shape are the point around which it is looked at. Empty: made from its fields,
   /// of defaults and, where something is required, of the simplest value.
   std::string section;
+  /// Whether checks of a kind are run again with every boolean, every choice and every kind of value in it
+  /// set otherwise, one at a time.
+  bool switches = true;
 };
 
 /// What came of a check.
 struct Outcome {
-  enum class Status { passed, failed, skipped };
+  /// Slow: it, or what it called, took longer than it may, and nothing is known to be wrong with the answers.
+  enum class Status { passed, failed, skipped, slow };
   Status status = Status::passed;
-  std::string text;  ///< failed: what is wrong with which numbers; skipped: why; passed: a remark, or nothing
+  std::string text;  ///< failed, slow: what is wrong with which numbers; skipped: why; passed: nothing
+  std::vector<std::pair<std::string, double>> times = {};  ///< seconds of a call, where they were measured
 };
 
-/// "passed", "failed", "skipped".
+/// "passed", "failed", "skipped", "slow".
 const char* status_name(Outcome::Status status);
 
 /// One property of a plugin. Its function is deterministic: the seed decides what is drawn.

@@ -50,9 +50,10 @@ class LoadTest : public testing::Test {
   std::string why_;
 };
 
-/// Registers the checks of the plugin in `file` as tests of suite `suite`. Returns true.
+/// Registers the checks of the plugin in `file` as tests of suite `suite`; `switches` as in Setup. Returns
+/// true.
 inline bool register_tests(const char* suite, const std::string& file, const std::string& section = {},
-                           std::uint64_t seed = 1)
+                           std::uint64_t seed = 1, bool switches = true)
 {
   try {
     const PluginTable& table = PluginLibrary::load(file).table();
@@ -60,8 +61,8 @@ inline bool register_tests(const char* suite, const std::string& file, const std
       std::string name = check.name;
       std::replace(name.begin(), name.end(), '.', '_');
       testing::RegisterTest(suite, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
-                            [check, &table, section, seed]() -> testing::Test* {
-                              return new ConformanceTest(check, table, Setup{section}, seed);
+                            [check, &table, section, seed, switches]() -> testing::Test* {
+                              return new ConformanceTest(check, table, Setup{section, switches}, seed);
                             });
     }
   } catch (const PluginError& error) {

@@ -12,9 +12,11 @@ namespace hauberk::conformance {
 /// Where and how checks run.
 struct Conditions {
   std::uint64_t seed = 1;
-  double seconds = 60.0;    ///< longest time of a check; not kept in this process
-  bool in_process = false;  ///< for debuggers
-  std::string filter;       ///< of names; empty: all
+  int seeds = 1;               ///< each check is run with so many seeds, one after the other, until it fails
+  double seconds = 60.0;       ///< longest processor time of a run of a check; not kept in this process
+  bool until_failure = false;  ///< no further checks are run after one that did not pass
+  bool in_process = false;     ///< for debuggers
+  std::string filter;          ///< of names; empty: all
   Setup setup;
 };
 

@@ -1,19 +1,26 @@
 /// A load case with curvature, walls and a length of its own, and with a defect.
 ///
-/// Unknowns e and g: x = F (X + T) + u, F = [[a, g], [g, a]] in the plane, a = 1 + e + e^2/2, and u in space
-/// within a layer around the plane. Admissible is |g| < 1 + e, a convex part of where F is positive definite.
+/// Unknowns e and g: x = F (X + T) + u, F = [[a, g], [g, a]] in the plane, a = exp e, and u in space within a
+/// layer around the plane. Admissible is |g| < 1 + e, a convex part of where F is positive definite.
+/// `weighted` doubles the metric.
 
 #include "defect.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace hauberk::mutants {
 namespace {
 
 class Mutant final : public LoadCase {
  public:
-  Mutant(std::string defect, double half_height) : defect_(std::move(defect)), half_height_(half_height) {}
+  Mutant(std::string defect, double half_height, bool weighted)
+      : defect_(std::move(defect)), half_height_(half_height), weighted_(weighted)
+  {
+    if (is("macro_length_power")) macros_[e].length_power = -1;
+    if (is("same_unknown_twice")) macros_[g].name = "e";
+  }
 
  protected:
   using Values = std::span<const double>;
@@ -25,7 +32,7 @@ class Mutant final : public LoadCase {
   void do_position(Values macro, Values u, const Vec3& X, const Vec3& T, PositionMap& out) const override
   {
     const Vec3 rest = X + T;
-    const double a = stretch(macro[e]), slope = 1.0 + macro[e];
+    const double a = stretch(macro[e]), slope = a;
     out.x = Vec3(a * rest.x() + macro[g] * rest.y(), macro[g] * rest.x() + a * rest.y(), rest.z()) +
             Vec3(u[0], u[1], u[2]);
     out.J.col(e) = slope * Vec3(rest.x(), rest.y(), 0.0);
@@ -34,18 +41,24 @@ class Mutant final : public LoadCase {
     for (auto& component : out.H) {
       for (auto& row : component) row.fill(0.0);
     }
-    out.H[0][e][e] = rest.x();
-    out.H[1][e][e] = rest.y();
+    out.H[0][e][e] = a * rest.x();
+    out.H[1][e][e] = a * rest.y();
     out.curved = true;
     spoil(macro, u, rest, T, out);
   }
 
-  double do_acceleration_bound(Values, Values dmacro, Values, Values, const Vec3& X,
+  double do_acceleration_bound(Values macro, Values dmacro, Values, Values, const Vec3& X,
                                const Vec3& T) const override
   {
     const Vec3 rest = X + T;
-    const double bound = dmacro[e] * dmacro[e] * std::hypot(rest.x(), rest.y());
-    return is("low_acceleration_bound") ? 0.99 * bound : bound;
+    const double start = stretch(macro[e]), end = stretch(macro[e] + dmacro[e]);
+    const double bound = dmacro[e] * dmacro[e] * std::hypot(rest.x(), rest.y()) * std::max(start, end);
+    if (is("bound_of_the_start")) return bound * start / std::max(start, end);
+    if (is("bound_of_the_mean")) return bound * 0.5 * (start + end) / std::max(start, end);
+    if (is("half_acceleration_bound")) return 0.5 * bound;
+    if (is("acceleration_bound_of_the_element"))
+      return dmacro[e] * dmacro[e] * std::hypot(X.x(), X.y()) * std::max(start, end);
+    return is("low_acceleration_bound") ? 0.9 * bound : bound;
   }
 
   bool do_admissible(Values macro) const override
@@ -58,6 +71,10 @@ class Mutant final : public LoadCase {
   std::pair<double, double> do_stretch_range(Values macro) const override
   {
     const double a = stretch(macro[e]), g_size = std::abs(macro[g]);
+    if (is("stretch_range_times_0.9")) return {a - g_size, 0.9 * (a + g_size)};
+    if (is("stretch_range_times_0.999")) return {a - g_size, 0.999 * (a + g_size)};
+    if (is("stretch_range_from_above")) return {1.001 * (a - g_size), a + g_size};
+    if (is("stretch_range_of_the_axes")) return {std::hypot(a, g_size), std::hypot(a, g_size)};
     if (is("narrow_stretch_range")) return {a - 0.5 * g_size, a + g_size};
     return {a - g_size, a + g_size};
   }
@@ -67,21 +84,26 @@ class Mutant final : public LoadCase {
     t[e] = 1.0;
     t[g] = std::sin(2.0 * theta);
     if (is("load_of_other_angle")) t[g] = std::cos(2.0 * theta);
+    if (is("load_has_the_wrong_sign")) t[g] *= -1.0;
+    if (is("load_behind_option") && weighted_) t[g] *= 1.0 + 1e-6;
     if (is("load_nearly_dual")) t[g] *= 1.0 + 1e-6;
   }
   double do_value(double theta, Values macro) const override
   {
     const double offset = is("value_not_zero_at_rest") ? 0.1 : 0.0;
+    if (value_disturbs()) disturb(defect_.substr(6));
+    if (is("value_in_percent")) return 100.0 * (macro[e] + std::sin(2.0 * theta) * macro[g]);
     return macro[e] + std::sin(2.0 * theta) * macro[g] + offset;
   }
   std::string do_measure() const override { return is("no_measure") ? "" : "mixed"; }
-  int do_value_length_power() const override { return 0; }
+  int do_value_length_power() const override { return is("value_length_power") ? -1 : 0; }
   std::pair<std::string, std::string> do_sense_names() const override { return {"stretch", "compress"}; }
   void do_metric(std::span<double> m) const override
   {
     if (is("rounds_down")) std::fesetround(FE_TOWARDZERO);
-    m[e] = 2.0;
-    m[g] = is("zero_metric") ? 0.0 : 2.0;
+    m[e] = weighted_ ? 4.0 : 2.0;
+    m[g] = is("zero_metric") ? 0.0 : m[e];
+    if (is("metric_behind_option") && weighted_) m[g] = -m[g];
   }
 
   /// Whatever maps the axes to each other keeps F what it is; a single mirror turns the shear round.
@@ -101,7 +123,7 @@ class Mutant final : public LoadCase {
     const std::string defect = is("stricter_has_another_value") ? "value_not_zero_at_rest" : defect_;
     const double height = (is("stricter_is_higher") ? 2.0 : 0.5) * half_height_;
     std::vector<StricterLoadCase> out;
-    out.push_back({"lower", std::make_unique<Mutant>(defect, height)});
+    out.push_back({"lower", std::make_unique<Mutant>(defect, height, weighted_)});
     return out;
   }
   bool do_contains(const LoadCase& other) const override
@@ -144,10 +166,26 @@ class Mutant final : public LoadCase {
  private:
   enum { e, g };
   bool is(const char* defect) const { return defect_ == defect; }
-  static double stretch(double strain) { return 1.0 + strain + 0.5 * strain * strain; }
+  bool value_disturbs() const { return defect_.rfind("value_", 0) == 0; }
+  static double stretch(double strain) { return std::exp(strain); }
 
   void spoil(Values macro, Values u, const Vec3& rest, const Vec3& T, PositionMap& out) const
   {
+    out.x.z() += whim(defect_, this, macro[e]);
+    if (is("slow")) wait(1e-3);
+    if (is("sign_behind_option") && weighted_) out.J(1, g) *= -1.0;
+    if (is("nearly_right_behind_option") && weighted_) out.J(0, g) *= 1.0 + 1e-6;
+    if (is("second_derivative_far") && std::abs(macro[g]) > 0.2) out.H[0][e][e] *= 1.001;
+    if (is("throws_far") && std::abs(macro[g]) > 0.25) throw std::out_of_range("vector::at");
+    if (is("not_a_number_far") && std::abs(macro[g]) > 0.25) out.x.y() = std::sqrt(-1.0);
+    if (is("single_precision")) out.x.x() = static_cast<float>(out.x.x());
+    if (is("static_scratch")) {
+      static double scratch = 0.0;
+      scratch = rest.x();
+      wait(2e-6);  // what else is computed meanwhile
+      out.x.x() += 1e-3 * (static_cast<volatile double&>(scratch) - rest.x());
+    }
+    if (is("image_drifts")) out.x.z() += 1e-6 * T.x();
     if (is("moved_at_rest")) out.x.x() += 1e-6;
     if (is("wrong_first_derivative")) out.J(1, g) = rest.y();
     if (is("nearly_right_first_derivative")) out.J(0, e) *= 1.0 + 1e-6;
@@ -162,12 +200,12 @@ class Mutant final : public LoadCase {
       out.x.z() += 0.01 * T.x() * T.x() * macro[g];
       out.J(2, g) += 0.01 * T.x() * T.x();
     }
-    if (is("crash")) crash();
   }
 
   std::vector<MacroInfo> macros_{{"e", 0}, {"g", 0}};
   std::string defect_;
   double half_height_;
+  bool weighted_;
 };
 
 void fields(std::vector<Field>& out)
@@ -179,6 +217,12 @@ void fields(std::vector<Field>& out)
   height.minimum = 0.0;
   height.default_json = "1";
   out.push_back(height);
+  Field weighted;
+  weighted.name = "weighted";
+  weighted.kind = Field::Kind::boolean;
+  weighted.doc = "Whether the metric is doubled.";
+  weighted.default_json = "false";
+  out.push_back(weighted);
   add_defect_field(out);
 }
 
@@ -186,7 +230,9 @@ std::unique_ptr<LoadCase> make(const Node& section, double length, Problems&)
 {
   const std::string defect = defect_of(section);
   const double height = section.at("half_height").number;
-  return std::make_unique<Mutant>(defect, defect == "forgets_the_length" ? height : height / length);
+  if (defect == "make_prints") disturb("prints");
+  return std::make_unique<Mutant>(defect, defect == "forgets_the_length" ? height : height / length,
+                                  section.at("weighted").boolean);
 }
 
 }  // namespace

@@ -38,7 +38,10 @@ class Misused final : public OptimizationProblem {
     Evaluation e =
         is("swallows_exceptions") ? swallowed(x, want_gradient) : problem_.evaluate(x, want_gradient);
     if (is("takes_failures_for_zero") && !e.ok) return {true, -1.0, std::vector<double>(x.size(), 0.0), ""};
+    const double whimsical = whim(defect_, this, x[0]);
+    if (is("slow")) wait(0.02);
     for (double& slope : e.gradient) {
+      slope *= 1.0 + whimsical;
       if (is("stops_early")) slope *= 1e-5;
       if (is("climbs")) slope *= -1.0;
       if (is("remembers_runs")) slope *= 1.0 + 1e-10 * shared_runs;
@@ -110,7 +113,6 @@ class Mutant final : public Optimizer {
     Misused misused(problem, defect_);
     Deaf deaf(observer);
     const int rounding = std::fegetround();
-    if (is("hang")) hang();
     if (is("rounds_up_meanwhile")) std::fesetround(FE_UPWARD);
     OptimizerResult r = inner_->minimize(misused, start, is("deaf") ? deaf : observer);
     if (is("rounds_up_meanwhile")) std::fesetround(rounding);

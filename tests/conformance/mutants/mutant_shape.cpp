@@ -21,12 +21,19 @@ int shared_calls = 0;
 class Mutant final : public Shape {
  public:
   Mutant(std::unique_ptr<Shape> inner, std::string defect, bool crossed)
-      : inner_(std::move(inner)), defect_(std::move(defect)), parameters_(inner_->parameters())
+      : inner_(std::move(inner)),
+        defect_(std::move(defect)),
+        crossed_(crossed),
+        parameters_(inner_->parameters())
   {
     if (is("default_outside_bounds")) parameters_[waist].default_value = 3.0;
     if (is("same_name_twice")) parameters_[r].name = "R";
     if (is("no_unit")) parameters_[waist].unit = "furlong";
     if (is("shared_state")) shared_size = crossed ? 0.5 : 0.25;
+    if (is("unit_of_r")) parameters_[r].unit = "1";
+    if (is("unit_of_waist")) parameters_[waist].unit = "length";
+    if (is("bounds_the_wrong_way")) std::swap(parameters_[waist].lower, parameters_[waist].upper);
+    if (is("parameter_without_name")) parameters_[r].name.clear();
   }
 
  protected:
@@ -34,8 +41,6 @@ class Mutant final : public Shape {
 
   void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
   {
-    if (is("crash")) crash();
-    if (is("hang")) hang();
     if (is("throws")) throw std::runtime_error("no primitives today");
     if (is("rounds_up")) std::fesetround(FE_UPWARD);
     if (is("closed_hole") && p[r] >= p[R]) {
@@ -58,6 +63,7 @@ class Mutant final : public Shape {
       right.kind = PrimitiveKind::curve_tube;
       right.curve = {{Vec3(p[R], 0.0, 0.0), Vec3::Zero()}, {Vec3::Zero(), Vec3(0.0, 0.35 * p[R], 0.0)}};
     }
+    spoil(p, right);
     if (is("shared_state")) right.position.y() += shared_size * p[R];
     if (is("counts_calls")) right.position.y() += 1e-12 * p[R] * ++shared_calls;
     if (is("not_thread_safe")) {
@@ -83,6 +89,7 @@ class Mutant final : public Shape {
       y_waist += p[waist] > 1.5 ? 0.1 * p[R] : -0.1 * p[R];
     }
     if (is("jump") && p[waist] > 1.5) y_R += 1e-3;
+    spoil(p, out.back());
     if (is("shared_state")) y_R += shared_size;
     if (is("not_thread_safe")) y_R += 1.0;
   }
@@ -90,9 +97,63 @@ class Mutant final : public Shape {
  private:
   enum { R, r, waist };
   bool is(const char* defect) const { return defect_ == defect; }
+  bool is_far(std::span<const double> p) const { return p[R] > 20.0; }
+  bool is_corner(std::span<const double> p) const
+  {
+    const auto& infos = parameters_;
+    return p[R] == infos[R].upper && p[r] == infos[r].lower && p[waist] == infos[waist].upper;
+  }
+
+  /// Mistakes away from the defaults, behind the option, or in the process.
+  void spoil(std::span<const double> p, Primitive& right) const
+  {
+    Vec3& x = right.position;
+    x.y() += whim(defect_, this, p[R]) * p[R];
+    if (is("slow")) wait(0.15);
+    if (is("turns_far") && is_far(p)) right.rotation = rotation_exp(Vec3(0.0, 0.0, p[waist] - 1.5));
+    if (is("turns_behind_option") && crossed_) right.rotation = rotation_exp(Vec3(0.0, 0.0, p[waist]));
+    if (is("jump_far") && is_far(p)) x.y() += 1e-3 * p[R];
+    if (is("jump_of_r_far") && p[r] > 1.5) x.y() += 1e-3 * p[R];
+    if (is("needle") && std::abs(p[R] - 31.4159) < 1e-5) x.y() += 1e-3 * p[R];
+    if (is("kink_far") && is_far(p)) x.y() += 0.1 * (p[R] - 20.0);
+    if (is("throws_in_corner") && is_corner(p)) throw std::out_of_range("vector::at");
+    if (is("not_a_number_in_corner") && is_corner(p)) x.y() = std::nan("");
+    if (is("refuses_without_name_far") && is_far(p)) throw InputError("out of range");
+    if (is("single_precision")) x.x() = static_cast<float>(x.x());
+    if (is("forgets_r")) right.size = {p[R], 0.1, 0.1};
+    if (is("forgets_R")) x.x() = 2.5 * p[waist];
+    if (is("length_behind_option") && crossed_) x.y() += 0.1;
+    if (is("unknown_kind_behind_option") && crossed_) right.kind = static_cast<PrimitiveKind>(17);
+    if (is("two_radii")) right.size[2] *= 1.1;
+    if (is("throws_behind_option") && crossed_) throw std::runtime_error("not crossed yet");
+    if (is("mirrored")) right.rotation.col(0) *= -1.0;
+    if (is("name_behind_bound") && p[waist] > 1.95) right.name = "far";
+    if (is("factor")) x.x() *= 1.02;
+  }
+
+  void spoil(std::span<const double> p, PrimitiveJacobian& J) const
+  {
+    double& x_waist = J[0 * 3 + waist];
+    if (is("sign_behind_option") && crossed_) x_waist *= -1.0;
+    if (is("nearly_right_behind_option") && crossed_) x_waist *= 1.0 + 1e-6;
+    if (is("sign_far") && is_far(p)) x_waist *= -1.0;
+    if (is("off_by_1e-9_R")) J[2 * 3 + r] += 1e-9;
+    if (is("of_the_other_ring")) J[0 * 3 + R] *= -1.0;
+    if (is("kink_far") && is_far(p)) J[1 * 3 + R] += 0.1;
+    if (is("jump_far") && is_far(p)) J[1 * 3 + R] += 1e-3;
+    if (is("jump_of_r_far") && p[r] > 1.5) J[1 * 3 + R] += 1e-3;
+    if (is("jacobian_throws_in_corner") && is_corner(p)) throw std::out_of_range("vector::at");
+    if (is("too_few_rows_behind_option") && crossed_) J.resize(9);
+    if (is("jacobian_rounds_down")) std::fesetround(FE_DOWNWARD);
+    if (is("forgets_r")) J[4 * 3 + r] = J[5 * 3 + r] = 0.0;
+    if (is("forgets_R")) J[0 * 3 + R] = 0.0, x_waist = 2.5;
+    if (is("length_in_jacobian")) x_waist = 2.5;
+    if (is("factor")) J[0 * 3 + R] *= 1.02, x_waist *= 1.02;
+  }
 
   std::unique_ptr<Shape> inner_;
   std::string defect_;
+  bool crossed_;
   std::vector<ParameterInfo> parameters_;
   mutable double scratch_ = 0.0;
 };
@@ -107,6 +168,9 @@ std::unique_ptr<Shape> make(const Node& section, Problems& problems)
 {
   const std::string defect = defect_of(section);
   const bool crossed = section.at("crossed").boolean;
+  if (defect == "make_moves") disturb("directory");
+  if (defect == "make_throws_behind_option" && crossed) throw std::bad_alloc();
+  if (defect == "make_returns_nothing_behind_option" && crossed) return nullptr;
   if (defect == "unnamed_problem" && crossed) problems.add({"", 0, "something is wrong"});
   return std::make_unique<Mutant>(reference_plugin.make_shape(without_defect(section), problems), defect,
                                   crossed);

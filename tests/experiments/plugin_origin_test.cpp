@@ -32,7 +32,7 @@ TEST(PluginOrigin, ResultsTellTheLibraryAndAreNotResumedWithAnother)
   const std::string copy = folder / "plugins/torus_union.so";
   fs::copy_file(own_plugins + "torus_union.so", copy);
   const auto run = [&](const std::string& how) {
-    return run_program({"run", file, "-o", out, how, "--plugin-path", folder / "plugins"});
+    return run_program({"run", file, "-o", out, how, "--quiet", "--plugin-path", folder / "plugins"});
   };
   const Outcome first = run("--force");
   ASSERT_EQ(first.code, 0) << first.err;

@@ -13,8 +13,8 @@ std::shared_ptr<const Registry> open_registry(const Options& options);
 std::string shadow_text(const std::string& id, const std::filesystem::path& used,
                         const std::filesystem::path& shadowed);
 
-/// Says on stderr where somebody else may write plugins, and which files of those that the experiment uses are
-/// shadowed.
+/// Says on stderr where somebody else may write plugins, and which files of those that the experiment uses
+/// are shadowed.
 void warn_of_plugins(const Prepared& prepared);
 
 /// The experiment that `options` name, with --set. Throws as prepare_job.

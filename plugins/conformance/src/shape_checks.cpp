@@ -71,6 +71,13 @@ void bounds(Trial& trial)
   }
 }
 
+/// Whether a refusal tells one of the parameters.
+bool names_one(const std::string& message, const std::vector<ParameterInfo>& infos)
+{
+  return std::any_of(infos.begin(), infos.end(),
+                     [&](const ParameterInfo& info) { return mentions(message, info.name); });
+}
+
 /// The kernel has checked that sizes are positive; what is left is that the tube leaves a hole.
 void require_closed(const Primitive& primitive)
 {
@@ -80,13 +87,6 @@ void require_closed(const Primitive& primitive)
           "primitive '{}' is no closed surface with a hole: its tube of half-width {} closes its radius {}; "
           "refuse such parameters",
           primitive.name, primitive.r0(), primitive.R());
-}
-
-/// Whether a refusal tells one of the parameters.
-bool names_one(const std::string& message, const std::vector<ParameterInfo>& infos)
-{
-  return std::any_of(infos.begin(), infos.end(),
-                     [&](const ParameterInfo& info) { return mentions(message, info.name); });
 }
 
 std::vector<std::string> names_of(const Shape& shape, const Values& p)
@@ -127,7 +127,12 @@ void corners(Trial& trial, const Shape& shape)
             "a corner of the bounds is refused without the name of a parameter: '{}'", message.value_or(""));
     if (message) continue;
     require_names(shape, p, names);
-    static_cast<void>(shape.jacobians(p));
+    for (const Primitive& primitive : shape.primitives(p)) require_closed(primitive);
+    try {
+      static_cast<void>(shape.jacobians(p));
+    } catch (const InputError& error) {
+      fail("parameters of which there are primitives have no Jacobians: '{}'", error.what());
+    }
   }
 }
 

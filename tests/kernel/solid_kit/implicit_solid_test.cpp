@@ -315,7 +315,8 @@ void expect_distance(const std::vector<double>& q, double outside, double inside
     EXPECT_LE(s.at_least, s.at_least < 0.0 ? 0.0 : nearest + 1e-12) << x.transpose();
     EXPECT_TRUE(std::isfinite(s.distance) && std::isfinite(s.at_least));
     // Where no foot is certain balls tell, which are small beside the distance.
-    if (s.distance > 0.0) EXPECT_GE(s.at_least, 0.9 * nearest - 0.1 * solid.radius()) << x.transpose();
+    if (s.distance <= 0.0) continue;
+    EXPECT_GE(s.at_least, 0.9 * nearest - 0.1 * solid.radius()) << x.transpose();
   }
 }
 

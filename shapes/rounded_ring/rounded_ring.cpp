@@ -50,6 +50,13 @@ void RoundedRing::check(const double* q)
 {
   const double R = q[0], w = q[1], h = q[2], corner = q[3];
   if (!(w < R)) throw InputError(fmt::format("w = {:.6g} leaves no hole in a ring of R = {:.6g}", w, R));
+  constexpr double finest = 1e-6;  // below, nothing is certified of its curvature
+  const double size = std::max(R, h);
+  for (std::size_t k = 1; k < size_names.size(); ++k)
+    if (q[k] < finest * size)
+      throw InputError(
+          fmt::format("{} = {:.6g} is below {:g} of the ring's size {:.6g}: too fine to be computed",
+                      size_names[k], q[k], finest, size));
   if (corner > std::min(w, h))
     throw InputError(
         fmt::format("corner = {:.6g} is larger than half the wire, w = {:.6g} and h = {:.6g}", corner, w, h));

@@ -93,6 +93,12 @@ TEST(RoundedRing, RefusesWhatIsNoRing)
   };
   EXPECT_EQ(message({1.0, 1.0, 0.5, 0.1}), "w = 1 leaves no hole in a ring of R = 1");
   EXPECT_EQ(message({5.0, 0.7, 0.5, 0.6}), "corner = 0.6 is larger than half the wire, w = 0.7 and h = 0.5");
+  EXPECT_EQ(message({1.0, 0.5, 0.5, 1e-7}),
+            "corner = 1e-07 is below 1e-06 of the ring's size 1: too fine to be computed");
+  // What is at the border is still certified.
+  EXPECT_EQ(message({1.0, 0.5, 0.5, 1e-6}), "accepted");
+  EXPECT_EQ(message({1.0, 1e-6, 1e-6, 1e-6}), "accepted");
+  EXPECT_EQ(message({1.0, 0.5, 10.0, 1e-5}), "accepted");
 }
 
 }  // namespace

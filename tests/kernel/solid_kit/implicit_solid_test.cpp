@@ -218,8 +218,8 @@ TEST(ImplicitSolid, BoundsHowFarItsSurfaceMovesToOtherSizes)
     EXPECT_LE(speed, most_slack * farthest) << Author::kind;
   };
   // Of a torus |dR| + |dr| at the outside.
-  EXPECT_NEAR(ImplicitSolid<PlainTorus>({3.0, 1.0}).speed(std::vector{3.2, 1.1}), 0.3, 0.003);
-  check(PlainTorus{}, {3.0, 1.0}, {3.2, 1.1}, 1.02);
+  EXPECT_NEAR(ImplicitSolid<PlainTorus>({3.0, 1.0}).speed(std::vector{3.2, 1.1}), 0.3, 0.012);
+  check(PlainTorus{}, {3.0, 1.0}, {3.2, 1.1}, 1.04);
   check(RevolvedTorus{}, {3.0, 1.0}, {2.6, 0.5}, 2.5);  // points move along the surface, too
   check(Ellipsoid{}, {3.0, 2.0, 1.0}, {3.0, 2.0, 1.3}, 1.02);
   check(Capsule{}, {2.0, 1.0}, {2.2, 1.0}, 1.1);

@@ -43,7 +43,7 @@ expect '' hauberk nonsense ''
 # Options, of the command alone.
 expect '--threads' hauberk run --th
 expect '--set --starts' hauberk room --s
-expect '--seconds --section --seed' hauberk plugins conform --s
+expect '--seconds --section --seed --seeds' hauberk plugins conform --s
 expect '--json' hauberk verify --j
 expect '' hauberk verify --th
 expect '--force' hauberk report --recheck x --f

@@ -62,7 +62,7 @@ expect() {  # WHAT LINE
 expect 'report room run' 'hauberk r'
 expect '--threads' 'hauberk run --th'
 expect 'conform describe list new' 'hauberk plugins '
-expect '--seconds --section --seed' 'hauberk plugins conform --s'
+expect '--seconds --section --seed --seeds' 'hauberk plugins conform --s'
 expect 'load_case optimizer shape' 'hauberk plugins new --kind '
 expect '/solver/preset=accurate /solver/preset=paper' 'hauberk run --set /solver/preset'
 expect 'chain.json folder' 'hauberk check '

@@ -102,7 +102,7 @@ inline std::vector<AngleSpan> spans_between(std::vector<double> cuts, double wid
   return spans;
 }
 
-/// Bounds over the table's cells, and of |x| over all of them.
+/// Bounds over the table's cells.
 ///
 /// The chart is evaluated on Taylor models over parts of cells, so that bounds over a part are off by the
 /// square of its size. Cells end where second derivatives jump; what holds such a place within has no bounded
@@ -140,8 +140,6 @@ class ChartBounds {
         b.uuu = b.uuv = b.uvv = b.vvv = std::numeric_limits<double>::infinity();
     return b;
   }
-
-  double largest_distance() const { return farthest_; }
 
  private:
   static constexpr double rounding = 1e-9;  ///< of angles
@@ -181,7 +179,6 @@ class ChartBounds {
     const auto over = [&](auto... k) {
       return longest({x[0].derivative(k...), x[1].derivative(k...), x[2].derivative(k...)});
     };
-    farthest_ = std::max(farthest_, over());
     if constexpr (dimension == 1) return {.u = over(0), .uu = over(0, 0), .uuu = over(0, 0, 0)};
     constexpr double unknown = std::numeric_limits<double>::infinity();
     ProbeBounds b{over(0), over(1), over(0, 0), over(0, 1), over(1, 1), unknown, unknown, unknown, unknown};
@@ -193,7 +190,24 @@ class ChartBounds {
   std::vector<AngleSpan> u_, v_ = std::vector<AngleSpan>(1);
   std::vector<double> breaks_;
   std::vector<ProbeBounds> cells_;  ///< by v, then u
-  double farthest_ = 0.0;
 };
+
+/// Upper bound of the distance of surface points from the origin.
+template <class Author>
+double farthest_point(const double* q)
+{
+  constexpr double part = std::numbers::pi / 16.0;
+  const auto sizes = constants<Author, OverCell>(q);
+  const bool revolved = ChartDomain::of<Author>(q).revolved;
+  const auto parts_u = revolved ? std::vector<AngleSpan>{{0.0, 0.0}} : equal_parts({}, part);
+  double farthest = 0.0;
+  for (const AngleSpan& u : parts_u)
+    for (const AngleSpan& v : equal_parts({}, part)) {
+      const Point<OverCell> x = Author::template chart<OverCell>(
+          turn_range(u.center(), u.half(), false), turn_range(v.center(), v.half(), true), sizes.data());
+      farthest = std::max(farthest, longest({x[0], x[1], x[2]}));
+    }
+  return farthest;
+}
 
 }  // namespace hauberk::kit

@@ -54,7 +54,10 @@ class ImplicitSolid final : public Solid {
     return {Author::size_names.begin(), Author::size_names.end()};
   }
   const std::vector<double>& sizes() const override { return sizes_; }
-  double radius() const override { return surface().largest_distance(); }
+  double radius() const override
+  {
+    return radius_.get([&] { return farthest_point<Author>(q()); });
+  }
   double thickness() const override
   {
     if constexpr (Say::has_core)
@@ -228,6 +231,7 @@ class ImplicitSolid final : public Solid {
   Lazy<CurvatureBounds> curvature_;
   Lazy<double> reach_;
   Lazy<SolidSmoothness> smoothness_;
+  Lazy<double> radius_;
   Lazy<SurfaceBalls<Author>> balls_;
 };
 

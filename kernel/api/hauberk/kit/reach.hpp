@@ -5,7 +5,9 @@
 
 namespace hauberk::kit {
 
-/// A surface as a tree of cells, each with two halves that are made when asked for.
+/// A surface as a tree of cells, each with two halves that are made when asked for. Normals of a surface of
+/// revolution meet its axis or are parallel to it, so that double normals lie in planes through the axis:
+/// there the meridian u = 0 and the one opposite are all.
 template <class Author>
 class SurfaceTree {
  public:
@@ -16,19 +18,18 @@ class SurfaceTree {
 
   explicit SurfaceTree(const double* q) : q_(q), domain_(ChartDomain::of<Author>(q))
   {
-    const double half_u = domain_.half_u(), half_v = domain_.half_v();
-    for (int i = 0; i < ChartDomain::columns; ++i)
-      for (int j = 0; j < domain_.rows(); ++j)
-        nodes_.push_back({domain_.revolved && i > 0
-                              ? turned(nodes_[j].cell, 2 * i * half_u)
-                              : surface_cell<Author, false>(q, (2 * i + 1) * half_u, (2 * j + 1) * half_v,
-                                                            half_u, half_v)});
+    const double half_u = domain_.revolved ? 0.0 : domain_.half_u(), half_v = domain_.half_v();
+    for (int i = 0; i < columns(); ++i)
+      for (int j = 0; j < domain_.rows(); ++j) {
+        const double u = domain_.revolved ? std::numbers::pi * i : (2 * i + 1) * half_u;
+        nodes_.push_back({surface_cell<Author, false>(q, u, (2 * j + 1) * half_v, half_u, half_v)});
+      }
     for (const Node& n : nodes_) size_ = std::max(size_, n.cell.x.norm());
   }
 
   const SurfaceCell& cell(int k) const { return nodes_[k].cell; }
-  int roots() const { return ChartDomain::columns * domain_.rows(); }
-  /// The first cells of pairs: by symmetry one column will do of a surface of revolution.
+  int roots() const { return columns() * domain_.rows(); }
+  /// The first cells of pairs.
   int first_roots() const { return domain_.revolved ? domain_.rows() : roots(); }
   int size() const { return static_cast<int>(nodes_.size()); }
 
@@ -49,15 +50,7 @@ class SurfaceTree {
   }
 
  private:
-  /// A cell of a surface of revolution farther around it.
-  static SurfaceCell turned(SurfaceCell cell, double by)
-  {
-    const Mat3 r = ChartDomain::about_z(turn(by));
-    cell.u += by;
-    cell.x = r * cell.x;
-    cell.frame = r * cell.frame;
-    return cell;
-  }
+  int columns() const { return domain_.revolved ? 2 : ChartDomain::columns; }
 
   const double* q_;
   ChartDomain domain_;

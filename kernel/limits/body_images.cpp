@@ -3,6 +3,7 @@
 #include "geometry/closed_curve.hpp"
 #include "model/near_pairs.hpp"
 
+#include <hauberk/solid.hpp>
 #include <hauberk/triangle_surface.hpp>
 
 #include <algorithm>
@@ -75,18 +76,46 @@ bool same_surface(const TriangleSurface& a, const TriangleSurface& b)
   return &a == &b || (a.points() == b.points() && a.triangles() == b.triangles());
 }
 
+/// Two solids of one kind and, to rounding, with the same sizes; and two bodies that are none.
+bool alike(const Body& a, const Body& b)
+{
+  if (!a.solid || !b.solid) return !a.solid && !b.solid;
+  const std::vector<double>&own = a.solid->sizes(), &other = b.solid->sizes();
+  return a.solid->kind() == b.solid->kind() &&
+         std::equal(own.begin(), own.end(), other.begin(), other.end(), same_length);
+}
+
 /// Meshes lie upon each other where their frames do: facets know neither mirrors nor turns about the axis.
 bool carries_mesh(const Body& a, const Body& b, const Mat3& S)
 {
   if ((S * a.axes - b.axes).norm() > same_geometry) return false;
   if (!a.surface != !b.surface || !a.curve != !b.curve) return false;
+  if (!alike(a, b)) return false;
   return a.surface ? same_surface(*a.surface, *b.surface) : !a.curve || same_harmonics(*a.curve, *b.curve);
 }
 
-/// Nor is anything known of a solid's own symmetry.
+/// Whether an isometry about its origin carries a solid to itself, as far as points of its surface tell: they
+/// all come to lie on it. Points of a regular grid might come to lie on each other, so u goes on by the
+/// golden section, which no turn of a regular body repeats.
+bool carries_to_itself(const Solid& solid, const Mat3& turn, double tolerance)
+{
+  constexpr int points = 97;
+  constexpr double golden = 0.61803398874989485, first = 0.137;
+  for (int k = 0; k < points; ++k) {
+    const double u = 2.0 * std::numbers::pi * (first + golden * k),
+                 v = 2.0 * std::numbers::pi * (k + 0.5) / points;
+    const Vec3 x = solid.surface_point({std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
+    if (!(std::abs(solid.distance(turn * x).distance) <= tolerance)) return false;
+  }
+  return true;
+}
+
 bool carries_solid(const Body& a, const Body& b, const Mat3& S)
 {
-  return (S * a.axes - b.axes).norm() <= same_geometry && same_solid(a, b);
+  if (!alike(a, b)) return false;
+  const Mat3 turn = b.axes.transpose() * S * a.axes;
+  return (turn - Mat3::Identity()).norm() <= same_geometry ||
+         carries_to_itself(*a.solid, turn, same_geometry * a.unit);
 }
 
 bool carries(const Body& a, const Body& b, const Mat3& S)

@@ -1,5 +1,8 @@
 #include "limits/donors.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,11 +24,56 @@ double turn(double from, double to)
   return t <= -90.0 ? t + 180.0 : t;
 }
 
+/// The symmetric tensor S whose product S : dF with what macroscopic unknowns make of the lattice at rest is
+/// the load's with them; what they cannot make has no part in it.
+Mat3 load_tensor(const Model& m, const Direction& direction)
+{
+  const Eigen::Index vectors = static_cast<Eigen::Index>(m.lattice.size()), nm = m.macro_count;
+  const State rest = rest_state(m);
+  const Vector none = Vector::Zero(m.coordinate_count);
+  const auto span = [](const Vector& v) {
+    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
+  };
+  Eigen::Matrix3Xd T(3, vectors);
+  std::vector<PositionMap> maps(m.lattice.size());
+  for (Eigen::Index k = 0; k < vectors; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    T.col(k) = m.lattice[at];
+    m.load->position(span(rest.macro), span(none), Vec3::Zero(), m.lattice[at], maps[at]);
+  }
+  const Matrix inverse = T.completeOrthogonalDecomposition().pseudoInverse();
+  Matrix basis(9, nm);
+  for (Eigen::Index k = 0; k < nm; ++k) {
+    Eigen::Matrix3Xd moved(3, vectors);
+    for (Eigen::Index v = 0; v < vectors; ++v) moved.col(v) = maps[static_cast<std::size_t>(v)].J.col(k);
+    const Mat3 dF = moved * inverse;
+    basis.col(k) = Mat3(0.5 * (dF + dF.transpose())).reshaped();
+  }
+  Vector load = Vector::Zero(nm);
+  m.load->load(direction, {load.data(), static_cast<std::size_t>(nm)});
+  const Vector S = basis.transpose().completeOrthogonalDecomposition().solve(load);
+  return S.reshaped(3, 3);
+}
+
+/// Whether the load pushes along a line that the lattice has.
+bool pushes(const Model& m, const Direction& direction)
+{
+  constexpr double rounding = 1e-9;
+  Eigen::Matrix3Xd T(3, static_cast<Eigen::Index>(m.lattice.size()));
+  for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
+  const Matrix lines = Eigen::HouseholderQR<Matrix>(T).householderQ() * Matrix::Identity(3, T.cols());
+  const Matrix S = lines.transpose() * load_tensor(m, direction) * lines;
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
+  return values.minCoeff() < -rounding * values.cwiseAbs().maxCoeff();
+}
+
 }  // namespace
 
 bool may_fold(const Model& m, const LimitTask& task)
 {
-  return m.load->periodic() && task.sense == Sense::negative;
+  if (!m.load->periodic()) return false;
+  if (task.direction.is_angle()) return task.sense == Sense::negative;
+  return !m.lattice.empty() && pushes(m, task.direction);
 }
 
 Donors::Donors(const Model& m, const std::vector<LimitTask>& tasks)

@@ -6,8 +6,9 @@
 
 namespace hauberk {
 
-/// True for a limit that has room to be short of the furthest state: the compression of a cell that repeats.
-/// Stretched fabrics are taut, and were never seen to be.
+/// True for a limit that has room to be short of the furthest state: that of a cell which repeats under a load
+/// that pushes it together along some line, as compressions do and shears. Fabrics that are stretched alone are
+/// taut.
 bool may_fold(const Model& model, const LimitTask& task);
 
 /// Donors are numbered task by task; each has one donor for every symmetry of the scene, the identity first.

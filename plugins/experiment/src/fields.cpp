@@ -157,8 +157,9 @@ Field solver_field()
                     0.0, true),
            with_default(
                at_least(integer("starts",
-                                "Perturbed starts per limit; compressions of small periodic cells have "
-                                "at least 32."),
+                                "Perturbed starts per limit; those of loads that push small periodic cells "
+                                "together, such as compressions and shears along components, have at "
+                                "least 32."),
                         1),
                "1"),
            with_default(

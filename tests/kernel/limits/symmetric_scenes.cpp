@@ -1,5 +1,7 @@
 #include "symmetric_scenes.hpp"
 
+#include "shapes/strut_frame/strut_frame.hpp"
+
 namespace hauberk::test {
 namespace {
 
@@ -140,6 +142,49 @@ SceneSpec trefoils()
   s.elements.push_back({0, {0.3}, {Vec3::Zero(), Mat3::Identity()}});
   s.lattice = {Vec3(a * std::cos(30.0 * degree), 0.5 * a, 0.0), Vec3(0.0, a, 0.0)};
   return s;
+}
+
+namespace {
+
+std::shared_ptr<const Shape> cage(const char* name)
+{
+  for (const Polyhedron& p : polyhedra())
+    if (p.name == std::string_view(name)) return std::make_shared<StrutFrame>(p.graph());
+  return nullptr;
+}
+
+/// Cages with edges of length 10, one at the origin and, if there are two turns, one at `second`.
+SceneSpec cages(const char* name, const std::vector<Vec3>& lattice, const std::vector<Vec3>& turns,
+                const Vec3& second)
+{
+  SceneSpec s;
+  s.types.push_back({name, cage(name)});
+  for (const Vec3& turn : turns)
+    s.elements.push_back(
+        {0, {10.0, 0.5}, {s.elements.empty() ? Vec3(Vec3::Zero()) : second, rotation_exp(turn)}});
+  s.lattice = lattice;
+  return s;
+}
+
+}  // namespace
+
+SceneSpec diamond()
+{
+  return cages("tetrahedron", {Vec3(0, 8, 8), Vec3(8, 0, 8), Vec3(8, 8, 0)},
+               {Vec3(0, 0, 45.0 * degree), Vec3(0, 0, 135.0 * degree)}, Vec3(4, 4, 4));
+}
+
+SceneSpec truncated_tetrahedra()
+{
+  return cages("truncated_tetrahedron", {Vec3(19.5, 0, 0), Vec3(0, 19.5, 0), Vec3(0, 0, 19.5)},
+               {Vec3::Zero()}, Vec3::Zero());
+}
+
+SceneSpec octahedra_solid()
+{
+  const Vec3 turn = 25.0 * degree * Vec3(1, 1, 1).normalized();
+  return cages("octahedron", {Vec3(0, 8.2, 8.2), Vec3(8.2, 0, 8.2), Vec3(8.2, 8.2, 0)}, {turn, -turn},
+               Vec3(8.2, 0, 0));
 }
 
 }  // namespace hauberk::test

@@ -26,4 +26,14 @@ SceneSpec cubic();
 /// that has y among its shortest vectors.
 SceneSpec trefoils();
 
+/// Tetrahedra of struts on the sites of diamond, corner in corner (share/experiments/diamond_tetrahedra.json).
+SceneSpec diamond();
+
+/// Truncated tetrahedra of struts on a cubic lattice, edge over edge.
+SceneSpec truncated_tetrahedra();
+
+/// Octahedra of struts on the sites of rock salt, turned about (1, 1, 1) one way and the other
+/// (octahedra_solid.json).
+SceneSpec octahedra_solid();
+
 }  // namespace hauberk::test

@@ -2,6 +2,8 @@
 
 #include "limits/symmetry.hpp"
 
+#include "limits/donors.hpp"
+
 #include "equilibrium/gaps.hpp"
 #include "loadcases/in_plane_periodic/in_plane_periodic.hpp"
 #include "loadcases/paraboloid_bending/paraboloid_bending.hpp"
@@ -101,6 +103,10 @@ std::vector<Known> known_groups()
       // About its apex it has what the element in the middle has: the outline has more.
       {"patch of threefold elements", threefold_patch(), &bending, 12, 12},
       {"cubic", cubic(), &solid, 48, 48},
+      // Fd-3m, P-43m and, with the turn about (1, 1, 1), R-3c.
+      {"diamond of tetrahedra", diamond(), &solid, 48, 48},
+      {"truncated tetrahedra", truncated_tetrahedra(), &solid, 24, 24},
+      {"octahedra turned both ways", octahedra_solid(), &solid, 12, 12},
       // The knot is chiral: D3 alone.
       {"trefoils", trefoils(), &flat, 6, 6},
   };
@@ -302,6 +308,28 @@ TEST(Symmetry, ImagesOfStatesAreAsGood)
     }
     EXPECT_TRUE(moved);
   }
+}
+
+/// Limits that are searched from many starts: those of loads that push along some line.
+TEST(Loads, ThoseThatPushMayFold)
+{
+  const auto folds = [](const Model& m, const std::vector<double>& components) {
+    return may_fold(m, {Direction::along(components), Sense::positive});
+  };
+  const Model space = make_model(cubic(), solid, 0.0), sheet = make_model(chainmail(1, 1), flat, 0.0);
+  EXPECT_FALSE(folds(space, {1, 1, 1, 0, 0, 0}));
+  EXPECT_FALSE(folds(space, {0, 1, 0, 0, 0, 0}));
+  EXPECT_TRUE(folds(space, {0, -1, 0, 0, 0, 0}));
+  EXPECT_TRUE(folds(space, {1, 1, -1e-3, 0, 0, 0}));
+  EXPECT_TRUE(folds(space, {0, 0, 0, 0, 0, 1}));
+  // (1, 1, 0) (1, 1, 0)^T pulls along one line; a little more shear pushes across it.
+  EXPECT_FALSE(folds(space, {1, 1, 0, 0, 0, 0.999}));
+  EXPECT_TRUE(folds(space, {1, 1, 0, 0, 0, 1.001}));
+  EXPECT_FALSE(folds(sheet, {1, 0, 0}));
+  EXPECT_TRUE(folds(sheet, {1, -1, 0}));
+  EXPECT_TRUE(folds(sheet, {0, 0, 1}));
+  EXPECT_TRUE(may_fold(sheet, {Direction::at_degrees(30), Sense::negative}));
+  EXPECT_FALSE(may_fold(sheet, {Direction::at_degrees(30), Sense::positive}));
 }
 
 /// A patch above the plane of its apex turns over about its own height: its image lies there, too.

@@ -110,7 +110,7 @@ void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1
       const double w = w1 * point.weights[k];
       const Vec3 by = facets.size_derivative(point.points[k]).transpose() * n;
       for (std::size_t q = 0; q < 3; ++q) d[3 + q] += w * by[static_cast<Eigen::Index>(q)];
-      facets.add_harmonics(point.points[k], w * n, curve);
+      facets.add_own_sizes(point.points[k], w * n, curve);
     }
   };
   for (int k = 0; k < 3; ++k) {

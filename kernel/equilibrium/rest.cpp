@@ -9,6 +9,7 @@
 #include "model/near_pairs.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 
 #include <fmt/format.h>
 
@@ -53,17 +54,35 @@ void add_deep_overlaps(const Model& m, std::vector<Gap>& worst)
   }
 }
 
+/// Whether the curves by which links of a body are counted are inside of its mesh. Between sections a core is
+/// at most R (1 - cos h) from the chord, h half the angle between them; a curve |x_uu| h^2/2.
+bool holds_core(const Body& b, int facets)
+{
+  if (b.surface) return true;  // its loops are on the mesh
+  if (b.solid) {
+    std::vector<std::vector<Vec3>> curves = b.facets->loops();
+    if (b.solid->probe_dimension() == 1) {
+      constexpr int corners = 64;
+      std::vector<Vec3>& core = curves.emplace_back();
+      for (int k = 0; k < corners; ++k) {
+        const double u = 2.0 * std::numbers::pi * (k + 0.5) / corners;
+        core.emplace_back(b.solid->probe({std::cos(u), std::sin(u), 1.0, 0.0}).x / b.unit);
+      }
+    }
+    return std::all_of(curves.begin(), curves.end(),
+                       [&b](const std::vector<Vec3>& curve) { return encloses(*b.facets, curve); });
+  }
+  const double half = std::numbers::pi / facets, cosine = std::cos(half);
+  const double sag = b.curve ? 0.5 * b.curve->second() * half * half : b.R * (1.0 - cosine);
+  return sag < std::min(b.r0, b.r1) * cosine;
+}
+
 /// What is wrong with the meshes of a state: facets cut across holes, where surfaces leave room. Empty:
 /// nothing.
 std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& state)
 {
   for (const Body& b : m.bodies) {
-    if (b.surface) continue;
-    // Links are those of cores, which must be inside of their meshes. Between sections a core is at most
-    // R (1 - cos h) from the chord, h half the angle between them; a curve |x_uu| h^2/2.
-    const double half = std::numbers::pi / spec.facets, cosine = std::cos(half);
-    const double sag = b.curve ? 0.5 * b.curve->second() * half * half : b.R * (1.0 - cosine);
-    if (sag < std::min(b.r0, b.r1) * cosine) continue;
+    if (holds_core(b, spec.facets)) continue;
     return fmt::format(
         "the mesh of {} is so coarse that the curve at the middle of its tube leaves it; use more than {} "
         "facets",

@@ -4,6 +4,7 @@
 #include "geometry/closed_curve.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
 #include <hauberk/triangle_surface.hpp>
 
 #include <algorithm>
@@ -201,8 +202,117 @@ Facets::Facets(const ClosedCurve& curve, double r, int n)
   complete();
 }
 
-void Facets::add_harmonics(int point, const Vec3& n, std::vector<double>& out) const
+namespace {
+
+/// Derivatives of points of a solid's chart in its sizes, by central differences over other solids of its
+/// kind: charts are smooth, so the error is that of rounding and of the third derivative, some 1e-10.
+class ChartBySizes {
+ public:
+  explicit ChartBySizes(const Solid& solid)
+  {
+    constexpr double part = 1e-5;
+    std::vector<double> sizes = solid.sizes();
+    for (double& size : sizes) {
+      const double own = size, step = part * (own != 0.0 ? std::abs(own) : 1.0);
+      Between& pair = between_.emplace_back();
+      size = own + step;
+      pair.above = solid.with_sizes(sizes);
+      pair.width = size;
+      size = own - step;
+      pair.below = solid.with_sizes(sizes);
+      pair.width -= size;
+      size = own;
+      if (!pair.above || !pair.below)
+        throw InputError("contact \"mesh\" needs solids that know other sizes, and '" + solid.kind() +
+                         "' does not: use another solver.contact");
+    }
+  }
+
+  Eigen::Matrix3Xd at(const ProbeAngles& angles) const
+  {
+    Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(between_.size()));
+    for (Eigen::Index k = 0; k < out.cols(); ++k) {
+      const Between& pair = between_[static_cast<std::size_t>(k)];
+      out.col(k) = (pair.above->surface_point(angles) - pair.below->surface_point(angles)) / pair.width;
+    }
+    return out;
+  }
+
+ private:
+  struct Between {
+    std::shared_ptr<const Solid> below, above;
+    double width = 0.0;
+  };
+  std::vector<Between> between_;
+};
+
+ProbeAngles chart_angles(double u, double v) { return {std::cos(u), std::sin(u), std::cos(v), std::sin(v)}; }
+
+/// How far points of the chart at this v are from the first one, u from section to section.
+double row_size(const Solid& solid, double v, int n)
 {
+  const Vec3 first = solid.surface_point(chart_angles(section_angle(0, n), v));
+  double size = 0.0;
+  for (int i = 1; i < n; ++i)
+    size = std::max(size, (solid.surface_point(chart_angles(section_angle(i, n), v)) - first).norm());
+  return size;
+}
+
+/// Whether the chart has poles at v = 0 and pi: at both or at neither, and at both where it is folded, as it
+/// covers the surface twice otherwise.
+bool has_poles(const Solid& solid, int n)
+{
+  constexpr double rounding = 1e-12;
+  const double most = rounding * solid.radius();
+  const bool first = row_size(solid, 0.0, n) <= most, second = row_size(solid, pi, n) <= most;
+  const bool twice =
+      solid.fold() == Fold::pole || (solid.fold() == Fold::mirror && solid.probe_dimension() == 2);
+  if (first != second || (twice && !first))
+    throw InputError("contact \"mesh\": the chart of '" + solid.kind() +
+                     "' has poles elsewhere than at v = 0 and v = pi; use another solver.contact");
+  return first;
+}
+
+}  // namespace
+
+Facets::Facets(const Solid& solid, double unit, int n)
+{
+  const ChartBySizes by_sizes(solid);
+  const bool poles = has_poles(solid, n);
+  const int rows = poles ? std::max(1, (n + 1) / 2 - 1) : n;
+  const auto add = [&](double u, double v) {
+    const ProbeAngles angles = chart_angles(u, v);
+    points_.emplace_back(solid.surface_point(angles) / unit);
+    by_size_.emplace_back(Mat3::Zero());
+    by_own_.push_back(by_sizes.at(angles));
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < rows; ++j)
+      add(section_angle(i, n), poles ? pi * (j + 1) / (rows + 1) : corner_angle(j, n));
+  }
+  if (poles) {
+    add(0.0, 0.0);
+    add(0.0, pi);
+    add_rows(n, rows);
+  } else {
+    add_quadrilaterals(n);
+  }
+  for (const std::vector<Vec3>& core : solid.cores()) {
+    std::vector<Vec3>& loop = loops_.emplace_back();
+    for (const Vec3& x : core) loop.emplace_back(x / unit);
+  }
+  parts_ = {0};
+  complete();
+}
+
+void Facets::add_own_sizes(int point, const Vec3& n, std::vector<double>& out) const
+{
+  if (!by_own_.empty()) {
+    const Eigen::RowVectorXd by = n.transpose() * by_own_[static_cast<std::size_t>(point)];
+    out.resize(static_cast<std::size_t>(by.size()), 0.0);
+    Eigen::Map<Eigen::RowVectorXd>(out.data(), by.size()) += by;
+    return;
+  }
   if (sections_.empty()) return;
   const auto count = static_cast<int>(sections_.size());
   const Section& section = sections_[static_cast<std::size_t>(point / count)];
@@ -222,6 +332,20 @@ void Facets::add_quadrilaterals(int n)
       triangles_.push_back({{a, b, c}, {}, {}});
       triangles_.push_back({{a, c, d}, {}, {}});
     }
+  }
+}
+
+void Facets::add_rows(int n, int rows)
+{
+  const int first_pole = n * rows, second_pole = first_pole + 1;
+  for (int i = 0; i < n; ++i) {
+    const int here = i * rows, next = (i + 1) % n * rows;
+    triangles_.push_back({{first_pole, here, next}, {}, {}});
+    for (int j = 0; j + 1 < rows; ++j) {
+      triangles_.push_back({{here + j, next + j + 1, next + j}, {}, {}});
+      triangles_.push_back({{here + j, here + j + 1, next + j + 1}, {}, {}});
+    }
+    triangles_.push_back({{second_pole, next + rows - 1, here + rows - 1}, {}, {}});
   }
 }
 
@@ -363,6 +487,17 @@ bool encloses(const Facets& mesh, const Vec3& x)
 }
 
 }  // namespace
+
+bool encloses(const Facets& mesh, const std::vector<Vec3>& polygon)
+{
+  if (!encloses(mesh, polygon.front())) return false;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const auto meets = [&](const Facets::Triangle& t) { return segment_meets(a, b, corners_of(mesh, t)); };
+    if (std::any_of(mesh.triangles().begin(), mesh.triangles().end(), meets)) return false;
+  }
+  return true;
+}
 
 bool facets_inside(const PairFrame& frame)
 {

@@ -9,11 +9,12 @@
 namespace hauberk {
 
 class ClosedCurve;
+class Solid;
 class TriangleSurface;
 
 /// Closed triangle mesh in the frame of its body, scaled lengths, with a tree of boxes around its triangles:
-/// of a torus' surface, of that of a tube around a curve, or of a surface of triangles as it is. Immutable:
-/// thread safe.
+/// of a torus' surface, of that of a tube around a curve, of a solid's, or of a surface of triangles as it
+/// is. Immutable: thread safe.
 ///
 /// Points of a torus lie on the surface at u = 2 pi (i + 1/2)/n, v = pi + 2 pi (j + 1/2)/n: facets, not
 /// points or edges, lie on the inner equator and where the body's axes cross the tube. With points there two
@@ -32,6 +33,11 @@ class Facets {
   Facets(const ClosedCurve& curve, double r, int n);
   /// R times a surface.
   Facets(const TriangleSurface& surface, double R);
+  /// Of a solid in lengths of its own, `unit` of which are one of the mesh's: points of its chart at u as
+  /// above. If all points at v = 0 are one and all at v = pi, these are poles, where triangles meet, and rows
+  /// of points lie 2 pi/n apart between them (n even); else v as above. Throws InputError where the chart has
+  /// poles elsewhere or the solid makes none of other sizes, which sensitivities of points in the sizes need.
+  Facets(const Solid& solid, double unit, int n);
   ~Facets();
   Facets(const Facets&) = delete;
   Facets& operator=(const Facets&) = delete;
@@ -45,11 +51,12 @@ class Facets {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
   /// d point / d (R, r0, r1), columns, at fixed chart coordinates; of a surface (point/R, 0, 0), of a tube
-  /// around a curve (0, d point/dr, 0).
+  /// around a curve (0, d point/dr, 0), of a solid 0.
   const Mat3& size_derivative(int point) const { return by_size_[point]; }
-  /// Of a tube around a curve, adds n . d point / d(harmonics) to `out`, which is made long enough; other
-  /// meshes have no harmonics and leave it as it is.
-  void add_harmonics(int point, const Vec3& n, std::vector<double>& out) const;
+  /// Adds n . d point / d(harmonics of a tube's curve, or sizes of a solid) to `out`, which is made long
+  /// enough; other meshes have none and leave it as it is. Scaled lengths in harmonics, those of a solid in
+  /// its sizes.
+  void add_own_sizes(int point, const Vec3& n, std::vector<double>& out) const;
   double mean_edge() const { return mean_edge_; }
   /// Closed polygons on the mesh or inside of it: what a closed curve outside of the mesh is linked with, it
   /// is linked with one of them. Of a torus one, around its tube's middle.
@@ -68,12 +75,15 @@ class Facets {
 
   /// Triangles of n x n quadrilaterals, closed both ways.
   void add_quadrilaterals(int n);
+  /// Triangles of n columns of `rows` points between two poles, which are the last two points.
+  void add_rows(int n, int rows);
   /// Edges, and what follows from them, of points and triangles.
   void complete();
 
   std::vector<Vec3> points_;
   std::vector<Mat3> by_size_;
   std::vector<Section> sections_;  ///< of a tube around a curve; point k belongs to section k / sections
+  std::vector<Eigen::Matrix3Xd> by_own_;  ///< of a solid: d point / d(its sizes), per point
   std::vector<Triangle> triangles_;
   std::vector<std::array<int, 2>> edges_;
   std::vector<std::vector<Vec3>> loops_;
@@ -127,6 +137,9 @@ bool segment_meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& tria
 
 /// True if a part of one of two meshes that do not intersect is inside of the other.
 bool facets_inside(const PairFrame& frame);
+
+/// True if a closed polygon in the mesh's frame is inside of the mesh.
+bool encloses(const Facets& mesh, const std::vector<Vec3>& polygon);
 
 /// Solid angle of a triangle seen from the origin, with sign (van Oosterom and Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c);

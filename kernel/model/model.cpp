@@ -167,8 +167,7 @@ std::vector<std::array<int, 2>> linked_elements(const Model& m)
 
 std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 {
-  if (b.solid)
-    throw InputError("contact \"mesh\" knows no solids: use another solver.contact, or the shape \"mesh\"");
+  if (b.solid) return std::make_shared<const Facets>(*b.solid, b.unit, count);
   if (b.surface) return std::make_shared<const Facets>(*b.surface, b.R);
   if (b.curve) return std::make_shared<const Facets>(*b.curve, b.r0, count);
   return std::make_shared<const Facets>(b.R, b.r0, b.r1, count);
@@ -177,6 +176,7 @@ std::shared_ptr<const Facets> facets_of(const Body& b, int count)
 /// All that a body's mesh depends on.
 std::vector<double> mesh_key(const Body& b)
 {
+  if (b.solid) return b.solid->sizes();
   std::vector<double> key{b.R, b.r0, b.r1};
   if (!b.curve) return key;
   for (const Harmonic& h : b.curve->harmonics()) {
@@ -186,13 +186,14 @@ std::vector<double> mesh_key(const Body& b)
   return key;
 }
 
-/// Gives every body its mesh; bodies of one size and one curve, and of one surface, share one.
+/// Gives every body its mesh; bodies of one size and one curve, of one surface, or of one solid share one.
 void set_facets(Model& m, int count)
 {
-  using Key = std::tuple<const TriangleSurface*, std::vector<double>>;
+  using Key = std::tuple<const TriangleSurface*, std::string, std::vector<double>>;
   std::map<Key, std::shared_ptr<const Facets>> made;
   for (Body& b : m.bodies) {
-    std::shared_ptr<const Facets>& facets = made[{b.surface.get(), mesh_key(b)}];
+    std::shared_ptr<const Facets>& facets =
+        made[{b.surface.get(), b.solid ? b.solid->kind() : "", mesh_key(b)}];
     if (!facets) facets = facets_of(b, count);
     b.facets = facets;
   }

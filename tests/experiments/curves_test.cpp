@@ -182,9 +182,6 @@ TEST(Curves, WhatKnowsToriOnlySaysSo)
     EXPECT_EQ(o.code, 2) << setting;
     EXPECT_NE(o.err.find("this scene has solids, and"), std::string::npos) << setting << o.err;
   }
-  const Outcome meshes = run_program({"check", struts, "--set", "/solver/contact=mesh"});
-  EXPECT_EQ(meshes.code, 2);
-  EXPECT_NE(meshes.err.find("contact \"mesh\" knows no solids"), std::string::npos) << meshes.err;
   const Outcome thick = run_program({"check", file, "--set", "/elements/oval/parameters/r=1.7"});
   EXPECT_EQ(thick.code, 2);
   EXPECT_NE(thick.err.find("parameter 'r' = 1.7 is too thick: the curve bends with a radius of 1.6"),

@@ -2,6 +2,8 @@
 
 #include "surface.hpp"
 
+#include <hauberk/solid.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -100,6 +102,45 @@ std::vector<Sector> tube_sectors(const Primitive& torus)
   return out;
 }
 
+/// Strips of a solid's chart between two neighbouring values of u. A row of points that are all one is a pole:
+/// of a chart with two, at v = 0 and pi, the half between them is the surface, cut into n/2 rows.
+std::vector<Sector> chart_sectors(const Primitive& body)
+{
+  const int n = body.facets;
+  const double step = 2.0 * std::numbers::pi / n;
+  const auto at = [&](double u, double v) -> Vec3 {
+    return body.place.position +
+           body.place.rotation * body.solid->surface_point({std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
+  };
+  double spread = 0.0;
+  for (int i = 1; i < n; ++i) spread = std::max(spread, (at(i * step, 0.0) - at(0.0, 0.0)).norm());
+  const bool poles = spread <= 1e-9 * body.solid->radius();
+  std::vector<double> rows;
+  if (poles) {
+    const int count = std::max(2, (n + 1) / 2);
+    for (int j = 0; j <= count; ++j) rows.push_back(std::numbers::pi * j / count);
+  } else {
+    for (int j = 0; j <= n; ++j) rows.push_back(std::numbers::pi + (j + 0.5) * step);
+  }
+  std::vector<Sector> out;
+  for (int i = 0; i < n; ++i) {
+    const double u = (i + 0.5) * step, next = (i + 1.5) * step;
+    std::vector<Triangle> triangles;
+    const std::size_t last = rows.size() - 1;
+    for (std::size_t j = poles ? 1 : 0; j < (poles ? last - 1 : last); ++j) {
+      const Vec3 a = at(u, rows[j]), b = at(next, rows[j]), c = at(next, rows[j + 1]), d = at(u, rows[j + 1]);
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+    if (poles) {
+      triangles.push_back({at(0.0, 0.0), at(next, rows[1]), at(u, rows[1])});
+      triangles.push_back({at(0.0, rows[last]), at(u, rows[last - 1]), at(next, rows[last - 1])});
+    }
+    out.push_back(sector_of(std::move(triangles)));
+  }
+  return out;
+}
+
 /// Halves a list across the longest side of its box until few triangles are left.
 void add_sectors(std::vector<Triangle> triangles, std::vector<Sector>& out)
 {
@@ -127,6 +168,7 @@ void add_sectors(std::vector<Triangle> triangles, std::vector<Sector>& out)
 
 std::vector<Sector> sectors(const Primitive& torus)
 {
+  if (torus.solid) return chart_sectors(torus);
   if (!torus.surface) return tube_sectors(torus);
   std::vector<Triangle> triangles;
   for (const auto& t : torus.surface->triangles) {

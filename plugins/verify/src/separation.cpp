@@ -155,11 +155,11 @@ double tube_separation(const Primitive& tube, const Primitive& other)
 
 double separation(const Primitive& a, const Primitive& b)
 {
+  if (a.facets > 0) return mesh_separation(a, b);
   if (a.solid || b.solid) {
     const double width = 1e-12 * (reach(a) + reach(b));
     return enclose(a, b, width, std::numeric_limits<double>::infinity()).found;
   }
-  if (a.facets > 0) return mesh_separation(a, b);
   if (is_tube(a)) return tube_separation(a, b);
   if (is_tube(b)) return tube_separation(b, a);
   return torus_minimum([&](double u, double v) { return signed_distance(b, surface_point(a, u, v)); },
@@ -168,7 +168,7 @@ double separation(const Primitive& a, const Primitive& b)
 
 Enclosure enclosed_separation(const Primitive& a, const Primitive& b, double width, double enough)
 {
-  if (a.solid || b.solid) return enclose(a, b, width, enough);
+  if (a.facets == 0 && (a.solid || b.solid)) return enclose(a, b, width, enough);
   const double exact = separation(a, b);
   return {exact, exact};
 }

@@ -1,9 +1,13 @@
-/// Meshes of tori and of tubes around curves: closed, every feature owned once, as accurate as they should
-/// be, facets where they should be.
+/// Meshes of tori, of tubes around curves and of solids: closed, every feature owned once, as accurate as
+/// they should be, facets where they should be.
 
 #include "geometry/facets.hpp"
 
 #include "geometry/closed_curve.hpp"
+#include "shapes/strut_frame/capsule.hpp"
+#include "torus_solid.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <gtest/gtest.h>
 
@@ -34,9 +38,9 @@ std::vector<Harmonic> knotted()
   return h;
 }
 
-TEST(Facets, ClosedAndOriented)
+/// Every edge belongs to two triangles, which run through it both ways.
+void expect_closed(const Facets& f)
 {
-  const Facets f(5.0, 0.7, 0.9, 9);
   std::map<std::array<int, 2>, int> directed;
   for (const Facets::Triangle& t : f.triangles()) {
     for (std::size_t k = 0; k < 3; ++k) ++directed[{t.points[k], t.points[(k + 1) % 3]}];
@@ -46,6 +50,12 @@ TEST(Facets, ClosedAndOriented)
     EXPECT_EQ(directed.count({edge[1], edge[0]}), 1U) << "an edge of one triangle only";
   }
   EXPECT_EQ(directed.size(), 2 * f.edges().size());
+}
+
+TEST(Facets, ClosedAndOriented)
+{
+  const Facets f(5.0, 0.7, 0.9, 9);
+  expect_closed(f);
   // Euler's characteristic of a torus.
   EXPECT_EQ(f.points().size() + f.triangles().size(), f.edges().size());
 }
@@ -184,11 +194,97 @@ TEST(CurveFacets, DerivativesInRadiusAndHarmonics)
       const Vec3 by = (point(*plus, k) - point(*minus, k)) / (2.0 * h);
       for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> out;
-        f.add_harmonics(k, Vec3::Unit(axis), out);
+        f.add_own_sizes(k, Vec3::Unit(axis), out);
         ASSERT_EQ(out.size(), harmonic_dofs * harmonics.size());
         EXPECT_NEAR(out[q], by[axis], 1e-8) << q;
       }
     }
+  }
+}
+
+TEST(SolidFacets, ATorusHasTheMeshOfTheTorus)
+{
+  constexpr double unit = 2.5;
+  const Facets solid(TorusSolid(5.0 * unit, 0.7 * unit, 1), unit, 12), torus(5.0, 0.7, 0.7, 12);
+  ASSERT_EQ(solid.points().size(), torus.points().size());
+  for (int k = 0; k < static_cast<int>(torus.points().size()); ++k) {
+    EXPECT_LT((point(solid, k) - point(torus, k)).norm(), 1e-14);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> by;
+      solid.add_own_sizes(k, Vec3::Unit(axis), by);
+      ASSERT_EQ(by.size(), 2U);
+      const Eigen::RowVector3d exact = Vec3::Unit(axis).transpose() * torus.size_derivative(k);
+      EXPECT_NEAR(by[0], exact[0], 1e-9);
+      EXPECT_NEAR(by[1], exact[1] + exact[2], 1e-9);
+    }
+  }
+  for (std::size_t k = 0; k < torus.triangles().size(); ++k)
+    EXPECT_EQ(solid.triangles()[k].points, torus.triangles()[k].points);
+  EXPECT_EQ(solid.loops().size(), 1U);
+  EXPECT_TRUE(encloses(solid, torus.loops()[0]));
+}
+
+/// Points of a capsule's chart meet at both ends; the volume is 2 pi r^2 h + 4/3 pi r^3.
+TEST(SolidFacets, OfAChartWithPoles)
+{
+  constexpr double h = 2.0, r = 0.6, pi = std::numbers::pi;
+  const Capsule capsule(h, r);
+  const double exact = 2.0 * pi * r * r * h + 4.0 / 3.0 * pi * r * r * r;
+  std::array<double, 3> error{};
+  for (std::size_t level = 0; level < 3; ++level) {
+    const Facets f(capsule, 1.0, 24 << level);  // with rows where the caps begin
+    expect_closed(f);
+    EXPECT_EQ(f.points().size() + f.triangles().size(), f.edges().size() + 2) << "a sphere";
+    for (const Vec3& x : f.points()) EXPECT_NEAR(capsule.distance(x).distance, 0.0, 1e-14);
+    error[level] = volume(f) / exact - 1.0;
+  }
+  EXPECT_LT(error[0], 0.0);
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.25);
+  EXPECT_NEAR(error[1] / error[2], 4.0, 0.1);
+
+  const Facets f(capsule, 1.0, 8);
+  EXPECT_TRUE(encloses(f, {Vec3(0, 0, -h), Vec3(0, 0, 0), Vec3(0, 0, h)}));
+  EXPECT_FALSE(encloses(f, {Vec3(0, 0, 0), Vec3(2.0 * r, 0, 0)}));
+  EXPECT_FALSE(encloses(f, {Vec3(2.0 * r, 0, 0), Vec3(2.0 * r, 0, 1)}));
+}
+
+/// A solid that makes none of other sizes.
+class Single final : public Solid {
+ public:
+  std::string kind() const override { return "single"; }
+  std::vector<std::string> size_names() const override { return of_.size_names(); }
+  const std::vector<double>& sizes() const override { return of_.sizes(); }
+  double radius() const override { return of_.radius(); }
+  double thickness() const override { return of_.thickness(); }
+  int probe_dimension() const override { return 1; }
+  double offset() const override { return of_.offset(); }
+  Fold fold() const override { return of_.fold(); }
+  ProbeDerivatives probe(const ProbeAngles& at) const override { return of_.probe(at); }
+  ProbeBounds probe_bounds(double u, double v, double half_u, double half_v) const override
+  {
+    return of_.probe_bounds(u, v, half_u, half_v);
+  }
+  Vec3 surface_point(const ProbeAngles& at) const override { return of_.surface_point(at); }
+  SolidDistance distance(const Vec3& x) const override { return of_.distance(x); }
+  SolidSmoothness smoothness() const override { return of_.smoothness(); }
+  void distance_sizes(const Vec3& x, std::span<double> out) const override { of_.distance_sizes(x, out); }
+  void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override
+  {
+    of_.probe_sizes(at, n, out);
+  }
+  std::vector<std::vector<Vec3>> cores() const override { return {}; }
+
+ private:
+  Capsule of_{1.0, 0.2};
+};
+
+TEST(SolidFacets, OfOneSizeAreRefusedByName)
+{
+  try {
+    const Facets f(Single(), 1.0, 8);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("'single' does not"), std::string::npos) << e.what();
   }
 }
 

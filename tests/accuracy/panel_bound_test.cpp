@@ -5,6 +5,7 @@
 
 #include "drawn_pairs.hpp"
 #include "pair_field.hpp"
+#include "panel_figures.hpp"
 #include "random_pairs.hpp"
 #include "statistics.hpp"
 
@@ -16,52 +17,6 @@ namespace {
 
 using Digits50 =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
-
-/// Least of the field over a panel by samples, border and corners included.
-double least_on(const PairField<double>& field, const Panel& s, int nu, int nv)
-{
-  double least = 1e300;
-  for (int i = 0; i <= nu; ++i) {
-    for (int j = 0; j <= nv; ++j) {
-      const double x = 2.0 * i / nu - 1.0, y = nv > 0 ? 2.0 * j / nv - 1.0 : 0.0;
-      least = std::min(least, field.value(s.u + x * s.hu, s.v + y * s.hv));
-    }
-  }
-  return least;
-}
-
-struct PanelFigures {
-  long panels = 0, curved = 0, sharper = 0;
-  Sample first, third;  // what is lost of the bound, relative to the largest drop possible (Lipschitz)
-};
-
-template <int dim>
-void check(const DrawnPair& p, const Panel& s, PanelFigures& figures, const std::string& what)
-{
-  const Body P = kernel_body(p.a), F = kernel_body(p.b);
-  const PairFrame frame(P, kernel_pose(p.a), F, kernel_pose(p.b));
-  const Probe<dim> probe(frame);
-  const ProbePoint q = probe.at(s.u, s.v);
-  const FieldValue f = field_at(F, q.p);
-  if (f.m.phi <= 0.0) return;
-  const PairField<double> field(p.a, p.b, dim == 1);
-  const double offset = dim == 1 ? p.a.r0 : 0.0;
-  const double least = least_on(field, s, dim == 1 ? 400 : 24, dim == 1 ? 0 : 24) + offset;
-  const double gu = f.n.dot(q.pu), gv = dim == 2 ? f.n.dot(q.pv) : 0.0;
-  const double taylor = taylor_bound(probe, s, f.m.phi, f.rho, gu, gv);
-  constexpr double rounding = 1e-14;
-  EXPECT_LE(taylor, least + rounding) << what;
-  const double size = panel_size(probe, s).first;
-  ++figures.panels;
-  figures.first.add((least - taylor) / size);
-  const FieldCurvature curvature = field_curvature(F, f, size);
-  if (!(curvature.third < std::numeric_limits<double>::infinity())) return;
-  const double curved = curved_bound(probe, s, q, f, curvature);
-  EXPECT_LE(curved, least + rounding) << what;
-  ++figures.curved;
-  figures.sharper += curved > taylor;
-  figures.third.add((least - std::max(curved, taylor)) / size);
-}
 
 TEST(PanelBound, IsBelowEverySampleOfItsPanel)
 {
@@ -79,9 +34,9 @@ TEST(PanelBound, IsBelowEverySampleOfItsPanel)
                   p.a.round() ? 0.0 : hv};
     const std::string what = fmt::format("{} {} ({})", name(kind), k / 3, name(p.family));
     if (p.a.round()) {
-      check<1>(p, s, figures[0], what);
+      check_panel<1>(p, kernel_body(p.a), kernel_body(p.b), s, figures[0], what);
     } else {
-      check<2>(p, s, figures[1], what);
+      check_panel<2>(p, kernel_body(p.a), kernel_body(p.b), s, figures[1], what);
     }
   }
   for (std::size_t i = 0; i < 2; ++i) {

@@ -30,6 +30,10 @@ constexpr int most_evaluations = 20000000;
 /// Slope at which a descent has arrived (rounding).
 constexpr double smallest_slope = 2e-16;
 
+/// Surfaces that lie flat upon each other, or coaxial, have no curvature along which they could be nearest:
+/// rounding may make it negative by this much (1/L), and any of these places stands for the others.
+constexpr double flat = 1e-12;
+
 /// Minima closer than this are the same one found from two panels.
 constexpr double same_minimum = 1e-5;  // radians
 
@@ -266,7 +270,7 @@ class StationarySearch {
       double dx = -(C * gx - b * gy) / det, dy = -(A * gy - b * gx) / det;
       const double size = std::hypot(dx, dy);
       if (slope < smallest_slope || (size < 1e-12 && shift == 0.0)) {
-        if (lowest > 0.0 && l.f.m.phi < threshold_)
+        if (lowest > -flat && l.f.m.phi < threshold_)
           insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
         return;
       }
@@ -287,7 +291,9 @@ class StationarySearch {
         l = n;
       }
       if (!lower) {
-        if (slope < 1e-10 && lowest > 0.0 && l.f.m.phi < threshold_)
+        // Inside of F the distance has ridges, where nothing is deeper beside them and no slope ends.
+        const bool ends = (slope < 1e-10 && lowest > -flat) || l.f.m.phi < 0.0;
+        if (ends && l.f.m.phi < threshold_)
           insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
         return;
       }

@@ -79,7 +79,16 @@ struct Bodies {
 struct SolidFigures {
   PanelFigures panels;
   Sample half, tight;  ///< bound/distance of pairs
+  /// Pairs whose bound is looser than asked. Where the probe's offset alone is beyond the reach of the other,
+  /// no foot is known to be the nearest, and the search may end without.
+  long open = 0;
 };
+
+/// Whether points of P's probe at the distance d are farther from F's surface than its reach.
+bool beyond_reach(const Body& P, const Body& F, double d)
+{
+  return F.solid && P.solid->offset() + d >= F.solid->smoothness().reach;
+}
 
 void check_pair(const DrawnPair& p, const Bodies& bodies, SolidFigures& figures, const std::string& what)
 {
@@ -91,7 +100,10 @@ void check_pair(const DrawnPair& p, const Bodies& bodies, SolidFigures& figures,
     // The bodies are nearer to each other than the samples of the pair saw.
     if (s.upper < d - resolved) d = dense_distance(p.a, p.b);
     EXPECT_LE(s.lower, d + rounding) << what;
-    EXPECT_GE(s.lower, tightness * d - resolved) << what;
+    if (s.lower < tightness * d - resolved) {
+      EXPECT_TRUE(beyond_reach(bodies.a, bodies.b, d) && beyond_reach(bodies.b, bodies.a, d)) << what;
+      ++figures.open;
+    }
     (tightness < 0.9 ? figures.half : figures.tight).add(s.lower / d);
   }
 }
@@ -143,12 +155,15 @@ TEST_P(SolidBounds, AreBelowSamplesAndAsTightAsTheKernels)
   }
   for (auto* f : {&own, &kit}) {
     fmt::print(
-        "{}, {}: {} pairs, bound/distance where half is asked {}; nine tenths {}\n  {} panels, third order known "
+        "{}, {}: {} pairs, {} looser than asked, bound/distance where half is asked {}; nine tenths {}\n  {} panels, third order known "
         "for {}; (least sample - bound)/size, slopes {}, third order {}\n",
-        name(GetParam()), f == &own ? "kernel" : "kit", f->half.size(), f->half.summary(), f->tight.summary(),
-        f->panels.panels, f->panels.curved, f->panels.first.summary(), f->panels.third.summary());
+        name(GetParam()), f == &own ? "kernel" : "kit", f->half.size(), f->open, f->half.summary(),
+        f->tight.summary(), f->panels.panels, f->panels.curved, f->panels.first.summary(),
+        f->panels.third.summary());
   }
   EXPECT_EQ(kit.panels.panels, own.panels.panels);
+  EXPECT_EQ(own.open, 0);
+  EXPECT_LE(kit.open, static_cast<long>(kit.half.size() / 50));
   // As tight in the middle, to a fifth.
   EXPECT_GT(kit.half.quantile(0.5), 0.8 * own.half.quantile(0.5));
   EXPECT_GT(kit.tight.quantile(0.5), 0.8 * own.tight.quantile(0.5));

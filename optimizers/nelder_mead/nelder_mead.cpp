@@ -1,7 +1,8 @@
 /// Nelder and Mead's simplex search, in one file that needs nothing but the installed headers: an example of
 /// an optimizer from outside, and a check of the others that uses no derivatives.
 
-#include <hauberk/plugin.hpp>
+#include <hauberk/kit/fields.hpp>
+#include <hauberk/kit/plugin_table.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -254,51 +255,29 @@ class NelderMead final : public hauberk::Optimizer {
   Settings settings_;
 };
 
-hauberk::Field field(const char* name, hauberk::Field::Kind kind, const char* value, double least,
-                     double most, const char* doc)
-{
-  hauberk::Field f;
-  f.name = name;
-  f.kind = kind;
-  f.default_json = value;
-  f.minimum = least;
-  f.maximum = most;
-  f.doc = doc;
-  return f;
-}
-
 void fields(std::vector<hauberk::Field>& out)
 {
-  using Kind = hauberk::Field::Kind;
-  out = {field("max_iterations", Kind::integer, "5000", 0, 1e9, "Better points after which to stop."),
-         field("max_evaluations", Kind::integer, "10000", 1, 1e9,
-               "Evaluations of the objective after which to stop."),
-         field("initial_step", Kind::number, "0.1", 1e-6, 1,
-               "Size of the first simplex, in parts of the bounds."),
-         field("min_step", Kind::number, "1e-8", 1e-15, 1, "Size of a simplex that is small."),
-         field("constraint_tolerance", Kind::number, "1e-8", 0, 1,
-               "Violation of a constraint that counts as none.")};
+  using hauberk::kit::integer_field, hauberk::kit::number_field;
+  out = {
+      integer_field("max_iterations", "5000", 0, 1e9, "Better points after which to stop."),
+      integer_field("max_evaluations", "10000", 1, 1e9, "Evaluations of the objective after which to stop."),
+      number_field("initial_step", "0.1", 1e-6, 1, "Size of the first simplex, in parts of the bounds."),
+      number_field("min_step", "1e-8", 1e-15, 1, "Size of a simplex that is small."),
+      number_field("constraint_tolerance", "1e-8", 0, 1, "Violation of a constraint that counts as none.")};
 }
 
 std::unique_ptr<hauberk::Optimizer> make(const hauberk::Node& section, hauberk::Problems&)
 {
+  using hauberk::kit::integer;
   const auto number = [&section](const char* name) { return section.at(name).number; };
-  return std::make_unique<NelderMead>(
-      Settings{static_cast<int>(number("max_iterations")), static_cast<int>(number("max_evaluations")),
-               number("initial_step"), number("min_step"), number("constraint_tolerance")});
+  return std::make_unique<NelderMead>(Settings{integer(section, "max_iterations"),
+                                               integer(section, "max_evaluations"), number("initial_step"),
+                                               number("min_step"), number("constraint_tolerance")});
 }
 
 }  // namespace
 
-extern "C" HAUBERK_EXPORT constinit const hauberk::PluginTable hauberk_plugin = {
-    HAUBERK_HANDSHAKE,
-    hauberk::PluginKind::optimizer,
-    "nelder_mead",
-    "0.1.0",
-    "Simplex search without derivatives, for few variables.",
-    "Nelder and Mead, The Computer Journal 7 (1965); feasible points first: Deb 2000",
-    fields,
-    nullptr,
-    nullptr,
-    make,
-};
+extern "C" HAUBERK_EXPORT constinit const hauberk::PluginTable hauberk_plugin = hauberk::kit::optimizer_table(
+    {"nelder_mead", "0.1.0", "Simplex search without derivatives, for few variables.",
+     "Nelder and Mead, The Computer Journal 7 (1965); feasible points first: Deb 2000"},
+    fields, make);

@@ -5,4 +5,4 @@ namespace {
 [[gnu::constructor]] void run_at_load() { std::abort(); }
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int hauberk_plugins() { return 0; }
+extern "C" __attribute__((visibility("default"))) int hauberk_plugin_table() { return 0; }

@@ -5,12 +5,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hauberk::command {
 namespace {
 
 constexpr std::uint64_t most_seeds = 1000;
+
+std::string text_of(const std::vector<conformance::Report>& reports)
+{
+  std::string out;
+  for (const conformance::Report& report : reports) out += (out.empty() ? "" : "\n") + report.text();
+  return out;
+}
+
+/// Of a library with several plugins an array.
+std::string json_of(const std::vector<conformance::Report>& reports)
+{
+  if (reports.size() == 1 && !reports.front().one_of_several) return reports.front().json();
+  std::string out;
+  for (const conformance::Report& report : reports) out += (out.empty() ? "[\n" : ",\n") + report.json();
+  return out + "]\n";
+}
 
 }  // namespace
 
@@ -21,10 +38,15 @@ Description conform_description()
       .line = "check that a plugin does what plugins must do",
       .synopsis = "plugins conform FILE.so [options]",
       .summary =
-          "Checks that a plugin does what plugins must do, each check in a process of its own. "
+          "Checks that a plugin does what plugins must do, each check in a process of its own; of a library "
+          "with several plugins all of them. "
           "Exits with 1 when anything fails. The plugin is run: do not check what you would not run.",
       .arguments = {{.name = "FILE.so", .offer = Offer::libraries}},
-      .options = {{.name = "filter",
+      .options = {{.name = "plugin",
+                   .takes = Takes::text,
+                   .value = "ID",
+                   .help = "one of the plugins of a library of several; by default all of them"},
+                  {.name = "filter",
                    .takes = Takes::text,
                    .value = "REGEX",
                    .help = "only checks whose name matches"},
@@ -52,6 +74,7 @@ int conform_command(const std::vector<std::string>& words)
   options.parse(words);
   conformance::Conditions conditions;
   conditions.in_process = options.has("in-process");
+  if (options.has("plugin")) conditions.plugin = options.get<std::string>("plugin");
   if (options.has("filter")) conditions.filter = options.get<std::string>("filter");
   if (options.has("section")) conditions.setup.section = options.get<std::string>("section");
   if (options.has("seed")) conditions.seed = options.get<std::uint64_t>("seed");
@@ -64,9 +87,10 @@ int conform_command(const std::vector<std::string>& words)
   if (options.has("seconds")) conditions.seconds = options.get<double>("seconds");
   if (!(conditions.seconds > 0.0 && conditions.seconds <= 1e6))
     throw UsageError("--seconds: expected a number in (0, 1e6]", options.usage());
-  const conformance::Report report = conformance::conform(options.positional(), conditions);
-  fmt::print("{}", options.has("json") ? report.json() : report.text());
-  return report.passed() ? exit_done : exit_failed;
+  const auto reports = conformance::conform_all(options.positional(), conditions);
+  fmt::print("{}", options.has("json") ? json_of(reports) : text_of(reports));
+  const auto passed = [](const conformance::Report& report) { return report.passed(); };
+  return std::all_of(reports.begin(), reports.end(), passed) ? exit_done : exit_failed;
 }
 
 }  // namespace hauberk::command

@@ -5,9 +5,11 @@
 #include <hauberk/host/registry.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,11 +30,18 @@ std::string packed(const Outcome& outcome)
   return out;
 }
 
+/// The texts from a place on, each of which is ended by a zero.
+std::vector<std::string> texts(const std::string& bytes, std::size_t at)
+{
+  std::vector<std::string> out;
+  for (std::size_t end = 0; (end = bytes.find('\0', at)) != std::string::npos; at = end + 1)
+    out.push_back(bytes.substr(at, end - at));
+  return out;
+}
+
 Outcome unpacked(const std::string& bytes)
 {
-  std::vector<std::string> parts;
-  for (std::size_t at = 1, end = 0; (end = bytes.find('\0', at)) != std::string::npos; at = end + 1)
-    parts.push_back(bytes.substr(at, end - at));
+  const std::vector<std::string> parts = texts(bytes, 1);
   Outcome outcome{static_cast<Outcome::Status>(bytes.front() - '0'), parts.at(0)};
   for (std::size_t k = 1; k + 1 < parts.size(); k += 2)
     outcome.times.emplace_back(parts[k], std::strtod(parts[k + 1].c_str(), nullptr));
@@ -44,7 +53,7 @@ Outcome outcome_in_child(const Check& check, const std::filesystem::path& file, 
 {
   const Child child = in_child(
       [&] {
-        const PluginTable& table = PluginLibrary::load(file).table();
+        const PluginTable& table = PluginLibrary::load(file).table(conditions.plugin);
         return packed(run(check, table, conditions.setup, seed));
       },
       limits_of(conditions.seconds));
@@ -55,40 +64,46 @@ Outcome outcome_in_child(const Check& check, const std::filesystem::path& file, 
 
 /// The parts of a table that say what it is.
 struct Identity {
-  std::string error, id, version;
+  std::string id, version;
   PluginKind kind{};
 };
 
-Identity identify(const std::filesystem::path& file)
+/// Those of a library, or why it cannot be used.
+struct Contents {
+  std::string error;
+  std::vector<Identity> plugins;
+};
+
+Contents look_into(const std::filesystem::path& file)
 {
+  Contents found;
   try {
-    const PluginTable& table = PluginLibrary::load(file).table();
-    return {"", table.id, table.version, table.kind};
+    const PluginLibrary library = PluginLibrary::load(file);
+    for (const PluginTable* table : library.tables())
+      found.plugins.push_back({table->id, table->version, table->kind});
   } catch (const PluginError& error) {
-    return {error.what(), "", "", {}};
+    found.error = error.what();
   }
+  return found;
 }
 
-Identity identify_in_child(const std::filesystem::path& file, double seconds)
+/// Through a pipe go texts that are ended by a zero: the error, then id, version and kind of each plugin.
+Contents look_into_in_child(const std::filesystem::path& file, double seconds)
 {
   const Child child = in_child(
       [&] {
-        const Identity found = identify(file);
-        return fmt::format("{}{}{}{}{}", static_cast<char>('0' + static_cast<int>(found.kind)), found.id,
-                           '\0', found.version, '\0') +
-               found.error;
+        const Contents found = look_into(file);
+        std::string out = found.error + '\0';
+        for (const Identity& p : found.plugins)
+          out += p.id + '\0' + p.version + '\0' + static_cast<char>('0' + static_cast<int>(p.kind)) + '\0';
+        return out;
       },
       seconds);
-  Identity found;
-  if (!child.returned) {
-    found.error = "loading it " + child.ending;
-    return found;
-  }
-  const std::size_t first = child.text.find('\0'), second = child.text.find('\0', first + 1);
-  found.kind = static_cast<PluginKind>(child.text.front() - '0');
-  found.id = child.text.substr(1, first - 1);
-  found.version = child.text.substr(first + 1, second - first - 1);
-  found.error = child.text.substr(second + 1);
+  if (!child.returned) return {"loading it " + child.ending, {}};
+  const std::vector<std::string> parts = texts(child.text, 0);
+  Contents found{parts.at(0), {}};
+  for (std::size_t k = 1; k + 2 < parts.size(); k += 3)
+    found.plugins.push_back({parts[k], parts[k + 1], static_cast<PluginKind>(parts[k + 2].at(0) - '0')});
   return found;
 }
 
@@ -98,9 +113,9 @@ Result with_seeds(const Check& check, const std::filesystem::path& file, const C
   Result result{check.name, check.about, {}};
   for (int k = 0; k < conditions.seeds; ++k) {
     result.seed = conditions.seed + static_cast<std::uint64_t>(k);
-    result.outcome = conditions.in_process
-                         ? run(check, PluginLibrary::load(file).table(), conditions.setup, result.seed)
-                         : outcome_in_child(check, file, conditions, result.seed);
+    result.outcome = conditions.in_process ? run(check, PluginLibrary::load(file).table(conditions.plugin),
+                                                 conditions.setup, result.seed)
+                                           : outcome_in_child(check, file, conditions, result.seed);
     if (result.outcome.status != Outcome::Status::passed) break;
   }
   return result;
@@ -111,26 +126,31 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-}  // namespace
-
-Report conform(const std::filesystem::path& file, const Conditions& conditions)
+/// What the conditions say of a report on this file.
+Report begun(const std::filesystem::path& file, const Conditions& conditions)
 {
   Report report;
   report.file = file.string();
   report.setup = conditions.setup;
   report.seed = conditions.seed;
   report.seeds = conditions.seeds;
-  const auto start = Clock::now();
-  const Identity identity =
-      conditions.in_process ? identify(file) : identify_in_child(file, conditions.seconds);
-  if (!identity.error.empty()) {
-    report.results.push_back({"load",
-                              "the library can be loaded and its table agrees with this program",
-                              {Outcome::Status::failed, identity.error},
-                              conditions.seed,
-                              seconds_since(start)});
-    return report;
-  }
+  return report;
+}
+
+/// Why a library could not be loaded, or has not the plugin that is asked for.
+Report not_loaded(Report report, const std::string& why, double seconds)
+{
+  report.results.push_back({"load",
+                            "the library can be loaded and its table agrees with this program",
+                            {Outcome::Status::failed, why},
+                            report.seed,
+                            seconds});
+  return report;
+}
+
+Report conform_one(Report report, const Identity& identity, const Conditions& conditions)
+{
+  const std::filesystem::path file = report.file;
   report.id = identity.id;
   report.version = identity.version;
   report.kind = with_article(identity.kind);
@@ -141,6 +161,49 @@ Report conform(const std::filesystem::path& file, const Conditions& conditions)
     if (conditions.until_failure && !report.passed()) break;
   }
   return report;
+}
+
+}  // namespace
+
+std::vector<Report> conform_all(const std::filesystem::path& file, const Conditions& conditions)
+{
+  const auto start = Clock::now();
+  const Contents contents =
+      conditions.in_process ? look_into(file) : look_into_in_child(file, conditions.seconds);
+  Report report = begun(file, conditions);
+  if (!contents.error.empty()) return {not_loaded(report, contents.error, seconds_since(start))};
+  std::vector<Report> reports;
+  std::vector<std::string> known;
+  std::optional<InputError> unmatched;
+  report.one_of_several = contents.plugins.size() > 1;
+  Conditions named = conditions;
+  for (const Identity& identity : contents.plugins) {
+    known.push_back(identity.id);
+    named.plugin = identity.id;
+    if (!conditions.plugin.empty() && conditions.plugin != identity.id) continue;
+    try {
+      reports.push_back(conform_one(report, identity, named));
+    } catch (const InputError& error) {
+      unmatched = error;
+    }
+  }
+  if (reports.empty() && unmatched) throw *unmatched;
+  if (reports.empty()) {
+    const std::string why =
+        fmt::format("it has no plugin '{}', but {}", conditions.plugin, fmt::join(known, ", "));
+    reports.push_back(not_loaded(report, why, seconds_since(start)));
+  }
+  return reports;
+}
+
+Report conform(const std::filesystem::path& file, const Conditions& conditions)
+{
+  std::vector<Report> reports = conform_all(file, conditions);
+  if (reports.size() == 1) return std::move(reports.front());
+  std::vector<std::string> known;
+  for (const Report& report : reports) known.push_back(report.id);
+  return not_loaded(begun(file, conditions),
+                    fmt::format("it has several plugins, {}; name one of them", fmt::join(known, ", ")), 0.0);
 }
 
 }  // namespace hauberk::conformance

@@ -23,6 +23,7 @@ std::string quoted(const std::string& text)
 std::string again(const Report& report, const Result& result)
 {
   std::string text = fmt::format("hauberk plugins conform {} --seed {}", quoted(report.file), result.seed);
+  if (report.one_of_several) text += " --plugin " + quoted(report.id);
   if (!report.setup.section.empty()) text += " --section " + quoted(report.setup.section);
   return result.name == "load" ? text : fmt::format("{} --filter '^{}$'", text, result.name);
 }

@@ -8,6 +8,7 @@
 #include <hauberk/host/process_state.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <boost/dll/shared_library.hpp>
 
 #include <dlfcn.h>
@@ -22,7 +23,9 @@ namespace hauberk {
 namespace {
 
 namespace fs = std::filesystem;
+/// What a library exports: the table of its plugin, or a list of those of several.
 constexpr const char* entry_name = "hauberk_plugin";
+constexpr const char* list_name = "hauberk_plugins";
 
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args)
@@ -55,6 +58,11 @@ void check_is_file(const fs::path& file)
   ::close(fd);
 }
 
+bool exports(const ElfSummary& elf, const char* name)
+{
+  return std::find(elf.exported.begin(), elf.exported.end(), name) != elf.exported.end();
+}
+
 /// Everything that can be decided without running the library's constructors. In particular a library built
 /// with a sanitizer this program lacks would end the program as soon as it is loaded.
 ElfSummary check_contents(const fs::path& file)
@@ -69,7 +77,10 @@ ElfSummary check_contents(const fs::path& file)
   }
   if (!elf.tables) return elf;  // stripped of its section table: the loader decides
 
-  if (std::find(elf.exported.begin(), elf.exported.end(), entry_name) == elf.exported.end()) {
+  const bool has_entry = exports(elf, entry_name), has_list = exports(elf, list_name);
+  if (has_entry && has_list)
+    fail("plugin '{}' exports both '{}' and '{}'; leave one of them", file.native(), entry_name, list_name);
+  if (!has_entry && !has_list) {
     fail(
         "plugin '{}' does not export '{}'; expected one constant hauberk::PluginTable of that name, marked "
         "HAUBERK_EXPORT",
@@ -95,14 +106,23 @@ std::string loader_message(const std::string& what)
   return what.substr(begin + open.size(), end - begin - open.size());
 }
 
-const void* load_entry(const fs::path& file)
+/// Where the exported constants are; null: there is none of that name.
+struct Entries {
+  const void* table = nullptr;
+  const void* const* list = nullptr;  ///< of tables; null ends it
+};
+
+Entries load_entries(const fs::path& file)
 {
   using namespace boost::dll;
   // RTLD_NODELETE: the destructor of `library` leaves the plugin in memory.
   const auto mode = static_cast<load_mode::type>(load_mode::rtld_now | load_mode::rtld_local | RTLD_NODELETE);
   try {
     const shared_library library(file, mode);
-    return library.has(entry_name) ? &library.get<const char>(entry_name) : nullptr;
+    Entries found;
+    if (library.has(entry_name)) found.table = &library.get<const char>(entry_name);
+    if (library.has(list_name)) found.list = &library.get<const void* const>(list_name);
+    return found;
   } catch (const std::system_error& error) {
     fail("plugin '{}' cannot be loaded: {}", file.native(), loader_message(error.what()));
   }
@@ -116,7 +136,7 @@ void try_constructors(const fs::path& file, const ElfSummary& elf)
   if (elf.tables && elf.constructors <= 1) return;
   const auto load = [&]() -> std::string {
     try {
-      load_entry(file);
+      load_entries(file);
     } catch (const PluginError&) {
       return "refused";  // it will be again, with the reason
     }
@@ -134,7 +154,62 @@ void try_constructors(const fs::path& file, const ElfSummary& elf)
   }
 }
 
+/// The handshake is at the start of a table; nothing behind it is looked at before it agrees.
+const PluginTable* checked(const void* entry, const fs::path& file, int number)
+{
+  check_handshake(*static_cast<const Handshake*>(entry), file, number);
+  const auto* table = static_cast<const PluginTable*>(entry);
+  check_table(*table, file, number);
+  return table;
+}
+
+/// Of addresses of anything; nothing is read there.
+bool in_one_library(const void* a, const void* b)
+{
+  Dl_info of_a{}, of_b{};
+  return ::dladdr(a, &of_a) != 0 && ::dladdr(b, &of_b) != 0 && of_a.dli_fbase == of_b.dli_fbase;
+}
+
+std::vector<const PluginTable*> checked_list(const void* const* list, const fs::path& file)
+{
+  std::vector<const PluginTable*> tables;
+  for (; *list != nullptr; ++list) {
+    const int number = static_cast<int>(tables.size()) + 1;
+    if (!in_one_library(*list, list))
+      fail("plugin '{}': part {} of its '{}' is no table of this library; make the list by HAUBERK_PLUGINS",
+           file.native(), number, list_name);
+    const PluginTable* table = checked(*list, file, number);
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      if (std::string_view(tables[k]->id) == table->id)
+        fail("plugin '{}' has two plugins '{}' (tables {} and {}); give each an id of its own", file.native(),
+             table->id, k + 1, number);
+    }
+    tables.push_back(table);
+  }
+  if (tables.empty()) fail("plugin '{}': its '{}' is empty; name a table in it", file.native(), list_name);
+  return tables;
+}
+
 }  // namespace
+
+bool PluginLibrary::has_several(const fs::path& file)
+{
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) && exports(read_elf(file), list_name);
+}
+
+const PluginTable& PluginLibrary::table(std::string_view id) const
+{
+  std::vector<std::string> known;
+  for (const PluginTable* table : tables_) {
+    if (table->id == id || (id.empty() && tables_.size() == 1)) return *table;
+    known.push_back(fmt::format("'{}'", table->id));
+  }
+  throw InputError(id.empty() ? fmt::format("plugin '{}' has several plugins, {}; name one of them",
+                                            file_.native(), fmt::join(known, ", "))
+                              : fmt::format("plugin '{}' has no plugin '{}', but {}", file_.native(), id,
+                                            fmt::join(known, ", ")));
+}
 
 PluginLibrary PluginLibrary::load(const fs::path& file)
 {
@@ -144,7 +219,7 @@ PluginLibrary PluginLibrary::load(const fs::path& file)
 
   const ProcessState state;
   const FloatingPointMode before = floating_point_mode();
-  const void* entry = load_entry(path);
+  const Entries entries = load_entries(path);
   const FloatingPointMode after = floating_point_mode();
   set_floating_point_mode(before);
   const std::string changed = state.restore();
@@ -158,13 +233,9 @@ PluginLibrary PluginLibrary::load(const fs::path& file)
         "constructors with effects",
         path.native(), changed);
   }
-  if (!entry) fail("plugin '{}' does not export '{}'", path.native(), entry_name);
-
-  // The handshake is at the start of the table; nothing behind it is looked at before it agrees.
-  check_handshake(*static_cast<const Handshake*>(entry), path);
-  const auto& table = *static_cast<const PluginTable*>(entry);
-  check_table(table, path);
-  return {path, table};
+  if (entries.table) return {path, {checked(entries.table, path, 0)}};
+  if (entries.list) return {path, checked_list(entries.list, path)};
+  fail("plugin '{}' does not export '{}'", path.native(), entry_name);
 }
 
 }  // namespace hauberk

@@ -1,4 +1,5 @@
 #include <hauberk/error.hpp>
+#include <hauberk/host/handshake.hpp>
 #include <hauberk/host/registry.hpp>
 #include <hauberk/suggestion.hpp>
 
@@ -6,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -13,13 +15,6 @@ namespace hauberk {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool well_formed(std::string_view id)
-{
-  return !id.empty() && std::all_of(id.begin(), id.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
 
 /// Files of a folder that would be plugins, sorted; nothing if the folder cannot be read.
 std::vector<fs::path> library_files(const fs::path& folder)
@@ -63,13 +58,25 @@ std::string with_article(PluginKind kind)
 
 Registry::Registry(std::vector<fs::path> directories) : directories_(std::move(directories)) {}
 
+const PluginTable* Registry::Loaded::find(std::string_view id) const
+{
+  const auto found = std::find_if(tables.begin(), tables.end(), [id](const auto* t) { return t->id == id; });
+  return found == tables.end() ? nullptr : *found;
+}
+
+std::string Registry::Loaded::why_not(const fs::path& file, std::string_view id) const
+{
+  return tables.empty() ? problem : fmt::format("plugin '{}' has no plugin '{}'", file.native(), id);
+}
+
 const Registry::Loaded& Registry::load(const fs::path& file) const
 {
   const std::lock_guard lock(mutex_);
   const auto [it, is_new] = loaded_.try_emplace(file);
   if (is_new) {
     try {
-      it->second.table = &PluginLibrary::load(file).table();
+      const PluginLibrary library = PluginLibrary::load(file);
+      it->second.tables.assign(library.tables().begin(), library.tables().end());
     } catch (const PluginError& error) {
       it->second.problem = error.what();
     } catch (...) {
@@ -80,22 +87,49 @@ const Registry::Loaded& Registry::load(const fs::path& file) const
   return it->second;
 }
 
+const std::vector<fs::path>& Registry::lists(const fs::path& folder) const
+{
+  const std::lock_guard lock(mutex_);
+  const auto [it, is_new] = lists_.try_emplace(folder);
+  if (is_new) {
+    it->second = library_files(folder);
+    std::erase_if(it->second, [](const fs::path& file) { return !PluginLibrary::has_several(file); });
+  }
+  return it->second;
+}
+
+std::vector<PluginEntry> Registry::entries_in(const fs::path& folder) const
+{
+  std::vector<PluginEntry> entries;
+  std::set<fs::path> listed(lists(folder).begin(), lists(folder).end());
+  for (const fs::path& file : library_files(folder))
+    if (!listed.contains(file)) entries.push_back({file.stem().native(), file});
+  for (const fs::path& file : lists(folder)) {
+    const Loaded& loaded = load(file);
+    if (loaded.tables.empty()) entries.push_back({file.stem().native(), file, nullptr, loaded.problem});
+    for (const PluginTable* table : loaded.tables) entries.push_back({table->id, file, table});
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const PluginEntry& a, const PluginEntry& b) { return a.id < b.id; });
+  return entries;
+}
+
 std::vector<PluginEntry> Registry::list() const
 {
   std::vector<PluginEntry> entries;
   std::map<std::string, fs::path> first;
   for (const fs::path& folder : directories_) {
-    for (const fs::path& file : library_files(folder)) {
-      PluginEntry entry;
-      entry.id = file.stem().native();
-      entry.file = file;
-      const auto [it, is_first] = first.try_emplace(entry.id, file);
-      if (is_first) {
-        const Loaded& loaded = load(file);
-        entry.table = loaded.table;
-        entry.problem = loaded.problem;
-      } else {
-        entry.shadowed_by = it->second;
+    for (PluginEntry& entry : entries_in(folder)) {
+      if (entry.problem.empty()) {  // of a library of several nobody knows what it would have had
+        const auto [it, is_first] = first.try_emplace(entry.id, entry.file);
+        if (!is_first) {
+          entry.table = nullptr;
+          entry.shadowed_by = it->second;
+        } else if (!entry.table) {
+          const Loaded& loaded = load(entry.file);
+          entry.table = loaded.find(entry.id);
+          if (!entry.table) entry.problem = loaded.why_not(entry.file, entry.id);
+        }
       }
       entries.push_back(std::move(entry));
     }
@@ -105,42 +139,61 @@ std::vector<PluginEntry> Registry::list() const
 
 const PluginTable& Registry::find(PluginKind kind, std::string_view id) const
 {
-  if (!well_formed(id)) {
+  if (!well_formed_id(id)) {
     throw InputError(fmt::format("'{}' is not a plugin id; expected letters, digits, '_' and '-'", id));
   }
-  for (const fs::path& file : files(id)) {
-    const Loaded& loaded = load(file);
-    if (!loaded.table) throw InputError(loaded.problem);
-    if (loaded.table->kind != kind) {
-      throw InputError(
-          fmt::format("'{}' is {}, not {}", id, with_article(loaded.table->kind), with_article(kind)));
+  for (const fs::path& folder : directories_) {
+    const std::vector<fs::path> files = files_in(folder, id);
+    if (files.empty()) continue;
+    const Loaded& loaded = load(files.front());
+    const PluginTable* table = loaded.find(id);
+    if (!table) throw InputError(loaded.why_not(files.front(), id));
+    if (table->kind != kind) {
+      throw InputError(fmt::format("'{}' is {}, not {}", id, with_article(table->kind), with_article(kind)));
     }
-    return *loaded.table;
+    return *table;
   }
   report_missing(kind, id);
+}
+
+std::vector<fs::path> Registry::files_in(const fs::path& folder, std::string_view id) const
+{
+  std::vector<fs::path> out;
+  fs::path own = folder / (std::string(id) + ".so");
+  const std::vector<fs::path>& several = lists(folder);
+  const bool is_list = std::find(several.begin(), several.end(), own) != several.end();
+  // A file of that name that cannot be used is reported, whatever it may have had.
+  if (present(own) && (!is_list || load(own).tables.empty())) out.push_back(std::move(own));
+  for (const fs::path& file : several)
+    if (load(file).find(id)) out.push_back(file);
+  return out;
 }
 
 std::vector<fs::path> Registry::files(std::string_view id) const
 {
   std::vector<fs::path> out;
+  if (!well_formed_id(id)) return out;
   for (const fs::path& folder : directories_) {
-    fs::path file = folder / (std::string(id) + ".so");
-    if (well_formed(id) && present(file)) out.push_back(std::move(file));
+    std::vector<fs::path> here = files_in(folder, id);
+    std::move(here.begin(), here.end(), std::back_inserter(out));
   }
   return out;
 }
 
 void Registry::report_missing(PluginKind kind, std::string_view id) const
 {
-  std::vector<std::string> known;
+  std::vector<std::string> known, unusable;
   for (const PluginEntry& entry : list()) {
     if (entry.table && entry.table->kind == kind) known.push_back(entry.id);
+    if (!entry.problem.empty() && PluginLibrary::has_several(entry.file)) unusable.push_back(entry.problem);
   }
   std::string message = fmt::format("no {} '{}' found", plain(kind), id);
   message += suggestion(id, known);
   std::vector<std::string> searched;
   for (const fs::path& folder : directories_) searched.push_back(folder.native());
   message += fmt::format(" (searched: {})", fmt::join(searched, ", "));
+  // It may be in one of these.
+  for (const std::string& problem : unusable) message += "; " + problem;
   throw InputError(message);
 }
 

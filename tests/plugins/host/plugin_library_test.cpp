@@ -42,6 +42,59 @@ TEST(PluginLibrary, LoadsAGoodPlugin)
   EXPECT_EQ(&PluginLibrary::load(bad("good_shape")).table(), &library.table());
 }
 
+TEST(PluginLibrary, SeveralPluginsInOneLibrary)
+{
+  const PluginLibrary library = PluginLibrary::load(bad("several"));
+  ASSERT_EQ(library.tables().size(), 2U);
+  EXPECT_STREQ(library.tables()[0]->id, "several_ring");
+  EXPECT_EQ(library.tables()[0]->kind, PluginKind::shape);
+  EXPECT_STREQ(library.tables()[1]->id, "several_search");
+  EXPECT_EQ(library.tables()[1]->kind, PluginKind::optimizer);
+  EXPECT_EQ(&library.table("several_search"), library.tables()[1]);
+  const auto refused = [&](const char* id) {
+    return message_of<InputError>([&] { static_cast<void>(library.table(id)); });
+  };
+  EXPECT_EQ(refused(""), quote(bad("several")) +
+                             " has several plugins, 'several_ring', 'several_search'; name one of them");
+  EXPECT_EQ(refused("several"),
+            quote(bad("several")) + " has no plugin 'several', but 'several_ring', 'several_search'");
+  EXPECT_TRUE(PluginLibrary::has_several(bad("several")));
+  EXPECT_FALSE(PluginLibrary::has_several(bad("good_shape")));
+  EXPECT_FALSE(PluginLibrary::has_several(bad("absent")));
+  EXPECT_FALSE(PluginLibrary::has_several(bad_plugins));
+}
+
+/// Handshake, texts, kind and id of each are checked, and one that is wrong spoils the library.
+TEST(PluginLibrary, EachOfSeveralIsChecked)
+{
+  const auto second = [](const std::string& id) { return quote(bad(id)) + " (table 2)"; };
+  EXPECT_EQ(error_of(bad("several_twice")),
+            quote(bad("several_twice")) +
+                " has two plugins 'several_twice_ring' (tables 1 and 2); give each an id of its own");
+  EXPECT_EQ(error_of(bad("several_revision")), second("several_revision") +
+                                                   " was built with interface revision 999, this program "
+                                                   "with " +
+                                                   std::to_string(interface_revision) + rebuild);
+  EXPECT_EQ(error_of(bad("several_magic")),
+            second("several_magic") +
+                ": its part of 'hauberk_plugins' begins with \"hAUBERK\", expected \"HAUBERK\"; it must be a "
+                "constant hauberk::PluginTable");
+  EXPECT_EQ(error_of(bad("several_id")),
+            second("several_id") + " calls itself 'no id'; expected letters, digits, '_' and '-'");
+  EXPECT_EQ(error_of(bad("several_kind")),
+            second("several_kind") +
+                " is a load case but does not set 'make_load_case'; set exactly the factory of its kind");
+  EXPECT_EQ(error_of(bad("several_none")),
+            quote(bad("several_none")) + ": its 'hauberk_plugins' is empty; name a table in it");
+  EXPECT_EQ(error_of(bad("no_list")),
+            quote(bad("no_list")) +
+                ": part 1 of its 'hauberk_plugins' is no table of this library; make the list by "
+                "HAUBERK_PLUGINS");
+  EXPECT_EQ(error_of(bad("several_and_one")),
+            quote(bad("several_and_one")) +
+                " exports both 'hauberk_plugin' and 'hauberk_plugins'; leave one of them");
+}
+
 TEST(PluginLibrary, TableOutlivesTheLibraryObject)
 {
   const PluginTable* table = nullptr;

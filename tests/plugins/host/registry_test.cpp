@@ -122,7 +122,8 @@ TEST(Registry, GoesOnWithTheOthers)
   fs::copy(bad_plugins, folder.path());
   const Registry registry({folder.path()});
   // Those that load, and misbehave when they are called.
-  const std::set<std::string> loads = {"good_shape", "hasty_optimizer", "library_assertions", "throwing"};
+  const std::set<std::string> loads = {"good_shape",   "hasty_optimizer", "library_assertions",
+                                       "several_ring", "several_search",  "throwing"};
   std::size_t broken = 0;
   for (const PluginEntry& entry : registry.list()) {
     EXPECT_EQ(entry.table != nullptr, loads.count(entry.id) == 1) << entry.id;
@@ -133,6 +134,57 @@ TEST(Registry, GoesOnWithTheOthers)
   }
   EXPECT_GE(broken, 20U);
   EXPECT_STREQ(registry.find(PluginKind::shape, "good_shape").id, "good_shape");
+}
+
+/// The plugins of a library of several are found by their ids, whatever its file is called, and shadow each
+/// other and others as if they had files of their own.
+TEST(Registry, FindsEachOfSeveralInOneLibrary)
+{
+  const TemporaryFolder folder;
+  const fs::path one = folder.folder("one"), two = folder.folder("two");
+  const fs::path first = one / "any_name.so", second = two / "several.so";
+  fs::copy_file(bad("several"), first);
+  fs::copy_file(bad("several"), second);
+  fs::copy_file(bad("good_shape"), two / "several_ring.so");  // it calls itself otherwise
+  const Registry registry({one, two});
+  EXPECT_STREQ(registry.find(PluginKind::shape, "several_ring").id, "several_ring");
+  EXPECT_STREQ(registry.find(PluginKind::optimizer, "several_search").id, "several_search");
+  EXPECT_EQ(registry.files("several_ring"), (std::vector{first, two / "several_ring.so", second}));
+  EXPECT_EQ(registry.files("several_search"), (std::vector{first, second}));
+  EXPECT_TRUE(registry.files("any_name").empty());
+  EXPECT_EQ(message_of<InputError>([&] { registry.find(PluginKind::shape, "several_search"); }),
+            "'several_search' is an optimizer, not a shape");
+
+  const std::vector<PluginEntry> entries = registry.list();
+  ASSERT_EQ(entries.size(), 5U);
+  EXPECT_EQ(entries[0].id, "several_ring");
+  EXPECT_EQ(entries[0].file, first);
+  EXPECT_EQ(entries[0].table, &registry.find(PluginKind::shape, "several_ring"));
+  EXPECT_EQ(entries[1].id, "several_search");
+  EXPECT_NE(entries[1].table, nullptr);
+  for (const std::size_t k : {2, 3, 4}) {
+    EXPECT_EQ(entries[k].table, nullptr);
+    EXPECT_EQ(entries[k].shadowed_by, first);
+  }
+  EXPECT_EQ(entries[2].file, two / "several_ring.so");  // in one folder the file of that name comes first
+  EXPECT_EQ(entries[3].file, second);
+}
+
+/// What is in a library that cannot be used is not known, so whoever misses a plugin is told of it.
+TEST(Registry, NamesLibrariesOfSeveralThatCannotBeUsed)
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder / "pair.so";
+  fs::copy_file(bad("several_revision"), file);
+  const Registry registry({folder.path()});
+  const std::vector<PluginEntry> entries = registry.list();
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].id, "pair");
+  EXPECT_NE(entries[0].problem.find("interface revision 999"), std::string::npos);
+  EXPECT_EQ(find_message(registry, "several_revision_ring"),
+            "no shape 'several_revision_ring' found (searched: " + folder.path().native() + "); " +
+                entries[0].problem);
+  EXPECT_EQ(find_message(registry, "pair"), entries[0].problem);
 }
 
 TEST_F(RegistryTest, IdsCannotLeaveTheFolders)

@@ -50,20 +50,24 @@ class LoadTest : public testing::Test {
   std::string why_;
 };
 
-/// Registers the checks of the plugin in `file` as tests of suite `suite`; `switches` as in Setup. Returns
-/// true.
+/// Registers the checks of the plugin in `file` as tests of suite `suite`, where the file has several those
+/// of each as tests of suite `suite`_ID; `switches` as in Setup. Returns true.
 inline bool register_tests(const char* suite, const std::string& file, const std::string& section = {},
                            std::uint64_t seed = 1, bool switches = true)
 {
   try {
-    const PluginTable& table = PluginLibrary::load(file).table();
-    for (const Check& check : checks(table.kind)) {
-      std::string name = check.name;
-      std::replace(name.begin(), name.end(), '.', '_');
-      testing::RegisterTest(suite, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
-                            [check, &table, section, seed, switches]() -> testing::Test* {
-                              return new ConformanceTest(check, table, Setup{section, switches}, seed);
-                            });
+    const PluginLibrary library = PluginLibrary::load(file);
+    for (const PluginTable* table : library.tables()) {
+      const std::string group =
+          library.tables().size() == 1 ? std::string(suite) : std::string(suite) + "_" + table->id;
+      for (const Check& check : checks(table->kind)) {
+        std::string name = check.name;
+        std::replace(name.begin(), name.end(), '.', '_');
+        testing::RegisterTest(group.c_str(), name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+                              [check, table, section, seed, switches]() -> testing::Test* {
+                                return new ConformanceTest(check, *table, Setup{section, switches}, seed);
+                              });
+      }
     }
   } catch (const PluginError& error) {
     testing::RegisterTest(

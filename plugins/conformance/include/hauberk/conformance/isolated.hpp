@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hauberk::conformance {
 
@@ -17,11 +18,16 @@ struct Conditions {
   bool until_failure = false;  ///< no further checks are run after one that did not pass
   bool in_process = false;     ///< for debuggers
   std::string filter;          ///< of names; empty: all
+  std::string plugin;          ///< id of one of the plugins of a library; empty: the only one
   Setup setup;
 };
 
-/// Loads the plugin and runs its checks. A plugin that cannot be loaded is a report of one failed check,
-/// `load`. Throws InputError for a bad filter.
+/// Loads the plugin and runs its checks. A plugin that cannot be loaded, and one that is not named where the
+/// library has several, is a report of one failed check, `load`. Throws InputError for a bad filter.
 Report conform(const std::filesystem::path& file, const Conditions& conditions);
+
+/// The same of every plugin of the library, in its order, or of the one that the conditions name. Of several,
+/// those without a check that the filter matches are left out; InputError where there is none in any.
+std::vector<Report> conform_all(const std::filesystem::path& file, const Conditions& conditions);
 
 }  // namespace hauberk::conformance

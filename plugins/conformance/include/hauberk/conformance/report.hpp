@@ -18,6 +18,7 @@ struct Result {
 struct Report {
   std::string file;
   std::string id, version, kind;  ///< empty when it could not be loaded
+  bool one_of_several = false;    ///< of its library
   Setup setup;
   std::uint64_t seed = 1;
   int seeds = 1;

@@ -1,15 +1,16 @@
-# hauberk_add_plugin(<id> KIND shape|load_case|optimizer SOURCES <file>... [LIBRARIES <target>...]
+# hauberk_add_plugin(<id> KIND shape|load_case|optimizer|several SOURCES <file>... [LIBRARIES <target>...]
 #                    [OUTPUT_DIRECTORY <dir>])
 #
-# Builds the plugin <id> as <id>.so. Only the table `hauberk_plugin` is exported. In Hauberk's own tree the
+# Builds the plugin <id> as <id>.so. Only the table `hauberk_plugin` is exported, or of KIND several, a library of
+# plugins with ids of their own, the list `hauberk_plugins` (hauberk/kit/plugin_table.hpp). In Hauberk's own tree the
 # library goes where the program looks first; elsewhere to <build>/plugins, for --plugin-path.
 function(hauberk_add_plugin id)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "KIND;OUTPUT_DIRECTORY" "SOURCES;LIBRARIES")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hauberk_add_plugin(${id}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
   endif()
-  if(NOT arg_KIND MATCHES "^(shape|load_case|optimizer)$")
-    message(FATAL_ERROR "hauberk_add_plugin(${id}): KIND must be shape, load_case or optimizer")
+  if(NOT arg_KIND MATCHES "^(shape|load_case|optimizer|several)$")
+    message(FATAL_ERROR "hauberk_add_plugin(${id}): KIND must be shape, load_case, optimizer or several")
   endif()
   if(NOT arg_SOURCES)
     message(FATAL_ERROR "hauberk_add_plugin(${id}): SOURCES is missing")
@@ -47,4 +48,15 @@ function(hauberk_add_plugin id)
     set_property(GLOBAL APPEND PROPERTY HAUBERK_PLUGIN_TARGETS ${id})
     install(TARGETS ${id} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/hauberk/plugins")
   endif()
+endfunction()
+
+# hauberk_install_plugins(<id>...)
+#
+# `cmake --install` puts these beside the plugins of the Hauberk that was found, where it looks for them; with --prefix
+# PREFIX, or where CMAKE_INSTALL_PREFIX is given, into PREFIX/lib/hauberk/plugins, for HAUBERK_PLUGIN_PATH.
+function(hauberk_install_plugins)
+  if(PROJECT_IS_TOP_LEVEL AND CMAKE_INSTALL_PREFIX_INITIALIZED_TO_DEFAULT)
+    set_property(CACHE CMAKE_INSTALL_PREFIX PROPERTY VALUE "${hauberk_PREFIX}")
+  endif()
+  install(TARGETS ${ARGN} LIBRARY DESTINATION lib/hauberk/plugins)
 endfunction()

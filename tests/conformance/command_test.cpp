@@ -119,6 +119,37 @@ TEST(Conform, ParametersOfTheSectionAreLookedAt)
   expect_said(R"({"R": 1, "r": 2})", "the shape refuses the parameters of the section: parameter 'r' = 2");
 }
 
+/// Of a library with several plugins all are checked, or the one that is named; each says how to repeat what
+/// failed of it.
+TEST(Conform, EachPluginOfALibrary)
+{
+  const std::string file = HAUBERK_BINARY_DIR "/tests/bad_plugins/several.so";
+  const Outcome all = run_program({"plugins", "conform", file, "--filter", "^descriptor$|rotations"});
+  EXPECT_EQ(all.code, 0) << all.out;
+  EXPECT_NE(all.out.find("plugin several_ring 1.0, a shape: " + file + "\n"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("2 checks: 2 passed, 0 failed, 0 skipped\n"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("plugin several_search 2.0, an optimizer: " + file + "\n"), std::string::npos);
+
+  // The filter matches no check of the optimizer.
+  const Outcome shape = run_program({"plugins", "conform", file, "--filter", "rotations"});
+  EXPECT_EQ(shape.code, 0);
+  EXPECT_EQ(shape.out.find("several_search"), std::string::npos) << shape.out;
+  EXPECT_EQ(run_program({"plugins", "conform", file, "--filter", "nonsense"}).code, 2);
+
+  const Outcome one = run_program({"plugins", "conform", file, "--plugin", "several_search", "--filter",
+                                   "^descriptor$|start_at_optimum"});
+  EXPECT_EQ(one.code, 1);
+  EXPECT_EQ(one.out.find("several_ring"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("again: hauberk plugins conform '" + file + "' --seed 1 --plugin 'several_search'"),
+            std::string::npos)
+      << one.out;
+  const Outcome none = run_program({"plugins", "conform", file, "--plugin", "several"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.out.find("FAILED   load: it has no plugin 'several', but several_ring, several_search\n"),
+            std::string::npos)
+      << none.out;
+}
+
 /// What is told beside a failure is where it was found, not where the check began.
 TEST(Conform, TellsTheParametersThatWereRefused)
 {
@@ -158,7 +189,7 @@ TEST(New, RefusesWhatMakesNoSense)
   expect_refused({"--kind", "shape", "oval"}, "expected NAME and DIR");
   expect_refused({"oval", to}, "--kind is missing");
   expect_refused({"--kind", "shapes", "oval", to},
-                 "--kind: expected shape, load_case or optimizer, found 'shapes'");
+                 "--kind: expected shape, solid, load_case, patch or optimizer, found 'shapes'");
   for (const std::string name :
        {"Oval", "2d", "oval-link", "oval link", "_oval", "oval_", "o__v", "../oval", "öval"}) {
     expect_refused(

@@ -5,8 +5,10 @@ import pathlib
 import re
 import sys
 
-PROJECTS = {"shape": ("figure_eight", "FigureEight"), "load_case": ("isotropic", "Isotropic"),
-            "optimizer": ("spectral", "Spectral")}
+# Template, kind of plugin, name, class.
+PROJECTS = [("shape", "shape", "figure_eight", "FigureEight"), ("solid", "shape", "oval", "Oval"),
+            ("load_case", "load_case", "isotropic", "Isotropic"), ("patch", "load_case", "frame", "Frame"),
+            ("optimizer", "optimizer", "spectral", "Spectral")]
 
 
 def lines(text):
@@ -16,12 +18,13 @@ def lines(text):
 
 def template(folder):
     files = {}
-    for kind, (name, class_name) in PROJECTS.items():
-        for file in sorted([*(folder / "common").iterdir(), *(folder / kind).iterdir()]):
+    for template_name, kind, name, class_name in PROJECTS:
+        for file in sorted([*(folder / "common").iterdir(), *(folder / template_name).iterdir()]):
             text = file.read_text()
-            for mark, value in (("plugin_name", name), ("PluginName", class_name), ("plugin_kind", kind)):
+            for mark, value in (("plugin_name", name), ("PluginName", class_name), ("plugin_kind", kind),
+                                ("plugin_template", template_name)):
                 text = text.replace(mark, value)
-            files[f"{kind}/{file.name}"] = lines(text)
+            files[f"{template_name}/{file.name}"] = lines(text)
     return files
 
 

@@ -97,12 +97,12 @@ Exit codes: 0 done; 1 the computation failed, what was computed is on disk; 2 ba
 written; 130 interrupted, partial results are on disk.
 )");
   EXPECT_EQ(run_program({"plugins", "new", "--help"}).out,
-            R"(Usage: hauberk plugins new --kind shape|load_case|optimizer NAME DIR
+            R"(Usage: hauberk plugins new --kind shape|solid|load_case|patch|optimizer NAME DIR
 Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it is.
 
 Options:
   -h [ --help ]         show this and exit
-  --kind KIND           shape, load_case or optimizer
+  --kind KIND           shape, solid, load_case, patch or optimizer
 )");
 }
 

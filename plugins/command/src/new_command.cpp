@@ -19,13 +19,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 3> kinds = {"shape", "load_case", "optimizer"};
+/// A template, and the kind of plugin that it is.
+struct Template {
+  std::string_view name, kind;
+};
+constexpr std::array<Template, 5> templates = {{{"shape", "shape"},
+                                                {"solid", "shape"},
+                                                {"load_case", "load_case"},
+                                                {"patch", "load_case"},
+                                                {"optimizer", "optimizer"}}};
+constexpr const char* expected = "shape, solid, load_case, patch or optimizer";
 /// Targets that CMake makes itself, which a plugin cannot be called.
 constexpr std::array<std::string_view, 9> taken = {"all",     "clean", "edit_cache",    "help", "install",
                                                    "package", "test",  "rebuild_cache", "list"};
 
-/// What stands for the name in the template, and as the name of a class.
-constexpr std::string_view name_mark = "plugin_name", class_mark = "PluginName", kind_mark = "plugin_kind";
+/// What stands for the name in the template, and as the name of a class; for the kind and the template.
+constexpr std::string_view name_mark = "plugin_name", class_mark = "PluginName", kind_mark = "plugin_kind",
+                           template_mark = "plugin_template";
 
 bool lower(char c) { return c >= 'a' && c <= 'z'; }
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -71,17 +81,36 @@ std::string replaced(std::string text, std::string_view from, const std::string&
   return text;
 }
 
+std::vector<std::string> template_names()
+{
+  std::vector<std::string> names;
+  for (const Template& t : templates) names.emplace_back(t.name);
+  return names;
+}
+
+const Template& template_of(const Options& options)
+{
+  if (!options.has("kind")) throw UsageError("--kind is missing", options.usage());
+  const auto word = options.get<std::string>("kind");
+  const auto found =
+      std::find_if(templates.begin(), templates.end(), [&word](const Template& t) { return t.name == word; });
+  if (found == templates.end())
+    throw UsageError(fmt::format("--kind: expected {}, found '{}'", expected, word), options.usage());
+  return *found;
+}
+
 /// The files of the template, with the name put in.
-std::vector<NamedContent> project_files(const std::string& kind, const std::string& name)
+std::vector<NamedContent> project_files(const Template& from, const std::string& name)
 {
   const fs::path root = shared_data_folder() / "template";
   std::vector<NamedContent> files;
-  for (const fs::path& folder : {root / "common", root / kind}) {
+  for (const fs::path& folder : {root / "common", root / from.name}) {
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       const auto named = [&](std::string text) {
-        return replaced(replaced(replaced(std::move(text), name_mark, name), class_mark, class_name(name)),
-                        kind_mark, kind);
+        text = replaced(replaced(std::move(text), name_mark, name), class_mark, class_name(name));
+        text = replaced(std::move(text), kind_mark, std::string(from.kind));
+        return replaced(std::move(text), template_mark, std::string(from.name));
       };
       files.push_back(
           {named(entry.path().filename().string()), named(read_text_file(entry.path().string()))});
@@ -129,41 +158,36 @@ Description new_description()
   return {
       .name = "plugins new",
       .line = "write a project to begin a plugin with",
-      .synopsis = "plugins new --kind shape|load_case|optimizer NAME DIR",
+      .synopsis = "plugins new --kind shape|solid|load_case|patch|optimizer NAME DIR",
       .summary = "Writes a small complete project of a plugin to DIR: it builds, conforms and runs as it is.",
       .more =
-          "NAME is made of small letters, digits and single `_`, and is not that of a plugin that is "
-          "found. Files that exist are refused, and all files are written or none.",
+          "A `solid` is a shape whose surface is given by a chart and a field, a `patch` a load case "
+          "that is not periodic. NAME is made of small letters, digits and single `_`, and is not that of "
+          "a plugin that is found. Files that exist are refused, and all files are written or none.",
       .arguments = {{.name = "NAME"}, {.name = "DIR", .offer = Offer::folders}},
       .options = {{.name = "kind",
                    .takes = Takes::text,
                    .value = "KIND",
-                   .help = "shape, load_case or optimizer",
+                   .help = expected,
                    .offer = Offer::words,
-                   .choices = {kinds.begin(), kinds.end()}}}};
+                   .choices = template_names()}}};
 }
 
 int new_command(const std::vector<std::string>& words)
 {
   Options options(new_description());
   options.parse(words);
-  const std::string kind = options.has("kind") ? options.get<std::string>("kind") : "";
-  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-    throw UsageError(kind.empty()
-                         ? std::string("--kind is missing")
-                         : fmt::format("--kind: expected shape, load_case or optimizer, found '{}'", kind),
-                     options.usage());
-  }
+  const Template& from = template_of(options);
   const std::string& name = options.positionals()[0];
   const fs::path folder = options.positionals()[1];
   check_name(name, *open_registry(options));
-  write_project(folder, project_files(kind, name));
+  write_project(folder, project_files(from, name));
   fmt::print(
       "{0} '{1}' is in {2}; next:\n\n  cd {2}\n  cmake -B build{3} && cmake --build build && ctest "
       "--test-dir build\n"
       "  hauberk plugins conform build/plugins/{1}.so\n"
       "  hauberk run experiment.json --plugin-path build/plugins -o out\n",
-      kind, name, folder.string(), prefix_option());
+      from.name, name, folder.string(), prefix_option());
   return exit_done;
 }
 

@@ -1,6 +1,6 @@
 /// A periodic sheet that is stretched or compressed alike in all directions of its plane.
 
-#include <hauberk/plugin.hpp>
+#include <hauberk/kit/plugin_table.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +46,6 @@ class PluginName final : public LoadCase {
   std::vector<MacroInfo> macros_{{"e", 0}};
 };
 
-/// This load case has no settings of its own.
-void fields(std::vector<Field>& /*out*/) {}
-
 /// `length` is the scene's characteristic length: lengths in the section are divided by it.
 std::unique_ptr<LoadCase> make(const Node& /*section*/, double /*length*/, Problems& /*problems*/)
 {
@@ -57,15 +54,7 @@ std::unique_ptr<LoadCase> make(const Node& /*section*/, double /*length*/, Probl
 
 }  // namespace
 
-extern "C" HAUBERK_EXPORT constinit const hauberk::PluginTable hauberk_plugin = {
-    HAUBERK_HANDSHAKE,
-    hauberk::PluginKind::load_case,
-    "plugin_name",
-    "0.1.0",
-    "Periodic sheet stretched or compressed alike in all directions of its plane.",
-    "your publication",
-    fields,
-    nullptr,
-    make,
-    nullptr,
-};
+extern "C" HAUBERK_EXPORT constinit const hauberk::PluginTable hauberk_plugin = hauberk::kit::load_case_table(
+    {"plugin_name", "0.1.0", "Periodic sheet stretched or compressed alike in all directions of its plane.",
+     "your publication"},
+    hauberk::kit::no_fields, make);

@@ -49,9 +49,9 @@ expect '' hauberk verify --th
 expect '--force' hauberk report --recheck x --f
 
 # Values of options.
-expect 'load_case optimizer shape' hauberk plugins new --kind ''
-expect 'shape' hauberk plugins new --kind = s
-expect 'load_case optimizer shape' hauberk plugins new --kind =
+expect 'load_case optimizer patch shape solid' hauberk plugins new --kind ''
+expect 'shape solid' hauberk plugins new --kind = s
+expect 'load_case optimizer patch shape solid' hauberk plugins new --kind =
 expect '/solver/preset=accurate /solver/preset=paper' hauberk run --set /solver/preset
 expect 'accurate paper' hauberk run --set /solver/preset =
 expect 'paper' hauberk run --set /solver/preset = p

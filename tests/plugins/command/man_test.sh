@@ -19,7 +19,7 @@ if [[ -s $work/warnings ]]; then fail "warnings: $(<"$work/warnings")"; fi
 MANWIDTH=200 man -E UTF-8 -l "$work/hauberk.1" 2>/dev/null | col -bx >"$work/text"
 for text in 'hauberk - deformation limits of generalised chainmail' 'hauberk run EXPERIMENT.json [options]' \
   '-o DIR, --output DIR' "'{\"parameters\": {\"ring.R\": 5}}'" '../lib/hauberk/plugins' '130' \
-  'shape|load_case|optimizer' 'HAUBERK_PLUGIN_PATH' 'hauberk verify out/chain'; do
+  'shape|solid|load_case|patch|optimizer' 'HAUBERK_PLUGIN_PATH' 'hauberk verify out/chain'; do
   grep -qF -e "$text" "$work/text" || fail "'$text' is not on it"
 done
 if grep -n '`' "$work/text"; then fail "a mark of literal text was left"; fi

@@ -13,13 +13,16 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/kernel/api/" "${PROJECT_BINARY_DIR}/ker
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT hauberkTargets NAMESPACE hauberk:: DESTINATION "${package_folder}")
 
+include(HauberkHandshake)
+hauberk_handshake(HAUBERK_HANDSHAKE "${PROJECT_SOURCE_DIR}/kernel/api")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/share/cmake/hauberkConfig.cmake.in" hauberkConfig.cmake
-                              INSTALL_DESTINATION "${package_folder}")
+                              INSTALL_DESTINATION "${package_folder}" PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 # Before 1.0 every minor version may change the interfaces.
 write_basic_package_version_file(hauberkConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/hauberkConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/hauberkConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/share/cmake/HauberkAddPlugin.cmake"
+              "${PROJECT_SOURCE_DIR}/share/cmake/HauberkHandshake.cmake"
         DESTINATION "${package_folder}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/weaves/" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/weaves"
         FILES_MATCHING PATTERN "*.json")

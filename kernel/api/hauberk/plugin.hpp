@@ -16,7 +16,7 @@
 namespace hauberk {
 
 /// Raised whenever any type in the interface headers changes.
-inline constexpr std::uint32_t interface_revision = 11;
+inline constexpr std::uint32_t interface_revision = 12;
 
 #define HAUBERK_STR2(x) #x
 #define HAUBERK_STR(x) HAUBERK_STR2(x)
@@ -78,7 +78,8 @@ inline constexpr std::uint32_t interface_layout =
               std::shared_ptr<const Solid>, std::unique_ptr<Shape>, std::pair<std::string, double>, Vec3,
               Mat3, Node, Problem, Problems, Field, ParameterInfo, Harmonic, Primitive, MacroInfo,
               PositionMap, LinearInequality, LinearEquality, MacroCondition, SheetState, StricterLoadCase,
-              Direction, OptimizationProblem::Evaluation, OptimizerIterate, OptimizerResult>();
+              Direction, OptimizationProblem::Evaluation, OptimizerIterate, OptimizerResult,
+              OptimizerTraits>();
 
 /// What must agree before the rest of the table is read. Strings are compared by content.
 struct Handshake {

@@ -51,7 +51,7 @@ std::unique_ptr<Optimizer> make_optimizer(const PluginTable& table, const Node& 
 {
   auto optimizer =
       make(table, "make_optimizer", problems, [&] { return table.make_optimizer(section, problems); });
-  return optimizer ? guard_optimizer(std::move(optimizer), Guard(table.id)) : nullptr;
+  return optimizer ? guard_optimizer(std::move(optimizer), Guard(table.id), table) : nullptr;
 }
 
 }  // namespace hauberk

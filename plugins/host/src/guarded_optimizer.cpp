@@ -1,6 +1,8 @@
 #include "guarded.hpp"
 
+#include <dlfcn.h>
 #include <exception>
+#include <map>
 #include <mutex>
 
 namespace hauberk {
@@ -32,6 +34,19 @@ class Callbacks {
   std::exception_ptr thrown_;
 };
 
+/// One for each library in which runs wait for each other: what such a library keeps in global variables
+/// belongs to the whole process, as it is loaded once, and so must the lock. Recursive, as the problem of a
+/// run may itself start one.
+std::recursive_mutex& lock_of_library(const PluginTable& table)
+{
+  static std::mutex mutex;
+  static std::map<const void*, std::recursive_mutex> locks;
+  Dl_info library{};
+  const void* base = ::dladdr(&table, &library) != 0 ? library.dli_fbase : &table;
+  const std::lock_guard lock(mutex);
+  return locks[base];
+}
+
 class WatchedProblem final : public OptimizationProblem {
  public:
   WatchedProblem(OptimizationProblem& inner, Callbacks& callbacks) : inner_(inner), callbacks_(callbacks) {}
@@ -48,9 +63,18 @@ class WatchedProblem final : public OptimizationProblem {
   {
     return callbacks_.run([&] { return inner_.constraint_count(); });
   }
+  int equality_count() const override
+  {
+    return callbacks_.run([&] { return inner_.equality_count(); });
+  }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override
   {
     return callbacks_.run([&] { return inner_.evaluate(x, want_gradient); });
+  }
+  std::vector<Evaluation> evaluate_batch(std::size_t count, std::span<const double> points,
+                                         bool want_gradient) override
+  {
+    return callbacks_.run([&] { return inner_.evaluate_batch(count, points, want_gradient); });
   }
   int residual_count() const override
   {
@@ -64,6 +88,11 @@ class WatchedProblem final : public OptimizationProblem {
   {
     callbacks_.run([&] { inner_.constraints(x, c, jacobian); });
   }
+  bool hessian_product(std::span<const double> x, double weight, std::span<const double> multipliers,
+                       std::span<const double> v, std::span<double> out) override
+  {
+    return callbacks_.run([&] { return inner_.hessian_product(x, weight, multipliers, v, out); });
+  }
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override
   {
     return callbacks_.run([&] { return inner_.largest_safe_step(x, d); });
@@ -71,6 +100,10 @@ class WatchedProblem final : public OptimizationProblem {
   void accept(std::span<const double> x) override
   {
     callbacks_.run([&] { inner_.accept(x); });
+  }
+  std::uint64_t stream() const override
+  {
+    return callbacks_.run([&] { return inner_.stream(); });
   }
 
  private:
@@ -94,15 +127,22 @@ class WatchedObserver final : public OptimizerObserver {
 
 class GuardedOptimizer final : public Optimizer {
  public:
-  GuardedOptimizer(std::unique_ptr<Optimizer> inner, const Guard& guard)
-      : inner_(std::move(inner)), guard_(guard)
+  GuardedOptimizer(std::unique_ptr<Optimizer> inner, const Guard& guard, const PluginTable& table)
+      : inner_(std::move(inner)),
+        guard_(guard),
+        traits_(guard_.with_process_state("traits", [&] { return inner_->traits(); })),
+        alone_(traits_.thread_safe ? nullptr : &lock_of_library(table))
   {
   }
+
+  OptimizerTraits traits() const override { return traits_; }
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
                               OptimizerObserver& observer) const override
   {
+    std::unique_lock<std::recursive_mutex> lock;
+    if (alone_ != nullptr) lock = std::unique_lock(*alone_);
     Callbacks callbacks;
     WatchedProblem watched_problem(problem, callbacks);
     WatchedObserver watched_observer(observer, callbacks);
@@ -120,13 +160,16 @@ class GuardedOptimizer final : public Optimizer {
  private:
   std::unique_ptr<Optimizer> inner_;
   Guard guard_;
+  OptimizerTraits traits_;
+  std::recursive_mutex* alone_;  ///< held during a run; null: runs need not wait for each other
 };
 
 }  // namespace
 
-std::unique_ptr<Optimizer> guard_optimizer(std::unique_ptr<Optimizer> optimizer, const Guard& guard)
+std::unique_ptr<Optimizer> guard_optimizer(std::unique_ptr<Optimizer> optimizer, const Guard& guard,
+                                           const PluginTable& table)
 {
-  return std::make_unique<GuardedOptimizer>(std::move(optimizer), guard);
+  return std::make_unique<GuardedOptimizer>(std::move(optimizer), guard, table);
 }
 
 }  // namespace hauberk

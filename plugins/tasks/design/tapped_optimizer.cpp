@@ -18,10 +18,17 @@ class InterruptibleProblem final : public OptimizationProblem {
   std::span<const double> lower() const override { return problem_.lower(); }
   std::span<const double> upper() const override { return problem_.upper(); }
   int constraint_count() const override { return problem_.constraint_count(); }
+  int equality_count() const override { return problem_.equality_count(); }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override
   {
     stop_if_interrupted();
     return problem_.evaluate(x, want_gradient);
+  }
+  std::vector<Evaluation> evaluate_batch(std::size_t count, std::span<const double> points,
+                                         bool want_gradient) override
+  {
+    stop_if_interrupted();
+    return problem_.evaluate_batch(count, points, want_gradient);
   }
   int residual_count() const override { return problem_.residual_count(); }
   bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
@@ -33,12 +40,19 @@ class InterruptibleProblem final : public OptimizationProblem {
     stop_if_interrupted();
     problem_.constraints(x, c, jacobian);
   }
+  bool hessian_product(std::span<const double> x, double weight, std::span<const double> multipliers,
+                       std::span<const double> v, std::span<double> out) override
+  {
+    stop_if_interrupted();
+    return problem_.hessian_product(x, weight, multipliers, v, out);
+  }
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override
   {
     stop_if_interrupted();
     return problem_.largest_safe_step(x, d);
   }
   void accept(std::span<const double> x) override { problem_.accept(x); }
+  std::uint64_t stream() const override { return problem_.stream(); }
 
  private:
   OptimizationProblem& problem_;

@@ -23,6 +23,8 @@ class TappedOptimizer final : public Optimizer {
   {
   }
 
+  OptimizerTraits traits() const override { return inner_.traits(); }
+
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
                               OptimizerObserver& observer) const override;

@@ -16,6 +16,13 @@ class PluginName final : public Optimizer {
   {
   }
 
+  OptimizerTraits traits() const override
+  {
+    OptimizerTraits traits;
+    traits.thread_safe = true;  // runs share nothing
+    return traits;
+  }
+
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
                               OptimizerObserver& observer) const override

@@ -184,11 +184,13 @@ TEST(LoadCaseChecks, Components)
 class AnyProblem final : public OptimizationProblem {
  public:
   std::vector<double> low = {0.0}, high = {1.0};
+  int constraint_number = 0, equality_number = 0;
 
   std::span<const double> lower() const override { return low; }
   std::span<const double> upper() const override { return high; }
-  int constraint_count() const override { return 0; }
-  Evaluation evaluate(std::span<const double>, bool) override { return {}; }
+  int constraint_count() const override { return constraint_number; }
+  int equality_count() const override { return equality_number; }
+  Evaluation evaluate(std::span<const double> x, bool) override { return {true, 2.0 * x[0], {}, ""}; }
   int residual_count() const override { return 0; }
   bool residuals(std::span<const double>, std::span<double>, std::span<double>) override { return false; }
   void constraints(std::span<const double>, std::span<double>, std::span<double>) override {}
@@ -199,6 +201,9 @@ class AnyProblem final : public OptimizationProblem {
 class AnyOptimizer final : public Optimizer {
  public:
   OptimizerResult answer{"converged", "", {0.5}, 1.0, 0, 0};
+  OptimizerTraits declared;
+
+  OptimizerTraits traits() const override { return declared; }
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem&, std::span<const double>,
@@ -225,6 +230,48 @@ TEST(OptimizerChecks, Start)
   EXPECT_EQ(start({0.5, 0.5}), "optimizer: start has 2 variables, bounds have 1 and 1");
   EXPECT_EQ(start({2.0}), "optimizer: variable 0 starts at 2, outside its bounds [0, 1]");
   EXPECT_NE(start({std::nan("")}), "(nothing thrown)");
+}
+
+TEST(OptimizerChecks, EquationsThatItDoesNotKeep)
+{
+  AnyProblem problem;
+  Silent observer;
+  AnyOptimizer optimizer;
+  const auto run = [&] {
+    return message<InputError>([&] { optimizer.minimize(problem, std::vector<double>{0.5}, observer); });
+  };
+  problem.constraint_number = 3;
+  EXPECT_EQ(run(), "(nothing thrown)");
+  problem.equality_number = 1;
+  EXPECT_EQ(
+      run(),
+      "optimizer: the problem has 1 equality constraint, and this one keeps none; choose 'sqp', 'bfgs', "
+      "'ipopt', or 'nlopt' with its algorithm slsqp, lbfgs or cobyla");
+  optimizer.declared.equalities = true;
+  EXPECT_EQ(run(), "(nothing thrown)");
+  problem.equality_number = 4;
+  EXPECT_EQ(run(), "optimizer: 4 of the problem's 3 constraints are equations");
+}
+
+TEST(OptimizationProblem, BatchesAreOnePointAfterTheOther)
+{
+  AnyProblem problem;
+  const auto found = problem.evaluate_batch(3, std::vector<double>{0.5, 0.25, 1.0}, false);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].value, 1.0);
+  EXPECT_EQ(found[1].value, 0.5);
+  EXPECT_EQ(found[2].value, 2.0);
+  EXPECT_EQ(message<PluginError>([&] { problem.evaluate_batch(2, std::vector<double>(3), false); }),
+            "optimizer: a batch of 2 points of 1 variables has 3 numbers, expected 2");
+}
+
+/// SplitMix64 from 0: the reference implementation's first numbers.
+TEST(SeedOfStream, IsTheSeedAndThenMixedBits)
+{
+  EXPECT_EQ(seed_of_stream(0, 0), 0U);
+  EXPECT_EQ(seed_of_stream(42, 0), 42U);
+  EXPECT_EQ(seed_of_stream(0, 1), 0xe220a8397b1dcdafU);
+  EXPECT_EQ(seed_of_stream(0, 2), 0x6e789e6aa1b965f4U);
 }
 
 TEST(OptimizerChecks, Result)

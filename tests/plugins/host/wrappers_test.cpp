@@ -5,9 +5,16 @@
 #include <hauberk/host/floating_point.hpp>
 #include <hauberk/host/plugin_library.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <clocale>
+#include <condition_variable>
+#include <functional>
 #include <iostream>
+#include <mutex>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 namespace hauberk::test {
 namespace {
@@ -155,7 +162,7 @@ TEST(GuardedShape, ProcessStateIsKept)
 }
 
 /// f(x) = x^2 on [0, 2]; evaluation throws when asked to.
-class Parabola final : public OptimizationProblem {
+class Parabola : public OptimizationProblem {
  public:
   explicit Parabola(bool fail) : fail_(fail) {}
   std::span<const double> lower() const override { return lower_; }
@@ -190,12 +197,18 @@ class Silent final : public OptimizerObserver {
   bool on_iterate(const OptimizerIterate&) override { return true; }
 };
 
-OptimizerResult run_hasty(bool problem_fails, bool swallow, bool plugin_fails)
+std::unique_ptr<Optimizer> make_hasty(bool swallow, bool plugin_fails, bool thread_safe = true)
 {
   Problems problems;
-  const auto optimizer =
-      make_optimizer(PluginLibrary::load(bad("hasty_optimizer")).table(),
-                     object({{"swallow", flag(swallow)}, {"throw", flag(plugin_fails)}}), problems);
+  return make_optimizer(
+      PluginLibrary::load(bad("hasty_optimizer")).table(),
+      object({{"swallow", flag(swallow)}, {"throw", flag(plugin_fails)}, {"thread_safe", flag(thread_safe)}}),
+      problems);
+}
+
+OptimizerResult run_hasty(bool problem_fails, bool swallow, bool plugin_fails)
+{
+  const auto optimizer = make_hasty(swallow, plugin_fails);
   Parabola problem(problem_fails);
   Silent observer;
   const std::array<double, 1> start{1.5};
@@ -228,6 +241,103 @@ TEST(GuardedOptimizer, WhatTheProblemThrowsIsNotBlamedOnThePlugin)
   // Neither is it lost when the plugin swallows it, or throws something else afterwards.
   EXPECT_EQ(message_of<std::out_of_range>([] { run_hasty(true, true, false); }), "a defect of the program");
   EXPECT_EQ(message_of<std::out_of_range>([] { run_hasty(true, true, true); }), "a defect of the program");
+}
+
+/// What a problem need not have.
+class Rich final : public Parabola {
+ public:
+  Rich() : Parabola(false) {}
+  int constraint_count() const override { return 3; }
+  int equality_count() const override { return 2; }
+  std::vector<Evaluation> evaluate_batch(std::size_t, std::span<const double>, bool) override
+  {
+    return {{true, 0.25, {}, ""}};
+  }
+  bool hessian_product(std::span<const double>, double weight, std::span<const double>,
+                       std::span<const double> v, std::span<double> out) override
+  {
+    out[0] = 2.0 * weight * v[0];
+    return true;
+  }
+  std::uint64_t stream() const override { return 4; }
+};
+
+TEST(GuardedOptimizer, WhatAProblemNeedNotHaveComesThrough)
+{
+  Rich problem;
+  Silent observer;
+  const OptimizerResult result = make_hasty(false, false)->minimize(problem, std::array{1.5}, observer);
+  EXPECT_EQ(result.message, "0.25 2 4 3");
+  EXPECT_TRUE(make_hasty(false, false, true)->traits().thread_safe);
+  EXPECT_FALSE(make_hasty(false, false, false)->traits().thread_safe);
+}
+
+/// Counts how many evaluations go on at once: each waits for another one, as long as given.
+struct Meeting {
+  explicit Meeting(std::chrono::milliseconds most_wait) : wait(most_wait) {}
+
+  void attend()
+  {
+    std::unique_lock lock(mutex);
+    most = std::max(most, ++inside);
+    changed.notify_all();
+    changed.wait_for(lock, wait, [this] { return most > 1; });
+    --inside;
+  }
+
+  std::chrono::milliseconds wait;
+  std::mutex mutex;
+  std::condition_variable changed;
+  int inside = 0, most = 0;
+};
+
+class MeetingProblem final : public Parabola {
+ public:
+  explicit MeetingProblem(std::function<void()> meet) : Parabola(false), meet_(std::move(meet)) {}
+  Evaluation evaluate(std::span<const double> x, bool want_gradient) override
+  {
+    meet_();
+    return Parabola::evaluate(x, want_gradient);
+  }
+
+ private:
+  std::function<void()> meet_;
+};
+
+/// Most evaluations at once of two runs of two optimizers of one library.
+int most_at_once(bool thread_safe, std::chrono::milliseconds wait)
+{
+  Meeting meeting(wait);
+  const auto run = [&] {
+    MeetingProblem problem([&] { meeting.attend(); });
+    Silent observer;
+    make_hasty(false, false, thread_safe)->minimize(problem, std::array{1.5}, observer);
+  };
+  {
+    const std::jthread other(run);
+    run();
+  }
+  return meeting.most;
+}
+
+TEST(GuardedOptimizer, RunsOfALibraryThatIsNotThreadSafeWaitForEachOther)
+{
+  using namespace std::chrono_literals;
+  EXPECT_EQ(most_at_once(true, 20s), 2);  // ends at once: both are there
+  EXPECT_EQ(most_at_once(false, 50ms), 1);
+}
+
+TEST(GuardedOptimizer, AProblemMayStartARunItself)
+{
+  const auto optimizer = make_hasty(false, false, false);
+  Silent observer;
+  double inner = 0.0;
+  MeetingProblem problem([&] {
+    Parabola plain(false);
+    inner = optimizer->minimize(plain, std::array{0.5}, observer).value;
+  });
+  EXPECT_EQ(optimizer->minimize(problem, std::array{1.5}, observer).value, 2.25);
+  EXPECT_EQ(inner, 0.25);
 }
 
 }  // namespace

@@ -20,7 +20,10 @@ std::unique_ptr<Shape> make_shape(const PluginTable& table, const Node& section,
 std::unique_ptr<LoadCase> make_load_case(const PluginTable& table, const Node& section, double length,
                                          Problems& problems);
 
-/// As make_shape. What the problem or the observer throws during `minimize` passes through unchanged.
+/// As make_shape. What the problem or the observer throws during `minimize` passes through unchanged. Runs of
+/// optimizers of one library that do not declare themselves thread safe wait for each other; a run that the
+/// problem of another one starts in its thread does not. So a problem must not wait in a callback for such a
+/// run in another thread.
 std::unique_ptr<Optimizer> make_optimizer(const PluginTable& table, const Node& section, Problems& problems);
 
 }  // namespace hauberk

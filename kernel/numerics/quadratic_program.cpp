@@ -27,8 +27,12 @@ constexpr double independent = 1e-9;
 /// variables that costs nothing, and no error accumulates.
 class DualActiveSet {
  public:
-  DualActiveSet(MatrixXd normals, VectorXd offsets, VectorXd g)
-      : normals_(std::move(normals)), offsets_(std::move(offsets)), g_(std::move(g)), y_(-g_)
+  DualActiveSet(MatrixXd normals, VectorXd offsets, VectorXd g, Index equalities)
+      : normals_(std::move(normals)),
+        offsets_(std::move(offsets)),
+        g_(std::move(g)),
+        y_(-g_),
+        equalities_(equalities)
   {
   }
 
@@ -37,6 +41,13 @@ class DualActiveSet {
     const Index m = normals_.cols();
     ignored_.assign(static_cast<std::size_t>(m), false);
     Index budget = 50 * (m + normals_.rows()) + 100;
+    // While only equations are active nothing is dropped: each is added by one full step, in either
+    // direction.
+    for (Index p = 0; p < equalities_; ++p) {
+      double u = 0.0;
+      if (!y_.allFinite()) return QuadraticSolution::Status::failed;
+      if (advance(p, u) == Progress::infeasible) return QuadraticSolution::Status::infeasible;
+    }
     for (Index p = most_violated(); p >= 0; p = most_violated()) {
       double u = 0.0;  // multiplier of p, grown until p is satisfied
       for (bool added = false; !added;) {
@@ -67,7 +78,7 @@ class DualActiveSet {
   {
     Index worst = -1;
     double least = 0.0;
-    for (Index i = 0; i < normals_.cols(); ++i) {
+    for (Index i = equalities_; i < normals_.cols(); ++i) {
       if (ignored_[i]) continue;
       if (std::find(active_.begin(), active_.end(), i) != active_.end()) continue;
       const double s = slack(i);
@@ -91,7 +102,7 @@ class DualActiveSet {
 
     double dual = std::numeric_limits<double>::infinity();
     Index blocking = -1;
-    for (Index k = 0; k < r.size(); ++k) {
+    for (Index k = held_; k < r.size(); ++k) {
       if (r[k] > 0.0 && u_[k] / r[k] < dual) {
         dual = u_[k] / r[k];
         blocking = k;
@@ -99,7 +110,8 @@ class DualActiveSet {
     }
     const double s = slack(p);
     const bool dependent = z.norm() <= independent;
-    if (dependent && s >= -feasible_dependent * magnitude(p)) {
+    const double violation = p < equalities_ ? std::abs(s) : -s;
+    if (dependent && violation <= feasible_dependent * magnitude(p)) {
       ignored_[p] = true;
       return Progress::added;
     }
@@ -111,6 +123,7 @@ class DualActiveSet {
     if (!dependent) y_ += t * z;
     if (primal <= dual) {
       active_.push_back(p);
+      if (p < equalities_) ++held_;
       u_.conservativeResize(u_.size() + 1);
       u_[u_.size() - 1] = u;
       factorise();
@@ -120,7 +133,7 @@ class DualActiveSet {
     active_.erase(active_.begin() + blocking);
     for (Index k = blocking; k + 1 < u_.size(); ++k) u_[k] = u_[k + 1];
     u_.conservativeResize(u_.size() - 1);
-    u_ = u_.cwiseMax(0.0);
+    clamp();
     factorise();
     return Progress::dropped;
   }
@@ -146,13 +159,22 @@ class DualActiveSet {
     const VectorXd in_span = R_.transpose().triangularView<Eigen::Lower>().solve(VectorXd(offsets_(active_)));
     const VectorXd g_in_span = Q_.transpose() * g_;
     y_ = Q_ * (in_span + g_in_span) - g_;
-    u_ = R_.triangularView<Eigen::Upper>().solve(in_span + g_in_span).cwiseMax(0.0);
+    u_ = R_.triangularView<Eigen::Upper>().solve(in_span + g_in_span);
+    clamp();
+  }
+
+  /// What rounding leaves of multipliers of inequalities below zero.
+  void clamp()
+  {
+    for (Index k = held_; k < u_.size(); ++k) u_[k] = std::max(u_[k], 0.0);
   }
 
   MatrixXd normals_;  // n x m, unit columns
   VectorXd offsets_;
   VectorXd g_;
   VectorXd y_;
+  Index equalities_;  // the first constraints
+  Index held_ = 0;    // of them in active_, where they come first
   std::vector<Index> active_;
   std::vector<bool> ignored_;  // dependent on active ones and satisfied up to rounding
   VectorXd u_ = VectorXd(0);   // multipliers of the active constraints
@@ -171,7 +193,7 @@ QuadraticSolution solve(const QuadraticProgram& program)
     return solution;
   }
   const auto L = llt.matrixL();
-  // Constraints without a normal say 0 >= b: true and left out, or infeasible.
+  // Constraints without a normal say 0 >= b or 0 = b: true and left out, or infeasible.
   MatrixXd normals = program.A.transpose();
   if (normals.cols() > 0) L.solveInPlace(normals);  // Eigen's triangular solver refers to the first column
   VectorXd offsets = program.b;
@@ -180,14 +202,14 @@ QuadraticSolution solve(const QuadraticProgram& program)
     if (norms[i] > 0.0) {
       normals.col(i) /= norms[i];
       offsets[i] /= norms[i];
-    } else if (offsets[i] > 0.0) {
+    } else if (offsets[i] > 0.0 || (i < program.equalities && offsets[i] < 0.0)) {
       solution.status = QuadraticSolution::Status::infeasible;
       return solution;
     } else {
       norms[i] = 1.0;
     }
   }
-  DualActiveSet method(std::move(normals), std::move(offsets), L.solve(program.a));
+  DualActiveSet method(std::move(normals), std::move(offsets), L.solve(program.a), program.equalities);
   solution.status = method.run();
   if (solution.status != QuadraticSolution::Status::solved) return solution;
   solution.x = llt.matrixU().solve(method.y());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -28,7 +29,7 @@ std::optional<VectorXd> enumerate(const QuadraticProgram& q)
       if (set >> i & 1U) active.push_back(i);
     }
     const auto k = static_cast<Index>(active.size());
-    if (k > n) continue;
+    if (k > n || (set & ((1U << q.equalities) - 1U)) != (1U << q.equalities) - 1U) continue;
     MatrixXd K = MatrixXd::Zero(n + k, n + k);
     VectorXd rhs(n + k);
     K.topLeftCorner(n, n) = q.G;
@@ -43,8 +44,10 @@ std::optional<VectorXd> enumerate(const QuadraticProgram& q)
     if (!lu.isInvertible()) continue;
     const VectorXd y = lu.solve(rhs);
     const double tolerance = 1e-11 * (1.0 + y.norm());
-    if (k > 0 && y.tail(k).minCoeff() < -tolerance) continue;
-    if (m > 0 && (q.A * y.head(n) - q.b).minCoeff() < -tolerance) continue;
+    const Index unequal = k - q.equalities;
+    if (unequal > 0 && y.tail(unequal).minCoeff() < -tolerance) continue;
+    const VectorXd slack = q.A * y.head(n) - q.b;
+    if (m > q.equalities && slack.tail(m - q.equalities).minCoeff() < -tolerance) continue;
     return VectorXd(y.head(n));
   }
   return std::nullopt;
@@ -57,6 +60,10 @@ void expect_kkt(const QuadraticProgram& q, const QuadraticSolution& s, double to
   for (Index i = 0; i < q.b.size(); ++i) {
     const double slack = q.A.row(i).dot(s.x) - q.b[i];
     EXPECT_GT(slack, -tolerance);
+    if (i < q.equalities) {
+      EXPECT_LT(slack, tolerance);
+      continue;
+    }
     EXPECT_GE(s.multipliers[i], 0.0);
     if (s.multipliers[i] > 0.0) {
       EXPECT_LT(slack, tolerance);
@@ -71,13 +78,13 @@ QuadraticProgram random_program(std::mt19937& random, Index n, Index m)
     return MatrixXd(MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); }));
   };
   const MatrixXd S = fill(n, n);
-  return {S * S.transpose() + 0.1 * MatrixXd::Identity(n, n), fill(n, 1), fill(m, n), fill(m, 1)};
+  return {S * S.transpose() + 0.1 * MatrixXd::Identity(n, n), fill(n, 1), fill(m, n), fill(m, 1), 0};
 }
 
 TEST(QuadraticProgram, Unconstrained)
 {
   const QuadraticProgram q{MatrixXd::Identity(2, 2) * 2.0, VectorXd::Constant(2, -4.0), MatrixXd(0, 2),
-                           VectorXd(0)};
+                           VectorXd(0), 0};
   const QuadraticSolution s = solve(q);
   ASSERT_EQ(s.status, Status::solved);
   EXPECT_NEAR((s.x - VectorXd::Constant(2, 2.0)).norm(), 0.0, 1e-15);
@@ -87,7 +94,7 @@ TEST(QuadraticProgram, CornerOfATriangle)
 {
   // min x1^2/2 + x2^2/2 - x1 - 2 x2, x1 + x2 <= 2, x >= 0 -> (0.5, 1.5).
   QuadraticProgram q{MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -2), MatrixXd(3, 2),
-                     Eigen::Vector3d(-2, 0, 0)};
+                     Eigen::Vector3d(-2, 0, 0), 0};
   q.A << -1, -1, 1, 0, 0, 1;
   const QuadraticSolution s = solve(q);
   ASSERT_EQ(s.status, Status::solved);
@@ -98,7 +105,7 @@ TEST(QuadraticProgram, CornerOfATriangle)
 TEST(QuadraticProgram, HockSchittkowski76)
 {
   QuadraticProgram q{MatrixXd::Zero(4, 4), Eigen::Vector4d(-1, -3, 1, -1), MatrixXd::Zero(7, 4),
-                     VectorXd::Zero(7)};
+                     VectorXd::Zero(7), 0};
   q.G.diagonal() << 2, 1, 2, 1;
   q.G(0, 2) = q.G(2, 0) = -1.0;
   q.G(2, 3) = q.G(3, 2) = 1.0;
@@ -121,7 +128,8 @@ TEST(QuadraticProgram, AgreesWithEnumerationOfActiveSets)
   for (int trial = 0; trial < 1500; ++trial) {
     const Index n = 1 + trial % 4;
     const Index m = trial % 9;
-    const QuadraticProgram q = random_program(random, n, m);
+    QuadraticProgram q = random_program(random, n, m);
+    q.equalities = std::min<Index>(m, trial / 9 % 3);
     const auto expected = enumerate(q);
     const QuadraticSolution s = solve(q);
     if (!expected) {
@@ -153,6 +161,32 @@ TEST(QuadraticProgram, DuplicateAndRedundantConstraints)
     ASSERT_EQ(s.status, expected.status);
     if (s.status != Status::solved) continue;
     EXPECT_LT((s.x - expected.x).norm(), 1e-9 * (1.0 + expected.x.norm()));
+  }
+}
+
+TEST(QuadraticProgram, DependentEquationsThatAgreeAreOne)
+{
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 300; ++trial) {
+    QuadraticProgram once = random_program(random, 4, 3);
+    once.equalities = 2;
+    const QuadraticSolution expected = solve(once);
+    QuadraticProgram thrice = once;
+    thrice.equalities = 4;
+    thrice.A.resize(5, 4);
+    thrice.A << once.A.row(0), once.A.row(1), once.A.row(0) - 3.0 * once.A.row(1), MatrixXd::Zero(1, 4),
+        once.A.row(2);
+    thrice.b.resize(5);
+    thrice.b << once.b[0], once.b[1], once.b[0] - 3.0 * once.b[1], 0.0, once.b[2];
+    const QuadraticSolution s = solve(thrice);
+    ASSERT_EQ(s.status, Status::solved);
+    EXPECT_LT((s.x - expected.x).norm(), 1e-9 * (1.0 + expected.x.norm()));
+    EXPECT_EQ(s.multipliers[2], 0.0);
+    thrice.b[2] += 1e-3;  // they contradict each other
+    EXPECT_EQ(solve(thrice).status, Status::infeasible);
+    thrice.b[2] -= 1e-3;
+    thrice.b[3] = 1.0;  // 0 = 1
+    EXPECT_EQ(solve(thrice).status, Status::infeasible);
   }
 }
 

@@ -227,8 +227,9 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   std::string failure;
   bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
-    auto problem = std::make_unique<DesignProblem>(
-        DesignScene{frozen, load, clearance, limits, design, threads, always});
+    auto problem =
+        std::make_unique<DesignProblem>(DesignScene{frozen, load, clearance, limits, design, threads, always},
+                                        static_cast<std::uint64_t>(start));
     if (start == 0) out.result.initial_scene = scene_of(problem->current());
     problem->set_memory(memory);
     problem->set_schedule(coarse);

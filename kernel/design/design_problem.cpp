@@ -42,8 +42,9 @@ std::vector<double> copy(std::span<const double> x) { return {x.begin(), x.end()
 
 }  // namespace
 
-DesignProblem::DesignProblem(DesignScene scene)
+DesignProblem::DesignProblem(DesignScene scene, std::uint64_t stream)
     : scene_(std::make_shared<const DesignScene>(std::move(scene))),
+      stream_(stream),
       journal_(scene_),
       rest_path_(scene_),
       current_(start_point()),
@@ -110,18 +111,39 @@ std::shared_ptr<DesignPoint> DesignProblem::make_point(std::span<const double> x
 
 OptimizationProblem::Evaluation DesignProblem::evaluate(std::span<const double> x, bool want_gradient)
 {
-  const std::shared_ptr<DesignPoint> p = make_point(x);
-  if (p->why.empty() && !p->evaluated) {
+  return evaluate_batch(1, x, want_gradient).front();
+}
+
+std::vector<OptimizationProblem::Evaluation> DesignProblem::evaluate_batch(std::size_t count,
+                                                                           std::span<const double> points,
+                                                                           bool want_gradient)
+{
+  check_batch(count, points);
+  std::vector<std::shared_ptr<DesignPoint>> all, open;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::shared_ptr<DesignPoint> p = make_point(points.subspan(i * lower_.size(), lower_.size()));
+    all.push_back(p);
+    if (!p->why.empty() || p->evaluated || std::find(open.begin(), open.end(), p) != open.end()) continue;
+    open.push_back(p);
     tried_.push_back(p);
-    journal_.evaluate(*p, *current_);
   }
-  Evaluation e;
-  e.ok = p->evaluated && std::isfinite(p->objective);
-  e.why = p->why;
-  if (!e.ok) return e;
-  e.value = p->objective;
-  if (want_gradient) e.gradient.assign(p->gradient.data(), p->gradient.data() + p->gradient.size());
-  return e;
+  // All others start from the states of the iterate, which has to have some.
+  const auto iterate = std::find(open.begin(), open.end(), current_);
+  if (iterate != open.end()) {
+    journal_.evaluate({current_}, *current_);
+    open.erase(iterate);
+  }
+  journal_.evaluate(open, *current_);
+  std::vector<Evaluation> found;
+  for (const std::shared_ptr<DesignPoint>& p : all) {
+    Evaluation& e = found.emplace_back();
+    e.ok = p->evaluated && std::isfinite(p->objective);
+    e.why = p->why;
+    if (!e.ok) continue;
+    e.value = p->objective;
+    if (want_gradient) e.gradient.assign(p->gradient.data(), p->gradient.data() + p->gradient.size());
+  }
+  return found;
 }
 
 bool DesignProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)

@@ -5,6 +5,7 @@
 #include "design/journal.hpp"
 #include "design/rest_path.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,26 +13,34 @@
 
 namespace hauberk {
 
-/// min_x sum_i w_i/2 (value_i(x) - target_i)^2 under hole and rest clearances. Evaluations run directions in
-/// parallel; results do not depend on the number of threads. Not thread safe itself.
+/// min_x sum_i w_i/2 (value_i(x) - target_i)^2 under hole and rest clearances. There are no
+/// equality constraints, and no Hessian is known: an optimizer has the residuals for Gauss and Newton's.
+/// Evaluations run directions in parallel; results do not depend on the number of threads. Not thread safe
+/// itself.
 ///
 /// Its parts: RestPath leads the rest state from the iterate to a design, DesignConstraints hold holes and
 /// pairs open, TargetSearch finds the limits that targets ask for, and DesignJournal recalls what a former
 /// run found. This class knows which design is the iterate, and which ones are kept beside it.
 class DesignProblem final : public OptimizationProblem {
  public:
-  /// Throws InputError when the scene has no rest state with the wanted clearance.
-  explicit DesignProblem(DesignScene scene);
+  /// `stream` is the number of the start among several. Throws InputError when the scene has no rest state
+  /// with the wanted clearance.
+  explicit DesignProblem(DesignScene scene, std::uint64_t stream = 0);
 
   std::span<const double> lower() const override { return lower_; }
   std::span<const double> upper() const override { return upper_; }
   int constraint_count() const override { return constraints_->count(); }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override;
+  /// Evaluates the points in parallel. Each depends on the iterate and its own variables alone, as
+  /// evaluations start from the states of the iterate.
+  std::vector<Evaluation> evaluate_batch(std::size_t count, std::span<const double> points,
+                                         bool want_gradient) override;
   int residual_count() const override { return static_cast<int>(scene_->design.targets.size()); }
   bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override;
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override;
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override;
   void accept(std::span<const double> x) override;
+  std::uint64_t stream() const override { return stream_; }
 
   /// See DesignJournal.
   void set_memory(EvaluationMemory* memory) { journal_.set_memory(memory); }
@@ -63,6 +72,7 @@ class DesignProblem final : public OptimizationProblem {
   void take(const std::shared_ptr<DesignPoint>& p, bool look_from_rest);
 
   std::shared_ptr<const DesignScene> scene_;
+  std::uint64_t stream_;
   std::vector<double> lower_, upper_;
   DesignJournal journal_;
   RestPath rest_path_;

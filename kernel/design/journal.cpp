@@ -1,28 +1,38 @@
 #include "design/journal.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace hauberk {
 
-void DesignJournal::evaluate(DesignPoint& p, DesignPoint& iterate)
+void DesignJournal::evaluate(const std::vector<std::shared_ptr<DesignPoint>>& points, DesignPoint& iterate)
 {
-  long cost = 0;
-  if (memory_ != nullptr && memory_->recall(p, cost)) {
-    p.states_missing = p.evaluated;
-  } else {
+  std::vector<long> cost(points.size(), 0);
+  std::size_t known = 0;
+  while (memory_ != nullptr && known < points.size() && memory_->recall(*points[known], cost[known])) {
+    points[known]->states_missing = points[known]->evaluated;
+    ++known;
+  }
+  if (known < points.size()) {
     // A start is the iterate before it is accepted.
     if (iterate.states_missing) find_states(iterate, iterate);
-    cost = search_.solve(p, iterate);
-    if (memory_ != nullptr) memory_->record(p, cost);
+    const std::size_t open = points.size() - known;
+    const unsigned threads = search_.threads();
+    const unsigned each = std::max(1U, threads / static_cast<unsigned>(open));  // the directions of a point
+    parallel_for(open, threads,
+                 [&](std::size_t i) { cost[known + i] = search_.solve(*points[known + i], iterate, each); });
   }
-  evaluations_ += cost;
-  p.unchecked = p.continued ? iterate.unchecked + 1 : 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (memory_ != nullptr && i >= known) memory_->record(*points[i], cost[i]);
+    evaluations_ += cost[i];
+    points[i]->unchecked = points[i]->continued ? iterate.unchecked + 1 : 0;
+  }
 }
 
 void DesignJournal::find_states(DesignPoint& p, const DesignPoint& iterate)
 {
   // The iterate itself has the states that it was checked from.
-  if (!p.checked || &p != &iterate) search_.solve(p, iterate);
+  if (!p.checked || &p != &iterate) search_.solve(p, iterate, search_.threads());
   if (p.checked) search_again(p);
   p.states_missing = false;
 }
@@ -46,7 +56,7 @@ void DesignJournal::check(DesignPoint& p, const DesignPoint& iterate)
 long DesignJournal::search_again(DesignPoint& p) const
 {
   DesignPoint again = p;
-  const long cost = search_.solve(again, p);
+  const long cost = search_.solve(again, p, search_.threads());
   if (again.evaluated) p = std::move(again);
   return cost;
 }

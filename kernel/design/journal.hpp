@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace hauberk {
 
@@ -22,8 +23,9 @@ class DesignJournal {
   /// Closest points that were evaluated, in the former run too.
   long evaluations() const { return evaluations_; }
 
-  /// Evaluates p from the states of the iterate.
-  void evaluate(DesignPoint& p, DesignPoint& iterate);
+  /// Evaluates designs from the states of the iterate, in parallel: none depends on another. They are
+  /// recalled and recorded in their order.
+  void evaluate(const std::vector<std::shared_ptr<DesignPoint>>& points, DesignPoint& iterate);
   /// Replaces states of p that were followed by those that rest leads to, and their values.
   void check(DesignPoint& p, const DesignPoint& iterate);
   /// Sees to it that p, which becomes the iterate, has its states, and that they are remembered.

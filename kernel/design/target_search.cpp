@@ -2,7 +2,6 @@
 
 #include "equilibrium/adjoint.hpp"
 #include "limits/lessons.hpp"
-#include "numerics/parallel.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -160,7 +159,8 @@ TargetSearch::LockedTarget TargetSearch::lock_target(const DesignPoint& p, const
   return out;
 }
 
-std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoint& p, long& evaluations) const
+std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoint& p, unsigned threads,
+                                                                long& evaluations) const
 {
   LimitSettings settings = scene_->limits;
   settings.start = p.rest;
@@ -173,11 +173,11 @@ std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoin
     for (const LimitResult& limit : limits) evaluations += limit.evaluations;
   };
   observer.on_unreported = count;
-  count(compute_limits(p.model, p.spec, tasks_, settings, scene_->threads, observer));
+  count(compute_limits(p.model, p.spec, tasks_, settings, threads, observer));
   return states;
 }
 
-void TargetSearch::learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
+void TargetSearch::learn(const DesignPoint& p, const std::vector<MacroLoad>& loads, unsigned threads,
                          std::vector<LockedTarget>& targets) const
 {
   Lessons rounds(targets.size(), targets.size(), std::max(1e-8, schedule_.last));
@@ -193,7 +193,7 @@ void TargetSearch::learn(const DesignPoint& p, const std::vector<MacroLoad>& loa
     const std::vector<Lesson> lessons = rounds.next(own, given);
     if (lessons.empty()) return;
     std::vector<Locked> found(lessons.size());
-    parallel_for(lessons.size(), scene_->threads, [&](std::size_t i) {
+    parallel_for(lessons.size(), threads, [&](std::size_t i) {
       const auto [k, donor] = lessons[i];
       try {
         found[i] = lock(p.model, targets[donor].locked.state, loads[k], scene_->limits.contact,
@@ -233,7 +233,7 @@ TargetSearch::Estimate TargetSearch::estimate(const DesignPoint& p, std::size_t 
   return out;
 }
 
-long TargetSearch::solve(DesignPoint& p, const DesignPoint& from) const
+long TargetSearch::solve(DesignPoint& p, const DesignPoint& from, unsigned threads) const
 {
   const std::size_t n = tasks_.size();
   p.evaluated = false;
@@ -245,7 +245,7 @@ long TargetSearch::solve(DesignPoint& p, const DesignPoint& from) const
   std::vector<MacroLoad> loads;
   for (const LimitTask& task : tasks_) loads.push_back(macro_load(p.model, task.direction, task.sense));
   const auto each = [&](const auto& compute) {
-    parallel_for(n, scene_->threads, [&](std::size_t k) {
+    parallel_for(n, threads, [&](std::size_t k) {
       try {
         compute(k);
       } catch (const ComputationError& e) {  // of this design, which is one of many
@@ -256,11 +256,11 @@ long TargetSearch::solve(DesignPoint& p, const DesignPoint& from) const
   const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
   long evaluations = 0;
   std::vector<std::optional<State>> known(n);
-  if (p.thorough && p.x == from.x) known = thorough_states(p, evaluations);
+  if (p.thorough && p.x == from.x) known = thorough_states(p, threads, evaluations);
   each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k], known[k]); });
   p.continued = p.x != from.x && std::any_of(targets.begin(), targets.end(),
                                              [](const LockedTarget& t) { return t.followed && !t.changed; });
-  if (std::none_of(targets.begin(), targets.end(), has_problem)) learn(p, loads, targets);
+  if (std::none_of(targets.begin(), targets.end(), has_problem)) learn(p, loads, threads, targets);
   each([&](std::size_t k) {
     if (targets[k].locked.status != LockStatus::locked) return;
     p.warm[k] = targets[k].trail;

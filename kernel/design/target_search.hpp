@@ -3,6 +3,7 @@
 
 #include "design/design_point.hpp"
 #include "design/design_scene.hpp"
+#include "numerics/parallel.hpp"
 
 #include <memory>
 #include <optional>
@@ -12,8 +13,8 @@
 
 namespace hauberk {
 
-/// Solves the targets of designs, directions in parallel. Results do not depend on the number of threads. Not
-/// thread safe itself.
+/// Solves the targets of designs, directions in parallel. Results do not depend on the number of threads.
+/// Thread safe but for `set_schedule`.
 class TargetSearch {
  public:
   explicit TargetSearch(std::shared_ptr<const DesignScene> scene)
@@ -22,11 +23,14 @@ class TargetSearch {
   }
 
   void set_schedule(const Schedule& schedule) { schedule_ = schedule; }
+  /// Threads that may be used in all.
+  unsigned threads() const { return thread_count(scene_->threads); }
   std::size_t task_count() const { return tasks_.size(); }
 
   /// Solves for p from the states of `from`, which may be p itself: then states are looked for from rest.
-  /// Returns how many closest points were evaluated. What cannot be computed is told in `p.why`.
-  long solve(DesignPoint& p, const DesignPoint& from) const;
+  /// Uses up to `threads` threads. Returns how many closest points were evaluated. What cannot be computed is
+  /// told in `p.why`.
+  long solve(DesignPoint& p, const DesignPoint& from, unsigned threads) const;
 
  private:
   /// What one target asks for, locked.
@@ -60,10 +64,11 @@ class TargetSearch {
   bool lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                          const std::vector<WarmStart>& warm, LockedTarget& out) const;
   /// The furthest states of a design that limits come to when they are computed by themselves, per task.
-  std::vector<std::optional<State>> thorough_states(const DesignPoint& p, long& evaluations) const;
+  std::vector<std::optional<State>> thorough_states(const DesignPoint& p, unsigned threads,
+                                                    long& evaluations) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
   /// another that is further along its direction and keeps what it holds, until there is none.
-  void learn(const DesignPoint& p, const std::vector<MacroLoad>& loads,
+  void learn(const DesignPoint& p, const std::vector<MacroLoad>& loads, unsigned threads,
              std::vector<LockedTarget>& targets) const;
   Estimate estimate(const DesignPoint& p, std::size_t task, const MacroLoad& load,
                     LockedTarget& target) const;

@@ -8,9 +8,14 @@
 
 namespace hauberk {
 
+unsigned thread_count(unsigned threads)
+{
+  return threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body)
 {
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  threads = thread_count(threads);
   std::vector<std::exception_ptr> errors(count);
   std::atomic<std::size_t> next{0};
   const auto work = [&] {

@@ -42,9 +42,9 @@ struct AtStart {
   DesignProblem problem;
   std::vector<double> x;
 
-  explicit AtStart(DesignSpec d = spec())
+  explicit AtStart(DesignSpec d = spec(), unsigned threads = 1)
       : design(std::move(d)),
-        problem({scene, load, 0.0, LimitSettings{}, design, 1, [] { return true; }}),
+        problem({scene, load, 0.0, LimitSettings{}, design, threads, [] { return true; }}),
         x(problem.scene_variables())
   {
     EXPECT_TRUE(problem.evaluate(x, true).ok);

@@ -3,6 +3,7 @@
 #include "differences.hpp"
 
 #include <hauberk/conformance/check.hpp>
+#include <hauberk/conformance/known_problems.hpp>
 #include <hauberk/error.hpp>
 
 #include <gtest/gtest.h>
@@ -83,6 +84,61 @@ TEST(Checks, AreChosenByName)
         std::string(error.what()).find("--filter: no check matches 'optimizer'; there are descriptor, "), 0U)
         << error.what();
   }
+}
+
+std::vector<double> lagrangian_gradient(KnownProblem& k, const VectorXd& x, const VectorXd& multipliers)
+{
+  VectorXd g(x.size());
+  k.problem.objective(x, g);
+  if (multipliers.size() > 0) {
+    VectorXd c(multipliers.size());
+    RowMajor J(multipliers.size(), x.size());
+    k.problem.constraint_functions(x, c, J);
+    g = 0.7 * g - J.transpose() * multipliers;
+  } else {
+    g *= 0.7;
+  }
+  return {g.begin(), g.end()};
+}
+
+/// Their Hessians are the derivatives of their gradients.
+TEST(KnownProblems, HessiansAreDerivatives)
+{
+  int with = 0;
+  for (KnownProblem& k : known_problems()) {
+    if (!k.problem.hessian_function || k.name == "not_a_number") continue;
+    ++with;
+    const auto n = static_cast<Eigen::Index>(k.start.size());
+    const VectorXd x = VectorXd::LinSpaced(n, 1.2, 1.9), v = VectorXd::LinSpaced(n, 0.5, -1.0);
+    const VectorXd l = VectorXd::LinSpaced(k.problem.constraint_number, 0.3, 0.8);
+    const VectorXd product = k.problem.hessian_function(x, 0.7, l) * v;
+    const Along gradient = [&](double s) { return lagrangian_gradient(k, x + s * v, l); };
+    const std::vector<double> claimed(product.begin(), product.end());
+    EXPECT_TRUE(deviations(gradient, claimed, 0.1).empty()) << k.name;
+    std::vector<double> wrong = claimed;
+    wrong[0] += 1e-4 * (1.0 + std::abs(wrong[0]));
+    EXPECT_FALSE(deviations(gradient, wrong, 0.1).empty()) << k.name;
+  }
+  EXPECT_EQ(with, 15);
+}
+
+/// Every point of a batch may be accepted, and residuals belong to a point that was evaluated by itself.
+TEST(FunctionProblem, KnowsWhatWasEvaluatedLast)
+{
+  FunctionProblem problem = rosenbrock(-2.0, 2.0);
+  const std::vector<double> start{-1.2, 1.0}, d{0.1, 0.1};
+  problem.evaluate(start, true);
+  problem.accept(start);
+  EXPECT_EQ(problem.largest_safe_step(start, d), 1.0);
+  problem.backwards = true;
+  const auto found = problem.evaluate_batch(2, std::vector<double>{-1.1, 1.1, -1.15, 1.05}, false);
+  VectorXd g(2);
+  EXPECT_EQ(found[0].value, problem.objective(Eigen::Vector2d(-1.1, 1.1), g));
+  EXPECT_EQ(problem.evaluated.back(), Eigen::Vector2d(-1.1, 1.1));
+  problem.accept(std::vector<double>{-1.15, 1.05});
+  EXPECT_EQ(problem.breach, "");
+  problem.accept(start);
+  EXPECT_EQ(problem.breach, "it accepted another point than was evaluated last (evaluation 4)");
 }
 
 }  // namespace

@@ -206,6 +206,14 @@ const std::vector<Mistake> of_optimizers = {
     {"says_converged"},
     {"result_outside_bounds"},
     {"twice_the_max_evaluations"},
+    {"ignores_equalities"},
+    {"shares_scratch"},
+    {"miscounts_batches"},
+    {"residuals_of_a_batch"},
+    {"draws_without_a_seed"},
+    {"ignores_its_seed"},
+    {"forgets_the_stream"},
+    {"misled_by_hessians"},
 };
 
 /// The default run of the kit, which ends at the first check that does not pass.

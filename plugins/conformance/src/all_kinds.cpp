@@ -177,6 +177,8 @@ void in_threads(Trial& trial)
   constexpr int least_rounds = 4;
   constexpr std::chrono::milliseconds longest{20};
   const Object object = trial.make();
+  if (object.optimizer && !object.optimizer->traits().thread_safe)
+    skip("it does not declare itself thread safe: the program lets one run wait for another");
   // Two sets of questions: threads that keep step with the same one would overwrite each other with the same.
   const std::array<Exercise, 2> exercises{Exercise(object, trial), Exercise(object, trial)};
   const std::array<std::vector<double>, 2> alone{exercises[0](object), exercises[1](object)};

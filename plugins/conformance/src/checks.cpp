@@ -37,6 +37,7 @@ std::vector<Check> checks(PluginKind kind)
       break;
     case PluginKind::optimizer:
       add_optimizer_checks(out);
+      add_declared_checks(out);
       add_known_problem_checks(out);
       break;
   }

@@ -30,6 +30,8 @@ void check_distances(Trial& trial);
 void add_load_case_motion_checks(std::vector<Check>& out);
 void add_load_case_load_checks(std::vector<Check>& out);
 void add_optimizer_checks(std::vector<Check>& out);
+/// What they declare, and what is optional.
+void add_declared_checks(std::vector<Check>& out);
 /// The known problems, one check each.
 void add_known_problem_checks(std::vector<Check>& out);
 

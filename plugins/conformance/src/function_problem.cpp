@@ -59,6 +59,7 @@ OptimizationProblem::Evaluation FunctionProblem::evaluate(std::span<const double
   // What became of an iterate when it was accepted costs nothing to ask.
   const bool known = std::exchange(just_accepted, false) && v == accepted.back();
   if (!known) evaluated.push_back(v);
+  latest = {v};
   Evaluation e;
   if (want_gradient && !known) ++gradients;
   if (fails(v)) {
@@ -72,6 +73,44 @@ OptimizationProblem::Evaluation FunctionProblem::evaluate(std::span<const double
   return e;
 }
 
+std::vector<OptimizationProblem::Evaluation> FunctionProblem::evaluate_batch(std::size_t count,
+                                                                             std::span<const double> points,
+                                                                             bool want_gradient)
+{
+  check_batch(count, points);
+  const std::size_t n = lower_bounds.size();
+  if (count > 1) ++batches;
+  std::vector<Evaluation> found(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = backwards ? count - 1 - k : k;
+    found[i] = evaluate(points.subspan(i * n, n), want_gradient);
+  }
+  latest.clear();
+  for (std::size_t i = 0; i < count; ++i) latest.push_back(as_vector(points.subspan(i * n, n)));
+  return found;
+}
+
+bool FunctionProblem::hessian_product(std::span<const double> x, double weight,
+                                      std::span<const double> multipliers, std::span<const double> v,
+                                      std::span<double> out)
+{
+  breaks(accepted.empty() || as_vector(x) != accepted.back(),
+         "it asked for a product of the Hessian at another point than the accepted one");
+  breaks(multipliers.size() != static_cast<std::size_t>(constraint_number) || v.size() != x.size() ||
+             out.size() != x.size(),
+         "it asked for a product of the Hessian with spans of other sizes");
+  if (!hessian_offered || !hessian_function || !breach.empty()) return false;
+  ++products;
+  const VectorXd product = hessian_function(as_vector(x), weight, as_vector(multipliers)) * as_vector(v);
+  std::copy(product.begin(), product.end(), out.begin());
+  return true;
+}
+
+bool FunctionProblem::is_latest(const VectorXd& v) const
+{
+  return std::find(latest.begin(), latest.end(), v) != latest.end();
+}
+
 void FunctionProblem::constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian)
 {
   if (constraint_number > 0) fill(constraint_functions, constraint_number, as_vector(x), c, jacobian);
@@ -79,7 +118,8 @@ void FunctionProblem::constraints(std::span<const double> x, std::span<double> c
 
 bool FunctionProblem::residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian)
 {
-  breaks(!is_latest(as_vector(x)), "it asked for residuals at another point than the one evaluated last");
+  breaks(latest.size() != 1 || !is_latest(as_vector(x)),
+         "it asked for residuals at another point than the one evaluated last");
   breaks(r.empty() || jacobian.empty(), "it asked for residuals or their Jacobian with an empty span");
   fill(residual_functions, residual_number, as_vector(x), r, jacobian);
   return true;
@@ -95,7 +135,7 @@ double FunctionProblem::largest_safe_step(std::span<const double> x, std::span<c
 
 void FunctionProblem::accept(std::span<const double> x)
 {
-  breaks(!is_latest(as_vector(x)), "it accepted another point than the one evaluated last");
+  breaks(!is_latest(as_vector(x)), "it accepted another point than was evaluated last");
   accepted.push_back(as_vector(x));
   just_accepted = true;
   directions.clear();

@@ -8,9 +8,6 @@
 namespace hauberk::conformance {
 namespace {
 
-/// Violation of a constraint that counts as none in a result.
-constexpr double feasible = 1e-6;
-
 /// Equal up to the rounding of scaling and back.
 bool nearly(double a, double b) { return std::abs(a - b) <= 1e-12 * (1.0 + std::abs(b)); }
 
@@ -40,14 +37,14 @@ void check_result(const OptimizerResult& r, const FunctionProblem& problem, cons
   require(nearly(r.value, value), "the value of the result is {:.12g}, and {:.12g} is given", value, r.value);
   const double violation = violation_at(problem, x);
   if (r.status == "converged")
-    require(violation <= feasible, "it says 'converged' at a point that violates a constraint by {:.3g}",
-            violation);
+    require(violation <= tolerated_violation,
+            "it says 'converged' at a point that violates a constraint by {:.3g}", violation);
   const double before = value_at(problem, as_vector(start));
   if (violation_at(problem, as_vector(start)) > 0.0 || problem.fails(as_vector(start)) ||
       !std::isfinite(before))
     return;
-  require(violation <= feasible, "the start was feasible, the result violates a constraint by {:.3g}",
-          violation);
+  require(violation <= tolerated_violation,
+          "the start was feasible, the result violates a constraint by {:.3g}", violation);
   // Points may be better by violating constraints by what counts as none.
   require(r.value <= before + 1e-9 * (1.0 + std::abs(before)),
           "the result {:.12g} is worse than the start {:.12g}", r.value, before);
@@ -67,7 +64,10 @@ double violation_at(const FunctionProblem& problem, const VectorXd& x)
   VectorXd c(problem.constraint_number);
   RowMajor J(problem.constraint_number, x.size());
   problem.constraint_functions(x, c, J);
-  return std::max(0.0, -c.minCoeff());
+  double worst = 0.0;
+  for (int i = 0; i < problem.constraint_number; ++i)
+    worst = std::max(worst, i < problem.equality_number ? std::abs(c[i]) : -c[i]);
+  return worst;
 }
 
 std::string Watcher::defect(const OptimizerIterate& iterate) const
@@ -93,13 +93,17 @@ bool Watcher::on_iterate(const OptimizerIterate& iterate)
 
 Run watched(const Optimizer& optimizer, FunctionProblem& problem, const std::vector<double>& start, int limit)
 {
+  if (problem.equality_number > 0 && !optimizer.traits().equalities)
+    skip("it does not declare that it keeps equality constraints");
   Run run{{}, Watcher(problem)};
   run.watcher.limit = limit;
   run.result = optimizer.minimize(problem, start, run.watcher);
   const OptimizerResult& r = run.result;
-  if (problem.constraint_number > 0 && r.status == "failed" && problem.evaluated.size() <= 1 &&
-      r.message.find("constraint") != std::string::npos)
-    skip("it takes no constraints: {}", r.message);
+  const bool refused = problem.constraint_number > 0 && r.status == "failed" &&
+                       problem.evaluated.size() <= 1 && r.message.find("constraint") != std::string::npos;
+  require(!refused || problem.equality_number == 0,
+          "it declares that it keeps equality constraints, and takes none: {}", r.message);
+  if (refused) skip("it takes no constraints: {}", r.message);
   require(problem.breach.empty(), "{}", problem.breach);
   require(run.watcher.wrong.empty(), "{}", run.watcher.wrong);
   check_counts(r, problem, run.watcher);

@@ -1,5 +1,6 @@
 /// Whether an optimizer solves problems whose solutions are known.
 
+#include "as_vector.hpp"
 #include "checks.hpp"
 #include "judge.hpp"
 
@@ -19,6 +20,10 @@ constexpr double converged_error = 1e-4, stalled_error = 1e-2;
 /// that says so.)
 constexpr std::array<std::string_view, 3> plain = {"quadratic", "rosenbrock", "rosenbrock_bound"};
 
+/// Of the solution of a problem with equations, component by component, relative to 1 + |x_i|: of first
+/// order, where the value's is of second.
+constexpr double solution_error = 1e-2;
+
 struct KnownText {
   const char* name;
   const char* about;
@@ -34,6 +39,12 @@ constexpr KnownText texts[] = {
     {"contradiction", "constraints that contradict each other are not said to be satisfied"},
     {"no_ball", "a curved constraint that nothing satisfies"},
     {"kinked", "half a sum of squares of residuals with kinks: solved, or not said to be"},
+    {"hs6", "Hock and Schittkowski 6: a curved equation, from far outside"},
+    {"hs7", "Hock and Schittkowski 7: a curved equation, a logarithm"},
+    {"hs28", "Hock and Schittkowski 28: a linear equation"},
+    {"hs48", "Hock and Schittkowski 48: two linear equations of five variables"},
+    {"hs71_equation", "Hock and Schittkowski 71 with its equation as one, an inequality and bounds"},
+    {"no_root", "an equation that nothing satisfies"},
     {"failing", "points that cannot be evaluated beside the way"},
     {"not_a_number", "values and gradients that are not finite beside the way"},
     {"short_way", "no step longer than 0.2 is safe"},
@@ -48,6 +59,18 @@ void check_error(const KnownProblem& k, const OptimizerResult& r, double at_star
   const double error = std::abs(r.value - *k.value) / scale;
   require(error <= (claimed ? converged_error : stalled_error),
           "'{}' at the value {:.9g}; the least value is {:.9g} ({})", r.status, r.value, *k.value, r.message);
+}
+
+/// Whoever keeps equations ends at the one solution of each of these problems.
+void check_equations(const KnownProblem& k, const OptimizerResult& r)
+{
+  const VectorXd x = as_vector(r.x);
+  require(violation_at(k.problem, x) <= tolerated_violation,
+          "'{}' at a point that violates a constraint by {:.3g}", r.status, violation_at(k.problem, x));
+  for (std::size_t i = 0; i < r.x.size(); ++i)
+    require(std::abs(r.x[i] - k.solution[i]) <= solution_error * (1.0 + std::abs(k.solution[i])),
+            "'{}' at x[{}] = {:.6g}; the solution is {:.6g} ({})", r.status, i, r.x[i], k.solution[i],
+            r.message);
 }
 
 void solve(Trial& trial, const std::string& name)
@@ -73,6 +96,7 @@ void solve(Trial& trial, const std::string& name)
     return;
   }
   check_error(k, r, at_start);
+  if (k.problem.equality_number > 0) check_equations(k, r);
 }
 
 }  // namespace

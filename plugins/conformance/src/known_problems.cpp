@@ -8,6 +8,8 @@
 namespace hauberk::conformance {
 namespace {
 
+using Eigen::MatrixXd;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 KnownProblem known(std::string name, FunctionProblem problem, std::vector<double> start,
@@ -40,9 +42,136 @@ KnownProblem quadratic()
     g = A * x - b;
     return 0.5 * x.dot(A * x) - b.dot(x);
   };
+  p.hessian_function = [A](const VectorXd&, double weight, const VectorXd&) -> MatrixXd {
+    return weight * A;
+  };
   const double value = 0.5 * solution.dot(A * solution) - b.dot(solution);
   return known("quadratic", std::move(p), std::vector<double>(n, 0.0), value,
                {solution.begin(), solution.end()});
+}
+
+// ----- equations: Hock and Schittkowski, Test Examples for Nonlinear Programming Codes (1981) -----
+
+/// (1 - x0)^2 where 10 (x1 - x0^2) = 0.
+KnownProblem hs6()
+{
+  FunctionProblem p = box(2, -infinity, infinity);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    g << 2.0 * (x[0] - 1.0), 0.0;
+    return (1.0 - x[0]) * (1.0 - x[0]);
+  };
+  p.constraint_number = p.equality_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << 10.0 * (x[1] - x[0] * x[0]);
+    J << -20.0 * x[0], 10.0;
+  };
+  p.hessian_function = [](const VectorXd&, double weight, const VectorXd& l) {
+    MatrixXd H = MatrixXd::Zero(2, 2);
+    H(0, 0) = 2.0 * weight + 20.0 * l[0];
+    return H;
+  };
+  return known("hs6", std::move(p), {-1.2, 1.0}, 0.0, {1.0, 1.0});
+}
+
+/// log(1 + x0^2) - x1 where (1 + x0^2)^2 + x1^2 = 4.
+KnownProblem hs7()
+{
+  FunctionProblem p = box(2, -infinity, infinity);
+  p.objective = [](const VectorXd& x, VectorXd& g) {
+    const double q = 1.0 + x[0] * x[0];
+    g << 2.0 * x[0] / q, -1.0;
+    return std::log(q) - x[1];
+  };
+  p.constraint_number = p.equality_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    const double q = 1.0 + x[0] * x[0];
+    c << q * q + x[1] * x[1] - 4.0;
+    J << 4.0 * x[0] * q, 2.0 * x[1];
+  };
+  p.hessian_function = [](const VectorXd& x, double weight, const VectorXd& l) {
+    const double s = x[0] * x[0], q = 1.0 + s;
+    MatrixXd H = MatrixXd::Zero(2, 2);
+    H(0, 0) = weight * 2.0 * (1.0 - s) / (q * q) - l[0] * (4.0 * q + 8.0 * s);
+    H(1, 1) = -2.0 * l[0];
+    return H;
+  };
+  return known("hs7", std::move(p), {2.0, 2.0}, -std::sqrt(3.0), {0.0, std::sqrt(3.0)});
+}
+
+/// Half a sum of squares of A x - b where E x = e.
+KnownProblem linear_least_squares(std::string name, const MatrixXd& A, const VectorXd& b, const MatrixXd& E,
+                                  const VectorXd& e, std::vector<double> start, std::vector<double> solution)
+{
+  FunctionProblem p = box(start.size(), -infinity, infinity);
+  p.objective = [A, b](const VectorXd& x, VectorXd& g) {
+    g = A.transpose() * (A * x - b);
+    return 0.5 * (A * x - b).squaredNorm();
+  };
+  p.constraint_number = p.equality_number = static_cast<int>(e.size());
+  p.constraint_functions = [E, e](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c = E * x - e;
+    J = E;
+  };
+  p.hessian_function = [A](const VectorXd&, double weight, const VectorXd&) -> MatrixXd {
+    return weight * A.transpose() * A;
+  };
+  return known(std::move(name), std::move(p), std::move(start), 0.0, std::move(solution));
+}
+
+/// ((x0 + x1)^2 + (x1 + x2)^2)/2 where x0 + 2 x1 + 3 x2 = 1: half the published objective.
+KnownProblem hs28()
+{
+  const MatrixXd A = (MatrixXd(2, 3) << 1, 1, 0, 0, 1, 1).finished();
+  const MatrixXd E = (MatrixXd(1, 3) << 1, 2, 3).finished();
+  return linear_least_squares("hs28", A, VectorXd::Zero(2), E, VectorXd::Ones(1), {-4.0, 1.0, 1.0},
+                              {0.5, -0.5, 0.5});
+}
+
+/// ((x0 - 1)^2 + (x1 - x2)^2 + (x3 - x4)^2)/2 where the sum is 5 and x2 - 2 (x3 + x4) = -3: half the
+/// published objective.
+KnownProblem hs48()
+{
+  const MatrixXd A = (MatrixXd(3, 5) << 1, 0, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 1, -1).finished();
+  const MatrixXd E = (MatrixXd(2, 5) << 1, 1, 1, 1, 1, 0, 0, 1, -2, -2).finished();
+  return linear_least_squares("hs48", A, Eigen::Vector3d(1, 0, 0), E, Eigen::Vector2d(5, -3),
+                              {3.0, 5.0, -3.0, 2.0, -2.0}, std::vector<double>(5, 1.0));
+}
+
+/// 1 + x.x = 0, although linearisations away from 0 have solutions.
+KnownProblem no_root()
+{
+  FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.hessian_function = nullptr;  // that of the constraint is not in it
+  p.constraint_number = p.equality_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << 1.0 + x.squaredNorm();
+    J.row(0) = 2.0 * x;
+  };
+  KnownProblem k = known("no_root", std::move(p), {-1.2, 1.0}, std::nullopt);
+  k.feasible = false;
+  return k;
+}
+
+/// Hessian of the objective of hs71, and of x0 x1 x2 x3.
+MatrixXd hs71_objective_hessian(const VectorXd& x)
+{
+  MatrixXd H = MatrixXd::Zero(4, 4);
+  H(0, 0) = 2.0 * x[3];
+  H(0, 1) = H(1, 0) = H(0, 2) = H(2, 0) = x[3];
+  H(0, 3) = H(3, 0) = 2.0 * x[0] + x[1] + x[2];
+  H(1, 3) = H(3, 1) = H(2, 3) = H(3, 2) = x[0];
+  return H;
+}
+
+MatrixXd product_hessian(const VectorXd& x)
+{
+  MatrixXd H = MatrixXd::Zero(4, 4);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      if (i != k) H(i, k) = x.prod() / (x[i] * x[k]);
+    }
+  }
+  return H;
 }
 
 KnownProblem rosenbrock_on_its_bound()
@@ -71,7 +200,7 @@ KnownProblem degenerate()
 KnownProblem contradiction()
 {
   FunctionProblem p = rosenbrock(-2.0, 2.0);
-  p.constraint_number = 2;
+  p.constraint_number = 2;  // both linear
   p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
     c << x[0] - 1.0, -0.5 - x[0];
     J << 1, 0, -1, 0;
@@ -85,6 +214,7 @@ KnownProblem contradiction()
 KnownProblem no_ball()
 {
   FunctionProblem p = rosenbrock(-2.0, 2.0);
+  p.hessian_function = nullptr;  // that of the constraint is not in it
   p.constraint_number = 1;
   p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
     c << -1.0 - x.squaredNorm();
@@ -160,6 +290,10 @@ FunctionProblem rosenbrock(double lower, double upper)
     g << -400.0 * a * x[0] - 2.0 * b, 200.0 * a;
     return 100.0 * a * a + b * b;
   };
+  p.hessian_function = [](const VectorXd& x, double weight, const VectorXd&) -> MatrixXd {
+    return weight * Eigen::Matrix2d{{1200.0 * x[0] * x[0] - 400.0 * x[1] + 2.0, -400.0 * x[0]},
+                                    {-400.0 * x[0], 200.0}};
+  };
   return p;
 }
 
@@ -172,6 +306,7 @@ FunctionProblem rosenbrock_in_units(double unit)
     g *= unit;
     return value;
   };
+  p.hessian_function = nullptr;
   return p;
 }
 
@@ -190,6 +325,27 @@ FunctionProblem hs71()
     J.row(1) = 2.0 * x;
     J.row(2) = -2.0 * x;
   };
+  p.hessian_function = [](const VectorXd& x, double weight, const VectorXd& l) -> MatrixXd {
+    return weight * hs71_objective_hessian(x) - l[0] * product_hessian(x) -
+           2.0 * (l[1] - l[2]) * MatrixXd::Identity(4, 4);
+  };
+  return p;
+}
+
+FunctionProblem hs71_equation()
+{
+  FunctionProblem p = hs71();
+  p.constraint_number = 2;
+  p.equality_number = 1;
+  p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
+    c << x.squaredNorm() - 40.0, x.prod() - 25.0;
+    J.row(0) = 2.0 * x;
+    J.row(1) = x.prod() * x.cwiseInverse();
+  };
+  p.hessian_function = [](const VectorXd& x, double weight, const VectorXd& l) -> MatrixXd {
+    return weight * hs71_objective_hessian(x) - 2.0 * l[0] * MatrixXd::Identity(4, 4) -
+           l[1] * product_hessian(x);
+  };
   return p;
 }
 
@@ -206,6 +362,9 @@ FunctionProblem hs76()
     J << -1, -2, -1, -1, -3, -1, -2, 1, 0, 1, 4, 0;
     c = J * x + Eigen::Vector3d(5.0, 4.0, -1.5);
   };
+  p.hessian_function = [](const VectorXd&, double weight, const VectorXd&) -> MatrixXd {
+    return weight * Eigen::Matrix4d{{2, 0, -1, 0}, {0, 1, 0, 0}, {-1, 0, 2, 1}, {0, 0, 1, 1}};
+  };
   return p;
 }
 
@@ -220,6 +379,9 @@ FunctionProblem farthest_in_disk(double half_range)
   p.constraint_functions = [](const VectorXd& x, VectorXd& c, RowMajor& J) {
     c << 1.0 - x.squaredNorm();
     J.row(0) = -2.0 * x;
+  };
+  p.hessian_function = [](const VectorXd&, double, const VectorXd& l) -> MatrixXd {
+    return 2.0 * l[0] * MatrixXd::Identity(2, 2);
   };
   return p;
 }
@@ -275,6 +437,13 @@ std::vector<KnownProblem> known_problems()
   all.push_back(contradiction());
   all.push_back(no_ball());
   all.push_back(kinked());
+  all.push_back(hs6());
+  all.push_back(hs7());
+  all.push_back(hs28());
+  all.push_back(hs48());
+  all.push_back(known("hs71_equation", hs71_equation(), {1.0, 5.0, 5.0, 1.0}, 17.0140172891,
+                      {1.0, 4.7429996372, 3.8211499843, 1.3794082932}));
+  all.push_back(no_root());
   all.push_back(failing());
   all.push_back(not_a_number());
   all.push_back(short_way());

@@ -4,6 +4,8 @@
 
 #include <hauberk/optimizer.hpp>
 
+#include <random>
+
 #define hauberk_plugin reference_plugin
 #include "../../../plugins/template/optimizer/plugin_name.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef hauberk_plugin
@@ -12,11 +14,17 @@ namespace hauberk::mutants {
 namespace {
 
 int shared_runs = 0;
+std::atomic<double> shared_scratch = 0.0;
+std::atomic<unsigned> shared_draws = 0;
+
+/// A number in [0, 1) from a seed.
+double drawn(std::uint64_t seed) { return static_cast<double>(std::mt19937_64(seed)() >> 11U) * 0x1.0p-53; }
 
 /// The problem as a defective optimizer uses it.
 class Misused final : public OptimizationProblem {
  public:
-  Misused(OptimizationProblem& problem, const std::string& defect) : problem_(problem), defect_(defect)
+  Misused(OptimizationProblem& problem, const std::string& defect, std::uint64_t seed)
+      : problem_(problem), defect_(defect), seed_(seed)
   {
     lower_.assign(problem.lower().begin(), problem.lower().end());
     upper_.assign(problem.upper().begin(), problem.upper().end());
@@ -32,8 +40,14 @@ class Misused final : public OptimizationProblem {
   {
     return is("ignores_constraints") ? 0 : problem_.constraint_count();
   }
+  int equality_count() const override { return is("ignores_equalities") ? 0 : problem_.equality_count(); }
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override
   {
+    shared_scratch = x[0];
+    if (is("shares_scratch")) std::this_thread::yield();
+    const double scratch = shared_scratch;
+    if (is("miscounts_batches")) return in_a_batch(x, want_gradient, 2);
+    if (is("residuals_of_a_batch") && problem_.residual_count() > 0) return with_residuals(x, want_gradient);
     if (is("looks_again") && evaluations_++ > 3) problem_.evaluate(x, want_gradient);
     Evaluation e =
         is("swallows_exceptions") ? swallowed(x, want_gradient) : problem_.evaluate(x, want_gradient);
@@ -44,6 +58,10 @@ class Misused final : public OptimizationProblem {
       slope *= 1.0 + whimsical;
       if (is("stops_early")) slope *= 1e-5;
       if (is("climbs")) slope *= -1.0;
+      if (is("shares_scratch") && scratch != x[0]) slope *= 1.0 + 1e-9;
+      if (is("draws_without_a_seed")) slope *= 1.0 + 1e-6 * drawn(shared_draws++);
+      if (is("forgets_the_stream")) slope *= 1.0 + 1e-6 * drawn(seed_);
+      if (is("misled_by_hessians") && knows_hessian(x)) slope *= 1e-5;
       if (is("remembers_runs")) slope *= 1.0 + 1e-10 * shared_runs;
     }
     return e;
@@ -66,10 +84,33 @@ class Misused final : public OptimizationProblem {
   void accept(std::span<const double> x) override
   {
     if (!is("forgets_to_accept")) problem_.accept(x);
+    accepted_.assign(x.begin(), x.end());
   }
 
  private:
   bool is(const char* defect) const { return defect_ == defect; }
+  /// The point `count` times; a batch is taken for one evaluation.
+  Evaluation in_a_batch(std::span<const double> x, bool want_gradient, std::size_t count)
+  {
+    std::vector<double> rows;
+    for (std::size_t k = 0; k < count; ++k) rows.insert(rows.end(), x.begin(), x.end());
+    return problem_.evaluate_batch(count, rows, want_gradient).front();
+  }
+  /// Takes the last point of a batch for the one evaluated last.
+  Evaluation with_residuals(std::span<const double> x, bool want_gradient)
+  {
+    Evaluation e = in_a_batch(x, want_gradient, 2);
+    std::vector<double> r(problem_.residual_count()), J(r.size() * x.size());
+    problem_.residuals(x, r, J);
+    return e;
+  }
+  bool knows_hessian(std::span<const double> x)
+  {
+    if (x.size() != accepted_.size() || !std::equal(x.begin(), x.end(), accepted_.begin())) return false;
+    const std::vector<double> multipliers(problem_.constraint_count(), 0.0), v(x.size(), 1.0);
+    std::vector<double> out(x.size());
+    return problem_.hessian_product(x, 1.0, multipliers, v, out);
+  }
   Evaluation swallowed(std::span<const double> x, bool want_gradient)
   {
     try {
@@ -81,7 +122,8 @@ class Misused final : public OptimizationProblem {
 
   OptimizationProblem& problem_;
   const std::string& defect_;
-  std::vector<double> lower_, upper_;
+  std::uint64_t seed_;
+  std::vector<double> lower_, upper_, accepted_;
   int evaluations_ = 0;
 };
 
@@ -101,16 +143,24 @@ class Deaf final : public OptimizerObserver {
 
 class Mutant final : public Optimizer {
  public:
-  Mutant(std::unique_ptr<Optimizer> inner, std::string defect)
-      : inner_(std::move(inner)), defect_(std::move(defect))
+  Mutant(std::unique_ptr<Optimizer> inner, std::string defect, std::uint64_t seed)
+      : inner_(std::move(inner)), defect_(std::move(defect)), seed_(seed)
   {
+  }
+
+  OptimizerTraits traits() const override
+  {
+    OptimizerTraits traits = inner_->traits();
+    traits.equalities = is("ignores_equalities");
+    traits.stochastic = is("draws_without_a_seed") || is("ignores_its_seed") || is("forgets_the_stream");
+    return traits;
   }
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,
                               OptimizerObserver& observer) const override
   {
-    Misused misused(problem, defect_);
+    Misused misused(problem, defect_, seed_);
     Deaf deaf(observer);
     const int rounding = std::fegetround();
     if (is("rounds_up_meanwhile")) std::fesetround(FE_UPWARD);
@@ -133,22 +183,33 @@ class Mutant final : public Optimizer {
 
   std::unique_ptr<Optimizer> inner_;
   std::string defect_;
+  std::uint64_t seed_;
 };
 
 void fields(std::vector<Field>& out)
 {
   reference_plugin.fields(out);
   add_defect_field(out);
+  Field seed;
+  seed.name = "seed";
+  seed.kind = Field::Kind::integer;
+  seed.minimum = 0.0;
+  seed.maximum = 1e6;
+  seed.default_json = "1";
+  seed.doc = "Seed of all draws.";
+  out.push_back(seed);
 }
 
 std::unique_ptr<Optimizer> make(const Node& section, Problems& problems)
 {
   Node values = without_defect(section);
+  const auto seed = static_cast<std::uint64_t>(section.at("seed").number);
+  std::erase_if(values.members, [](const auto& member) { return member.first == "seed"; });
   const std::string defect = defect_of(section);
   for (auto& [key, value] : values.members) {
     if (defect == "twice_the_" + key) value.number = 2.0 * value.number + 1.0;
   }
-  return std::make_unique<Mutant>(reference_plugin.make_optimizer(values, problems), defect);
+  return std::make_unique<Mutant>(reference_plugin.make_optimizer(values, problems), defect, seed);
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ FunctionProblem rosenbrock_in_units(double unit);
 /// Hock and Schittkowski 71, its equation as two inequalities. Optimum 17.0140172891.
 FunctionProblem hs71();
 
+/// The same with its equation as one, the first constraint.
+FunctionProblem hs71_equation();
+
 /// Hock and Schittkowski 76: three linear inequalities. Optimum -103/22.
 FunctionProblem hs76();
 
@@ -55,13 +58,15 @@ struct KnownProblem {
 /// For test frameworks that print parameters.
 inline void PrintTo(const KnownProblem& k, std::ostream* out) { *out << k.name; }
 
-/// All of them:
+/// All of them, with Hessians that can be offered where they are smooth:
 /// - quadratic: convex, coupled, three of six bounds active
 /// - rosenbrock: without bounds; rosenbrock_bound: x0 <= 0.5
 /// - hs71: curved equation and inequality; hs76: linear inequalities, active; circle: curved inequality
 /// - degenerate: five constraints, one of them twice, at a vertex of two dimensions
 /// - contradiction, no_ball: infeasible, linear and curved
 /// - kinked: half a sum of squares of kinked residuals
+/// - hs6, hs7: one curved equation; hs28, hs48: one and two linear ones; hs71_equation: a curved equation, a
+///   curved inequality and bounds; no_root: an equation that nothing satisfies
 /// - failing, not_a_number: Rosenbrock's valley between points that cannot be evaluated
 /// - short_way: no step longer than 0.2 is safe
 /// - wall: nothing beyond x0 = 0.4 can be reached

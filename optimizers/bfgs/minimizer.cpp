@@ -103,7 +103,7 @@ bool BfgsMinimizer::begin(std::string& why)
   value_ = first_value_ = trial.value;
   why = trial.why;
   if (!trial.ok) return false;
-  best_.offer(x_, value_, largest_violation(at_.c));
+  best_.offer(x_, value_, largest_violation(at_));
   reset_hessian(settings_.initial_step);
   begin_multipliers();
   return true;
@@ -128,7 +128,9 @@ void BfgsMinimizer::begin_multipliers()
 
 VectorXd BfgsMinimizer::implied(const VectorXd& c) const
 {
-  return (multipliers_ - weight_ * c).cwiseMax(0.0);
+  VectorXd out = multipliers_ - weight_ * c;
+  for (Index i = at_.equalities; i < out.size(); ++i) out[i] = std::max(out[i], 0.0);
+  return out;
 }
 
 double BfgsMinimizer::constraint_part(const VectorXd& c) const
@@ -142,7 +144,7 @@ VectorXd BfgsMinimizer::upper() const { return problem_.step_upper(x_).cwiseMin(
 
 Step BfgsMinimizer::conditions() const
 {
-  return propose_step(hessian_.matrix(), at_, lower(), upper(), implied(at_.c).sum());
+  return propose_step(hessian_.matrix(), at_, lower(), upper(), implied(at_.c).cwiseAbs().sum());
 }
 
 bool BfgsMinimizer::critical(const Step& conditions) const
@@ -169,7 +171,7 @@ bool BfgsMinimizer::report(const Step& conditions)
   iterate.iteration = iteration_;
   iterate.value = value_;
   iterate.step = step_length_;
-  iterate.constraint_violation = largest_violation(at_.c);
+  iterate.constraint_violation = largest_violation(at_);
   iterate.optimality = optimality(conditions, at_.J, problem_.step_lower(x_), problem_.step_upper(x_));
   iterate.x = {x_.data(), static_cast<std::size_t>(x_.size())};
   return observer_.on_iterate(iterate);
@@ -181,7 +183,8 @@ BfgsMinimizer::Search BfgsMinimizer::search()
   const VectorXd implied = this->implied(at_.c);
   MatrixXd H = hessian_.matrix();
   for (Index i = 0; i < implied.size(); ++i) {
-    if (implied[i] > 0.0) H.noalias() += weight_ * at_.J.row(i).transpose() * at_.J.row(i);
+    if (i < at_.equalities || implied[i] > 0.0)
+      H.noalias() += weight_ * at_.J.row(i).transpose() * at_.J.row(i);
   }
   Linearisation bounds_only;
   bounds_only.gradient = gradient();
@@ -242,7 +245,7 @@ bool BfgsMinimizer::restore()
   if (problem_.largest_safe_step(x_, step.d) < 1.0) return false;
   const VectorXd x = problem_.moved(x_, step.d, 1.0);
   const VectorXd c = problem_.constraints(x);
-  if (!c.allFinite() || !(largest_violation(c) < largest_violation(at_.c))) return false;
+  if (!c.allFinite() || !(largest_violation(c, at_.equalities) < largest_violation(at_))) return false;
   const Trial found = problem_.evaluate(x);
   if (!found.ok) return false;
   move_to(x, found, step.d);
@@ -267,15 +270,17 @@ void BfgsMinimizer::move_to(const VectorXd& x, const Trial& tried, const VectorX
   step_length_ = s.size() == 0 ? 0.0 : s.cwiseAbs().maxCoeff();
   reported_ = false;
   idle_updates_ = 0;
-  best_.offer(x_, value_, largest_violation(at_.c));
+  best_.offer(x_, value_, largest_violation(at_));
 }
 
 bool BfgsMinimizer::update_multipliers(const Step& conditions)
 {
   if (++idle_updates_ > most_idle_updates) return false;
   slow_steps_ = 0;
-  // Violation, or how far a constraint with a multiplier is from being active.
-  const double violation = at_.c.cwiseMin(multipliers_ / weight_).cwiseAbs().maxCoeff();
+  // Violation, or how far an inequality with a multiplier is from being active.
+  VectorXd off = at_.c.cwiseMin(multipliers_ / weight_);
+  off.head(at_.equalities) = at_.c.head(at_.equalities);
+  const double violation = off.cwiseAbs().maxCoeff();
   multipliers_ = conditions.elastic ? implied(at_.c) : conditions.multipliers;
   if (violation > wanted_fall * last_violation_ && violation > settings_.constraint_tolerance)
     weight_ = std::min(weight_rise * weight_, heaviest_);
@@ -291,6 +296,7 @@ bool BfgsMinimizer::infeasible() const
   Step squares;
   squares.gradient = VectorXd::Zero(x_.size());
   squares.multipliers = (-at_.c).cwiseMax(0.0);
+  squares.multipliers.head(at_.equalities) = -at_.c.head(at_.equalities);
   const double promised = optimality(squares, at_.J, problem_.step_lower(x_), problem_.step_upper(x_));
   return promised <= stationary * squares.multipliers.squaredNorm();
 }
@@ -298,7 +304,7 @@ bool BfgsMinimizer::infeasible() const
 bool BfgsMinimizer::restart()
 {
   if (hessian_.fresh()) return false;  // would propose the same step
-  const double violation = total_violation(at_.c);
+  const double violation = total_violation(at_);
   if (restarted_) {
     const bool better = value_ < restart_value_ - worthwhile_value * std::abs(restart_value_);
     const bool more_feasible = violation < worthwhile_violation * restart_violation_;

@@ -24,7 +24,8 @@ struct BfgsSettings : SearchSettings {
 ///
 /// The augmented Lagrangian of c >= 0 with multipliers l >= 0 and weight w (Powell, Hestenes, Rockafellar):
 ///   A(x) = f(x) + sum_i (max(0, l_i - w c_i(x))^2 - l_i^2)/(2 w),
-///   grad A = grad f - J^T max(0, l - w c).
+///   grad A = grad f - J^T max(0, l - w c),
+/// and of equations c = 0 the same without the maximum, with l of either sign.
 class BfgsMinimizer {
  public:
   BfgsMinimizer(OptimizationProblem& problem, const BfgsSettings& settings, OptimizerObserver& observer,
@@ -37,7 +38,7 @@ class BfgsMinimizer {
 
   bool begin(std::string& why);
   void begin_multipliers();
-  /// max(0, l - w c): multipliers that c stands for.
+  /// max(0, l - w c), of equations l - w c: multipliers that c stands for.
   Eigen::VectorXd implied(const Eigen::VectorXd& c) const;
   /// The constraints' part of A.
   double constraint_part(const Eigen::VectorXd& c) const;
@@ -64,7 +65,7 @@ class BfgsMinimizer {
   bool infeasible() const;
   bool restart();
   void reset_hessian(double radius);
-  bool feasible() const { return largest_violation(at_.c) <= settings_.constraint_tolerance; }
+  bool feasible() const { return largest_violation(at_) <= settings_.constraint_tolerance; }
   bool spent() const { return problem_.evaluations() >= settings_.max_evaluations; }
   double scale() const { return objective_scale(first_value_, value_); }
   OptimizerResult finish(std::string status, std::string message) const;

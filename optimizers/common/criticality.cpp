@@ -23,10 +23,10 @@ double optimality(const Step& step, const Eigen::MatrixXd& J, const Eigen::Vecto
   return largest;
 }
 
-bool locally_infeasible(const Step& step, const Eigen::VectorXd& c, double tolerance)
+bool locally_infeasible(const Step& step, const Linearisation& at, double tolerance)
 {
-  return step.elastic && largest_violation(c) > tolerance &&
-         step.model_violation >= (1.0 - removable) * total_violation(c);
+  return step.elastic && largest_violation(at) > tolerance &&
+         step.model_violation >= (1.0 - removable) * total_violation(at);
 }
 
 Step steepest_step(const Linearisation& at, const Eigen::VectorXd& step_lower,
@@ -43,8 +43,9 @@ Step nearest_feasible_step(const Linearisation& at, const Eigen::VectorXd& step_
                            const Eigen::VectorXd& step_upper)
 {
   const Eigen::Index n = step_lower.size();
-  const Linearisation constraints{Eigen::VectorXd::Zero(n), at.c, at.J};
-  Step step = propose_step(Eigen::MatrixXd::Identity(n, n), constraints, step_lower, step_upper, 0.0);
+  const Linearisation constraints{Eigen::VectorXd::Zero(n), at.c, at.J, at.equalities};
+  Step step = propose_step(Eigen::MatrixXd::Identity(n, n), constraints, step_lower.cwiseMax(-1.0),
+                           step_upper.cwiseMin(1.0), 0.0);
   step.ok = step.ok && !step.elastic;
   return step;
 }

@@ -13,7 +13,7 @@ double optimality(const Step& step, const Eigen::MatrixXd& J, const Eigen::Vecto
 
 /// No small step reduces the violation of the constraints, although it is larger than `tolerance`: the
 /// relaxed model could remove next to nothing of it.
-bool locally_infeasible(const Step& step, const Eigen::VectorXd& c, double tolerance);
+bool locally_infeasible(const Step& step, const Linearisation& at, double tolerance);
 
 /// The step along the steepest descent that the linearised constraints and bounds leave, at most one range
 /// long: min g.d + s/2 |d|^2 with s the largest component of g. Its multipliers are those of least squares;
@@ -21,8 +21,8 @@ bool locally_infeasible(const Step& step, const Eigen::VectorXd& c, double toler
 Step steepest_step(const Linearisation& at, const Eigen::VectorXd& step_lower,
                    const Eigen::VectorXd& step_upper, double penalty);
 
-/// The shortest step onto the linearised constraints within the bounds: one of Newton's method towards a
-/// feasible point. Not ok where they have no common point.
+/// The shortest step onto the linearised constraints within the bounds, at most one range long: one of
+/// Newton's method towards a feasible point. Not ok where they have no common point.
 Step nearest_feasible_step(const Linearisation& at, const Eigen::VectorXd& step_lower,
                            const Eigen::VectorXd& step_upper);
 

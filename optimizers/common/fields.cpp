@@ -44,4 +44,9 @@ Field min_step_field()
                         "Shortest step worth an evaluation, as part of a variable's range.");
 }
 
-}  // namespace hauberk
+Field seed_field()
+{
+  return count_field("seed", "1", 4294967295.0, "Seed of all draws; the same one gives the same run.");
+}
+
+  // namespace hauberk

@@ -20,5 +20,7 @@ Field max_evaluations_field();
 Field tolerance_field();
 Field constraint_tolerance_field();
 Field min_step_field();
+/// `seed` of an optimizer that draws random numbers (OptimizerTraits).
+Field seed_field();
 
 }  // namespace hauberk

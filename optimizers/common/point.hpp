@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <string>
 
 namespace hauberk {
@@ -17,9 +18,10 @@ struct Trial {
 
 /// First-order information at an iterate, in scaled variables.
 struct Linearisation {
-  Eigen::VectorXd gradient;  ///< n
-  Eigen::VectorXd c;         ///< m constraint values, feasible where >= 0
-  Eigen::MatrixXd J;         ///< m x n
+  Eigen::VectorXd gradient;     ///< n
+  Eigen::VectorXd c;            ///< m constraint values, feasible where >= 0, and the equations where 0
+  Eigen::MatrixXd J;            ///< m x n
+  Eigen::Index equalities = 0;  ///< the first ones are equations
 };
 
 /// Residuals and their Jacobian at one point, in scaled variables.
@@ -30,12 +32,25 @@ struct Residuals {
   bool empty() const { return r.size() == 0; }
 };
 
-/// sum_i max(0, -c_i).
-inline double total_violation(const Eigen::VectorXd& c) { return (-c).cwiseMax(0.0).sum(); }
-/// max(0, -min c).
-inline double largest_violation(const Eigen::VectorXd& c)
+/// By how much each constraint is violated: |c_i| of the first `equalities`, max(0, -c_i) of the others.
+inline Eigen::VectorXd violations(const Eigen::VectorXd& c, Eigen::Index equalities)
 {
-  return c.size() == 0 || !(c.minCoeff() < 0.0) ? 0.0 : -c.minCoeff();
+  Eigen::VectorXd out = (-c).cwiseMax(0.0);
+  out.head(equalities) = c.head(equalities).cwiseAbs();
+  return out;
 }
+inline double total_violation(const Eigen::VectorXd& c, Eigen::Index equalities)
+{
+  return violations(c, equalities).sum();
+}
+inline double total_violation(const Linearisation& at) { return total_violation(at.c, at.equalities); }
+/// 0 without constraints; not-a-number counts as none.
+inline double largest_violation(const Eigen::VectorXd& c, Eigen::Index equalities)
+{
+  double largest = 0.0;
+  for (const double violation : violations(c, equalities)) largest = std::max(largest, violation);
+  return largest;
+}
+inline double largest_violation(const Linearisation& at) { return largest_violation(at.c, at.equalities); }
 
 }  // namespace hauberk

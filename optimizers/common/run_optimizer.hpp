@@ -7,12 +7,19 @@
 
 namespace hauberk {
 
-/// Minimises by Run(problem, settings, observer, start).run(). Immutable, thread safe where different runs
-/// share nothing.
+/// Minimises by Run(problem, settings, observer, start).run(). Runs share nothing and keep equations. Thread
+/// safe.
 template <class Run, class Settings>
 class RunOptimizer final : public Optimizer {
  public:
   explicit RunOptimizer(const Settings& settings) : settings_(settings) {}
+
+  OptimizerTraits traits() const override
+  {
+    OptimizerTraits traits;
+    traits.thread_safe = traits.equalities = true;
+    return traits;
+  }
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,

@@ -8,6 +8,7 @@ namespace hauberk {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -34,10 +35,8 @@ VectorXd ScaledProblem::moved(const VectorXd& x, const VectorXd& d, double alpha
   return (x + alpha * scale_.cwiseProduct(d)).cwiseMax(lower_).cwiseMin(upper_);
 }
 
-Trial ScaledProblem::evaluate(const VectorXd& x, bool want_gradient)
+Trial ScaledProblem::checked(OptimizationProblem::Evaluation evaluation, bool want_gradient) const
 {
-  ++evaluations_;
-  OptimizationProblem::Evaluation evaluation = problem_.evaluate(view(x), want_gradient);
   Trial trial;
   trial.value = evaluation.value;
   trial.why = std::move(evaluation.why);
@@ -46,7 +45,7 @@ Trial ScaledProblem::evaluate(const VectorXd& x, bool want_gradient)
   if (!trial.ok) trial.why = "the value or its gradient is not finite";
   if (!want_gradient || !trial.ok) return trial;
   trial.ok = false;
-  if (evaluation.gradient.size() != static_cast<std::size_t>(x.size())) {
+  if (evaluation.gradient.size() != static_cast<std::size_t>(size())) {
     trial.why = "the gradient has " + std::to_string(evaluation.gradient.size()) + " components";
     return trial;
   }
@@ -54,6 +53,23 @@ Trial ScaledProblem::evaluate(const VectorXd& x, bool want_gradient)
   trial.ok = trial.gradient.allFinite();
   if (!trial.ok) trial.why = "the value or its gradient is not finite";
   return trial;
+}
+
+Trial ScaledProblem::evaluate(const VectorXd& x, bool want_gradient)
+{
+  ++evaluations_;
+  return checked(problem_.evaluate(view(x), want_gradient), want_gradient);
+}
+
+std::vector<Trial> ScaledProblem::evaluate(const std::vector<VectorXd>& points, bool want_gradient)
+{
+  std::vector<double> rows;
+  for (const VectorXd& x : points) rows.insert(rows.end(), x.begin(), x.end());
+  evaluations_ += static_cast<int>(points.size());
+  std::vector<Trial> trials;
+  for (OptimizationProblem::Evaluation& e : problem_.evaluate_batch(points.size(), rows, want_gradient))
+    trials.push_back(checked(std::move(e), want_gradient));
+  return trials;
 }
 
 VectorXd ScaledProblem::constraints(const VectorXd& x)
@@ -66,6 +82,7 @@ VectorXd ScaledProblem::constraints(const VectorXd& x)
 void ScaledProblem::linearise(const VectorXd& x, Linearisation& at)
 {
   at.c.resize(problem_.constraint_count());
+  at.equalities = problem_.equality_count();
   RowMajor J(at.c.size(), x.size());
   if (at.c.size() > 0) {
     problem_.constraints(view(x), {at.c.data(), static_cast<std::size_t>(at.c.size())},
@@ -102,6 +119,21 @@ Residuals ScaledProblem::residuals(const VectorXd& x)
   out.r = std::move(r);
   out.J = J * scale_.asDiagonal();
   return out;
+}
+
+bool ScaledProblem::hessian(const VectorXd& x, double weight, const VectorXd& multipliers, MatrixXd& H)
+{
+  H.resize(size(), size());
+  VectorXd out(size());
+  for (Index k = 0; k < size(); ++k) {
+    const VectorXd v = scale_[k] * VectorXd::Unit(size(), k);
+    if (!problem_.hessian_product(view(x), weight, view(multipliers), view(v),
+                                  {out.data(), static_cast<std::size_t>(out.size())}) ||
+        !out.allFinite())
+      return false;
+    H.col(k) = scale_.cwiseProduct(out);
+  }
+  return true;
 }
 
 double ScaledProblem::largest_safe_step(const VectorXd& x, const VectorXd& d)

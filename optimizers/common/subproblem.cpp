@@ -3,6 +3,7 @@
 #include "numerics/quadratic_program.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace hauberk {
@@ -33,6 +34,7 @@ QuadraticProgram assemble(const MatrixXd& B, const Linearisation& at, const Vect
   q.G.topLeftCorner(n, n) = B;
   q.a = VectorXd::Constant(n + slacks, price);
   q.a.head(n) = at.gradient;
+  q.equalities = at.equalities;
   q.A = MatrixXd::Zero(m + 2 * n + slacks, n + slacks);
   q.b = VectorXd::Zero(m + 2 * n + slacks);
   q.A.topLeftCorner(m, n) = at.J;
@@ -43,8 +45,8 @@ QuadraticProgram assemble(const MatrixXd& B, const Linearisation& at, const Vect
   q.b.segment(m + n, n) = -upper;
   for (Index k = 0; k < slacks; ++k) {
     const Index i = violated[k];
-    q.G(n + k, n + k) = slack_curvature * price / -at.c[i];
-    q.A(i, n + k) = 1.0;
+    q.G(n + k, n + k) = slack_curvature * price / std::abs(at.c[i]);
+    q.A(i, n + k) = at.c[i] < 0.0 ? 1.0 : -1.0;
     q.A(m + 2 * n + k, n + k) = 1.0;
   }
   return q;
@@ -62,7 +64,7 @@ Step propose_step(const MatrixXd& B, const Linearisation& at, const VectorXd& lo
     step.ok = true;
     step.d = solution.x.head(n).cwiseMax(lower).cwiseMin(upper);
     step.multipliers = solution.multipliers.head(m);
-    step.model_violation = total_violation(at.c + at.J * step.d);
+    step.model_violation = total_violation(at.c + at.J * step.d, at.equalities);
     step.gradient = at.gradient;
     step.descent = -at.gradient.dot(step.d);
     step.decrease = step.descent - 0.5 * step.d.dot(B * step.d);
@@ -76,7 +78,7 @@ Step propose_step(const MatrixXd& B, const Linearisation& at, const VectorXd& lo
   std::vector<Index> violated;
   double steepest = 0.0;
   for (Index i = 0; i < m; ++i) {
-    if (at.c[i] >= 0.0) continue;
+    if (i < at.equalities ? at.c[i] == 0.0 : at.c[i] >= 0.0) continue;
     violated.push_back(i);
     steepest = std::max(steepest, at.J.row(i).cwiseAbs().maxCoeff());
   }

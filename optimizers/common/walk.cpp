@@ -33,7 +33,7 @@ bool Walk::begin(bool want_gradient, std::string& why)
   unit_ = objective_scale(first_value_, first_value_);
   accepted_.ok = true;
   accepted_.derivatives = want_gradient;
-  best_.offer(accepted_.x, accepted_.value, largest_violation(accepted_.at.c));
+  best_.offer(accepted_.x, accepted_.value, largest_violation(accepted_.at));
   best_place_ = last_ = accepted_;
   report(0.0);
   return true;
@@ -56,6 +56,38 @@ const Walk::Place& Walk::look(const VectorXd& x, bool want_gradient)
   return last_;
 }
 
+std::vector<Walk::Place> Walk::look(const std::vector<VectorXd>& points, bool want_gradient)
+{
+  std::vector<Place> places(points.size());
+  std::vector<std::size_t> asked;  // to be evaluated
+  std::vector<VectorXd> there;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    places[i].x = points[i];
+    if (stop_ != Stop::none || !points[i].allFinite()) continue;
+    if (points[i] == accepted_.x && (!want_gradient || accepted_.derivatives)) {
+      places[i] = accepted_;
+      continue;
+    }
+    if (!reachable(points[i])) continue;
+    if (problem_.evaluations() + static_cast<int>(asked.size()) >= settings_.max_evaluations) {
+      stop_ = Stop::evaluations;
+      continue;
+    }
+    asked.push_back(i);
+    there.push_back(points[i]);
+  }
+  if (asked.empty()) return places;
+  const std::vector<Trial> trials = problem_.evaluate(there, want_gradient);
+  for (std::size_t k = 0; k < asked.size(); ++k) enter(places[asked[k]], trials[k], want_gradient);
+  return places;
+}
+
+void Walk::accept(const Place& place)
+{
+  last_ = place;
+  accept_last();
+}
+
 std::optional<double> Walk::violation(const VectorXd& x)
 {
   if (stop_ != Stop::none || !x.allFinite()) return std::nullopt;
@@ -63,7 +95,7 @@ std::optional<double> Walk::violation(const VectorXd& x)
   if (blocked_) return std::nullopt;
   const VectorXd c = problem_.constraints(x);
   if (!c.allFinite()) return std::nullopt;
-  return largest_violation(c);
+  return largest_violation(c, problem_.equality_count());
 }
 
 bool Walk::reachable(const VectorXd& x)
@@ -84,7 +116,11 @@ bool Walk::reachable(const VectorXd& x)
 
 void Walk::evaluate(Place& place, bool want_gradient)
 {
-  const Trial trial = problem_.evaluate(place.x, want_gradient);
+  enter(place, problem_.evaluate(place.x, want_gradient), want_gradient);
+}
+
+void Walk::enter(Place& place, const Trial& trial, bool want_gradient)
+{
   if (!trial.ok) return;
   place.value = trial.value;
   place.at.gradient = trial.gradient;
@@ -105,7 +141,7 @@ void Walk::accept_last()
   accepted_.value = known.value;
   if (last_.derivatives) accepted_.at.gradient = known.gradient;
   direction_.resize(0);
-  if (best_.offer(accepted_.x, accepted_.value, largest_violation(accepted_.at.c))) best_place_ = accepted_;
+  if (best_.offer(accepted_.x, accepted_.value, largest_violation(accepted_.at))) best_place_ = accepted_;
   ++iteration_;
   report(step.size() == 0 ? 0.0 : step.cwiseAbs().maxCoeff());
 }
@@ -121,11 +157,13 @@ void Walk::report(double step)
   iterate.iteration = iteration_;
   iterate.value = accepted_.value;
   iterate.step = step;
-  iterate.constraint_violation = largest_violation(accepted_.at.c);
+  iterate.constraint_violation = largest_violation(accepted_.at);
   iterate.optimality = std::numeric_limits<double>::quiet_NaN();
   iterate.x = {accepted_.x.data(), static_cast<std::size_t>(accepted_.x.size())};
+  multipliers_.resize(0);
   if (accepted_.derivatives) {
     const Step down = descent(accepted_);
+    if (down.ok) multipliers_ = down.multipliers;
     if (down.ok)
       iterate.optimality = optimality(down, accepted_.at.J, problem_.step_lower(accepted_.x),
                                       problem_.step_upper(accepted_.x));
@@ -138,15 +176,15 @@ void Walk::report(double step)
 
 void Walk::restore()
 {
-  const auto violated = [this] { return largest_violation(accepted_.at.c) > settings_.constraint_tolerance; };
+  const auto violated = [this] { return largest_violation(accepted_.at) > settings_.constraint_tolerance; };
   for (int k = 0; k < most_restorations && violated() && stop_ == Stop::none; ++k) {
     const Step step = nearest_feasible_step(accepted_.at, problem_.step_lower(accepted_.x),
                                             problem_.step_upper(accepted_.x));
     if (!step.ok || step.d.squaredNorm() == 0.0) return;
-    const double before = largest_violation(accepted_.at.c);
+    const double before = largest_violation(accepted_.at);
     const VectorXd x = problem_.moved(accepted_.x, step.d, 1.0);
     const Place& there = look(x, accepted_.derivatives);
-    if (!there.ok || !(largest_violation(there.at.c) < before)) return;
+    if (!there.ok || !(largest_violation(there.at) < before)) return;
     accept_last();
   }
 }
@@ -183,7 +221,7 @@ bool Walk::infeasible() const
   if (at.gradient.size() == 0) at.gradient = VectorXd::Zero(problem_.size());
   const Step step =
       steepest_step(at, problem_.step_lower(best_place_.x), problem_.step_upper(best_place_.x), 0.0);
-  return step.ok && locally_infeasible(step, at.c, settings_.constraint_tolerance);
+  return step.ok && locally_infeasible(step, at, settings_.constraint_tolerance);
 }
 
 OptimizerResult Walk::finish(std::string status, std::string message) const

@@ -20,11 +20,17 @@ struct IpoptSettings {
   double min_step = 1e-7;  ///< shortest step worth an evaluation, part of a variable's range
 };
 
-/// See the README for how Ipopt is made to keep the contract. Immutable; thread safe, but one run waits for
-/// another: Ipopt and its linear solver keep state in global variables.
+/// See the README for how Ipopt is made to keep the contract. Not thread safe: Ipopt 3.11 numbers its vectors
+/// by a global counter, and MUMPS, its linear solver, keeps its state in global variables.
 class IpoptOptimizer final : public Optimizer {
  public:
   explicit IpoptOptimizer(const IpoptSettings& settings) : settings_(settings) {}
+  OptimizerTraits traits() const override
+  {
+    OptimizerTraits traits;
+    traits.equalities = true;
+    return traits;
+  }
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,

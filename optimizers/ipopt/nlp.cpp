@@ -24,8 +24,8 @@ constexpr double worthwhile = 0.99;
 
 }  // namespace
 
-IpoptNlp::IpoptNlp(Walk& walk, VectorXd start, const IpoptSettings& settings)
-    : walk_(walk), start_(std::move(start)), settings_(settings)
+IpoptNlp::IpoptNlp(Walk& walk, VectorXd start, const IpoptSettings& settings, bool exact)
+    : walk_(walk), start_(std::move(start)), settings_(settings), exact_(exact)
 {
 }
 
@@ -35,7 +35,7 @@ bool IpoptNlp::get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& 
   n = static_cast<Index>(walk_.problem().size());
   m = walk_.problem().constraint_count();
   jacobian_entries = n * m;
-  hessian_entries = 0;
+  hessian_entries = exact_ ? n * (n + 1) / 2 : 0;
   style = C_STYLE;
   return true;
 }
@@ -48,6 +48,9 @@ bool IpoptNlp::get_bounds_info(Index n, double* z_lower, double* z_upper, Index 
   Eigen::Map<VectorXd>(z_upper, n) = problem.scaled(problem.upper()).cwiseMin(unbounded);
   std::fill(c_lower, c_lower + m, -0.5 * settings_.walk.constraint_tolerance);
   std::fill(c_upper, c_upper + m, unbounded);
+  const int equations = problem.equality_count();
+  std::fill(c_lower, c_lower + equations, 0.0);
+  std::fill(c_upper, c_upper + equations, 0.0);
   return true;
 }
 
@@ -113,6 +116,33 @@ bool IpoptNlp::eval_jac_g(Index n, const double* z, bool /*is_new*/, Index m, In
   }
   if (!arrive(z)) return false;
   Eigen::Map<RowMajor>(values, m, n) = walk_.accepted().at.J;
+  return true;
+}
+
+bool IpoptNlp::eval_h(Index n, const double* z, bool /*is_new*/, double weight, Index m, const double* lambda,
+                      bool /*is_new_lambda*/, Index /*entries*/, Index* row, Index* column, double* values)
+{
+  if (values == nullptr) {
+    Index entry = 0;
+    for (Index i = 0; i < n; ++i) {
+      for (Index k = 0; k <= i; ++k, ++entry) {
+        row[entry] = i;
+        column[entry] = k;
+      }
+    }
+    return true;
+  }
+  if (!arrive(z)) return false;
+  // Ipopt's Lagrangian is f + lambda . c, and its f is over the unit.
+  Eigen::MatrixXd H;
+  if (!walk_.hessian(weight / walk_.unit(), -Eigen::Map<const VectorXd>(lambda, m), H)) {
+    lost_hessian_ = true;
+    return false;
+  }
+  Index entry = 0;
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k <= i; ++k) values[entry++] = 0.5 * (H(i, k) + H(k, i));
+  }
   return true;
 }
 

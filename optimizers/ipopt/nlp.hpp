@@ -9,8 +9,8 @@
 
 namespace hauberk {
 
-/// min f(z)/unit subject to the bounds of the scaled variables z and c(z) >= -tolerance/2: without that
-/// little room, an equation given as two inequalities would leave no interior.
+/// min f(z)/unit subject to the bounds of the scaled variables z and c(z) >= -tolerance/2, of equations = 0:
+/// without that little room, an equation given as two inequalities would leave no interior.
 ///
 /// Ipopt's functions may say that a point cannot be evaluated; that is the answer where it cannot be reached,
 /// and Ipopt shortens its step. Derivatives are asked for at Ipopt's own iterates alone (soft restoration and
@@ -20,11 +20,14 @@ class IpoptNlp final : public Ipopt::TNLP {
  public:
   struct Stopped {};
 
-  IpoptNlp(Walk& walk, Eigen::VectorXd start, const IpoptSettings& settings);
+  /// `exact`: the problem knows its Hessian.
+  IpoptNlp(Walk& walk, Eigen::VectorXd start, const IpoptSettings& settings, bool exact);
 
   /// An iterate turned out to have another value than Ipopt was told, so its line search compares with what
   /// is not so.
   bool surprised() const { return surprised_; }
+  /// The Hessian was asked for and not known.
+  bool lost_hessian() const { return lost_hessian_; }
 
   bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& jacobian_entries,
                     Ipopt::Index& hessian_entries, IndexStyleEnum& style) override;
@@ -37,6 +40,9 @@ class IpoptNlp final : public Ipopt::TNLP {
   bool eval_g(Ipopt::Index n, const double* z, bool is_new, Ipopt::Index m, double* c) override;
   bool eval_jac_g(Ipopt::Index n, const double* z, bool is_new, Ipopt::Index m, Ipopt::Index entries,
                   Ipopt::Index* row, Ipopt::Index* column, double* values) override;
+  bool eval_h(Ipopt::Index n, const double* z, bool is_new, double weight, Ipopt::Index m,
+              const double* lambda, bool is_new_lambda, Ipopt::Index entries, Ipopt::Index* row,
+              Ipopt::Index* column, double* values) override;
   bool intermediate_callback(Ipopt::AlgorithmMode mode, Ipopt::Index iteration, double value,
                              double violation, double dual_violation, double mu, double step,
                              double regularization, double alpha_dual, double alpha_primal,
@@ -57,7 +63,9 @@ class IpoptNlp final : public Ipopt::TNLP {
   Walk& walk_;
   Eigen::VectorXd start_;  ///< scaled
   IpoptSettings settings_;
+  bool exact_;
   bool surprised_ = false;
+  bool lost_hessian_ = false;
   Eigen::VectorXd seen_;  ///< scaled accepted point at the last callback
   int idle_ = 0;          ///< callbacks since it moved by a step worth an evaluation
   int stalled_ = 0;       ///< callbacks since it gained

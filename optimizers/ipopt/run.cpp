@@ -6,7 +6,6 @@
 #include <IpIpoptApplication.hpp>
 
 #include <algorithm>
-#include <mutex>
 #include <string>
 
 namespace hauberk {
@@ -27,12 +26,10 @@ constexpr double later_push = 1e-6;
 constexpr double later_barrier = 1e-4;
 /// Parts of the push that are tried, each a quarter of the one before.
 constexpr int most_pushes = 8;
+/// Variables up to which a Hessian is put together from products.
+constexpr Index most_products = 100;
 /// Distance from the bounds that Ipopt itself insists on: none beyond ours.
 constexpr double no_push = 1e-12;
-
-/// Held during a run. Ipopt 3.11 numbers its vectors by a global counter, and MUMPS keeps its state in global
-/// variables. Recursive, as a problem may itself be solved by an optimizer.
-std::recursive_mutex one_at_a_time;
 
 const char* name(ApplicationReturnStatus status)
 {
@@ -62,11 +59,11 @@ const char* name(ApplicationReturnStatus status)
   }
 }
 
-void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings, bool first)
+void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings, bool first, bool exact)
 {
   options.SetIntegerValue("print_level", 0);
   options.SetStringValue("sb", "yes");  // no banner
-  options.SetStringValue("hessian_approximation", "limited-memory");
+  options.SetStringValue("hessian_approximation", exact ? "exact" : "limited-memory");
   options.SetIntegerValue("limited_memory_max_history", settings.memory);
   // With this Hessian, Ipopt would choose an adaptive barrier, which leads into walls sooner.
   options.SetStringValue("mu_strategy", "monotone");
@@ -107,20 +104,30 @@ VectorXd inside(Walk& walk, double push)
 struct Ending {
   ApplicationReturnStatus status = Ipopt::Internal_Error;
   bool surprised = false;
+  bool lost = false;  ///< the Hessian was not known any more
 };
 
-Ending run_once(Walk& walk, const IpoptSettings& settings, bool first)
+/// Whether the problem knows its Hessian, and there are few enough variables for a product with each of them.
+bool knows_hessian(Walk& walk)
+{
+  Eigen::MatrixXd H;
+  return walk.problem().size() <= most_products &&
+         walk.hessian(1.0, VectorXd::Zero(walk.problem().constraint_count()), H);
+}
+
+Ending run_once(Walk& walk, const IpoptSettings& settings, bool first, bool exact)
 {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication(false);  // no console
   ipopt->RethrowNonIpoptException(true);
-  set_options(*ipopt->Options(), settings, first);
+  set_options(*ipopt->Options(), settings, first, exact);
   if (ipopt->Initialize("") != Ipopt::Solve_Succeeded)  // no file of options
     throw ComputationError("Ipopt does not accept its options");
   const VectorXd start = inside(walk, first ? settings.push : std::min(settings.push, later_push));
-  const Ipopt::SmartPtr<IpoptNlp> nlp = new IpoptNlp(walk, start, settings);
+  const Ipopt::SmartPtr<IpoptNlp> nlp = new IpoptNlp(walk, start, settings, exact);
   Ending end;
   end.status = ipopt->OptimizeTNLP(GetRawPtr(nlp));
   end.surprised = nlp->surprised();
+  end.lost = nlp->lost_hessian();
   return end;
 }
 
@@ -133,18 +140,20 @@ bool any_free(const ScaledProblem& problem)
 std::string search(Walk& walk, const IpoptSettings& settings)
 {
   std::string why = "nothing to do";
+  bool exact = knows_hessian(walk);
   for (int run = 0; run < most_runs && any_free(walk.problem()); ++run) {
     const int iterations = walk.iterations();
     const double value = walk.accepted().value;
-    const double violation = largest_violation(walk.accepted().at.c);
-    const Ending end = run_once(walk, settings, run == 0);
+    const double violation = largest_violation(walk.accepted().at);
+    const Ending end = run_once(walk, settings, run == 0, exact);
     why = name(end.status);
+    exact = exact && !end.lost;
     walk.restore();
     if (walk.critical() || walk.infeasible()) break;
     const bool lower = walk.accepted().value < value - settings.walk.tolerance * walk.unit();
-    const bool nearer = largest_violation(walk.accepted().at.c) < worthwhile_violation * violation;
+    const bool nearer = largest_violation(walk.accepted().at) < worthwhile_violation * violation;
     const bool last = run > 0 || walk.iterations() == iterations;
-    if (last && !lower && !nearer && !end.surprised) break;
+    if (last && !lower && !nearer && !end.surprised && !end.lost) break;
     if (!lower && !nearer) walk.return_to_best();
   }
   return why;
@@ -160,7 +169,6 @@ OptimizerResult IpoptOptimizer::do_minimize(OptimizationProblem& problem, std::s
   if (!walk.begin(true, why)) return walk.finish("failed", "the start cannot be evaluated: " + why);
   if (walk.stopped() != Walk::Stop::none) return walk.finish_stopped();
   try {
-    const std::lock_guard alone(one_at_a_time);
     why = search(walk, settings_);
   } catch (const IpoptNlp::Stopped&) {
   }

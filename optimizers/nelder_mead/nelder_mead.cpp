@@ -71,16 +71,14 @@ class Search {
   bool descend(double step)
   {
     const std::size_t n = free_.size();
-    std::vector<Corner> simplex{accepted_};
-    simplex.reserve(n + 1);
+    std::vector<Corner> simplex(n + 1, accepted_);
     for (std::size_t k = 0; k < n; ++k) {
-      if (!budget()) return false;
-      Point x = accepted_.x;
       const std::size_t i = free_[k];
       const double by = step * widths_[k];
-      x[i] += x[i] + by <= problem_.upper()[i] ? by : -by;
-      simplex.push_back(tried(x));
+      double& x = simplex[k + 1].x[i];
+      x += x + by <= problem_.upper()[i] ? by : -by;
     }
+    if (!try_all_but_the_first(simplex)) return false;
     for (;;) {
       std::stable_sort(simplex.begin(), simplex.end());
       while (simplex.front() < accepted_) {
@@ -131,33 +129,75 @@ class Search {
       worst = contracted;
       return true;
     }
-    for (std::size_t c = 1; c < simplex.size(); ++c) {
-      if (!budget()) return false;
+    for (std::size_t c = 1; c < simplex.size(); ++c)
       for (const std::size_t i : free_) simplex[c].x[i] = 0.5 * (simplex[c].x[i] + simplex[0].x[i]);
-      simplex[c] = tried(simplex[c].x);
+    return try_all_but_the_first(simplex);
+  }
+
+  /// What `tried` says of all corners but the first, which do not depend on each other; false when the budget
+  /// does not suffice for all.
+  bool try_all_but_the_first(std::vector<Corner>& simplex)
+  {
+    std::vector<Corner*> asked;
+    std::vector<double> rows;
+    for (std::size_t c = 1; c < simplex.size(); ++c) {
+      Corner& corner = simplex[c];
+      corner = {within(corner.x)};
+      if (corner.x == accepted_.x) {
+        corner = accepted_;
+      } else if (reachable(corner.x)) {
+        asked.push_back(&corner);
+        rows.insert(rows.end(), corner.x.begin(), corner.x.end());
+      }
     }
-    return true;
+    const std::size_t all = asked.size();
+    asked.resize(std::min(all, static_cast<std::size_t>(settings_.max_evaluations - evaluations_)));
+    rows.resize(asked.size() * accepted_.x.size());
+    if (asked.empty()) return all == 0 || budget();
+    evaluations_ += static_cast<int>(asked.size());
+    const auto found = problem_.evaluate_batch(asked.size(), rows, false);
+    last_.clear();
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      last_.push_back(asked[k]->x);
+      *asked[k] = corner_of(asked[k]->x, found[k]);
+    }
+    return asked.size() == all || budget();
   }
 
   /// A point within the bounds, evaluated if the straight way to it from the last iterate is free; else worse
   /// than all others.
-  Corner tried(Point x)
+  Corner tried(const Point& anywhere)
+  {
+    const Point x = within(anywhere);
+    if (x == accepted_.x) return accepted_;
+    return reachable(x) ? evaluate(x) : Corner{x};
+  }
+
+  Point within(Point x) const
   {
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i] = std::clamp(x[i], problem_.lower()[i], problem_.upper()[i]);
-    if (x == accepted_.x) return accepted_;
-    Corner out{x};
+    return x;
+  }
+
+  bool reachable(const Point& x)
+  {
     Point way(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) way[i] = x[i] - accepted_.x[i];
-    if (!(problem_.largest_safe_step(accepted_.x, way) >= 1.0)) return out;
-    return evaluate(x);
+    return problem_.largest_safe_step(accepted_.x, way) >= 1.0;
   }
+
+  bool latest(const Point& x) const { return std::find(last_.begin(), last_.end(), x) != last_.end(); }
 
   Corner evaluate(const Point& x)
   {
-    if (last_ != x) ++evaluations_;  // asking again costs nothing
-    last_ = x;
-    const auto evaluation = problem_.evaluate(x, false);
+    if (last_ != std::vector<Point>{x}) ++evaluations_;  // asking again costs nothing
+    last_ = {x};
+    return corner_of(x, problem_.evaluate(x, false));
+  }
+
+  Corner corner_of(const Point& x, const hauberk::OptimizationProblem::Evaluation& evaluation)
+  {
     if (!evaluation.ok || !std::isfinite(evaluation.value)) return {x};
     return {x, evaluation.value, violation(x)};
   }
@@ -172,12 +212,12 @@ class Search {
     return worst <= settings_.constraint_tolerance ? 0.0 : worst;
   }
 
-  /// Makes it the iterate. A problem takes only the point that it evaluated last; its value may change when
-  /// it is looked at more closely, so it is asked for again.
+  /// Makes it the iterate. A problem takes only what it evaluated last, one point or a batch; its value may
+  /// change when it is looked at more closely, so it is asked for again.
   /// False where it cannot be: the budget is used up, or the way to it from the iterate is no longer free.
   bool accept(Corner& corner)
   {
-    if (last_ != corner.x) {
+    if (!latest(corner.x)) {
       if (!budget()) return false;
       const Corner again = tried(corner.x);
       if (!std::isfinite(again.value)) {
@@ -186,6 +226,7 @@ class Search {
       }
     }
     problem_.accept(corner.x);
+    last_ = {corner.x};
     accepted_ = corner;
     if (!budget()) return true;
     const Corner again = evaluate(corner.x);
@@ -232,7 +273,7 @@ class Search {
   Settings settings_;
   hauberk::OptimizerObserver& observer_;
   Corner accepted_;
-  Point last_;                     ///< evaluated last
+  std::vector<Point> last_;        ///< evaluated last: one, or a batch
   std::vector<std::size_t> free_;  ///< variables whose bounds differ
   std::vector<double> widths_;     ///< of these
   int iterations_ = 0, evaluations_ = 0;
@@ -243,6 +284,12 @@ class Search {
 class NelderMead final : public hauberk::Optimizer {
  public:
   explicit NelderMead(const Settings& settings) : settings_(settings) {}
+  hauberk::OptimizerTraits traits() const override
+  {
+    hauberk::OptimizerTraits traits;
+    traits.thread_safe = true;
+    return traits;
+  }
 
  protected:
   hauberk::OptimizerResult do_minimize(hauberk::OptimizationProblem& problem, std::span<const double> start,

@@ -6,9 +6,7 @@
 
 #include <hauberk/optimizer.hpp>
 
-#include <common/best_point.hpp>
-#include <common/criticality.hpp>
-#include <common/scaled_problem.hpp>
+#include <common/walk.hpp>
 
 #include <exception>
 #include <span>
@@ -24,9 +22,6 @@ namespace hauberk {
 /// merit function; then the observer hears of it. Not thread safe.
 class NloptAdapter {
  public:
-  /// `walls`: of one run of NLopt only.
-  enum class Stop { none, observer, iterations, evaluations, exception, walls };
-
   NloptAdapter(OptimizationProblem& problem, const NloptSettings& settings, OptimizerObserver& observer,
                std::span<const double> start);
 
@@ -35,77 +30,53 @@ class NloptAdapter {
 
   /// Objective over its unit, and its gradient where that is not null.
   double objective(const double* z, double* gradient);
-  /// -c (feasible where <= 0), and -J row-major where that is not null.
-  void constraints(const double* z, double* values, double* jacobian);
+  /// -c of `count` constraints from `first` on (feasible where <= 0, of equations where 0), and -J row-major
+  /// where that is not null.
+  void constraints(const double* z, Eigen::Index first, Eigen::Index count, double* values, double* jacobian);
 
-  Eigen::Index size() const { return problem_.size(); }
-  Eigen::Index constraint_count() const { return accepted_.at.c.size(); }
-  Eigen::VectorXd lower() const { return problem_.scaled(problem_.lower()); }
-  Eigen::VectorXd upper() const { return problem_.scaled(problem_.upper()); }
+  Eigen::Index size() const { return walk_.problem().size(); }
+  Eigen::Index constraint_count() const { return walk_.accepted().at.c.size(); }
+  Eigen::Index equality_count() const { return walk_.accepted().at.equalities; }
+  Eigen::VectorXd lower() const { return walk_.problem().scaled(walk_.problem().lower()); }
+  Eigen::VectorXd upper() const { return walk_.problem().scaled(walk_.problem().upper()); }
   /// The accepted point.
-  Eigen::VectorXd position() const { return problem_.scaled(accepted_.x); }
-  double unit() const { return unit_; }
+  Eigen::VectorXd position() const { return walk_.problem().scaled(walk_.accepted().x); }
+  double unit() const { return walk_.unit(); }
 
-  /// From now on nothing is asked of the problem any more.
-  void stop(Stop why) { stop_ = why; }
+  /// Nothing more is asked of the problem: a run of NLopt has to end.
+  bool ended() const { return walled_ || exception_ || stopped(); }
+  /// Observer or budgets ended it all.
+  bool stopped() const { return walk_.stopped() != Walk::Stop::none; }
   /// Ends with an exception, which `rethrow` throws again.
-  void fail(std::exception_ptr exception);
-  Stop stopped() const { return stop_; }
-  /// After a run of NLopt: true if it was ended because of walls. The next one may begin.
-  bool leave_walls()
-  {
-    walls_ = 0;
-    if (stop_ != Stop::walls) return false;
-    stop_ = Stop::none;
-    return true;
-  }
+  void fail(std::exception_ptr exception) { exception_ = std::move(exception); }
   void rethrow() const;
+  /// After a run of NLopt: true if it was ended because of walls. The next one may begin.
+  bool leave_walls();
 
   /// Moves the accepted point onto the linearised constraints a few times, as methods that come from outside
   /// end slightly beyond them.
   void restore();
   /// Asks for derivatives at the best point, where none are known.
-  void differentiate();
-  /// The conditions of first order hold at the best point.
-  bool critical() const;
-  /// No small step from the best point reduces the violation.
-  bool infeasible() const;
+  void differentiate() { walk_.differentiate(); }
   /// Merit of the accepted point: what a further run must lower.
-  double merit() const { return merit(accepted_); }
+  double merit() const { return merit(walk_.accepted()); }
   /// Largest violation of the accepted point.
-  double violation() const { return largest_violation(accepted_.at.c); }
-  bool blocked() const { return blocked_; }
-  OptimizerResult finish(std::string status, std::string message) const;
+  double violation() const { return largest_violation(walk_.accepted().at); }
+  const Walk& walk() const { return walk_; }
 
  private:
-  struct Point {
-    Eigen::VectorXd x;
-    bool ok = false;
-    bool derivatives = false;
-    double value = 0.0;
-    Linearisation at;
-  };
+  const Walk::Place& look(const double* z, bool want_gradient);
+  double merit(const Walk::Place& p) const { return p.value + penalty_ * total_violation(p.at); }
+  /// Raises the penalty above the multipliers of the accepted point.
+  void raise_penalty();
 
-  const Point& look(const double* z, bool want_gradient);
-  void evaluate(Point& p, bool want_gradient);
-  void consider(const Point& p);
-  double merit(const Point& p) const { return p.value + penalty_ * total_violation(p.at.c); }
-  Step descent(const Point& p) const;
-  bool report(const Point& p, double step);
-
-  ScaledProblem problem_;
-  NloptSettings settings_;
-  OptimizerObserver& observer_;
-  Point accepted_, last_, best_point_;
-  BestPoint best_;
-  double first_value_ = 0.0;
-  double unit_ = 1.0;
+  Walk walk_;
+  Walk::Place refused_;   ///< asked for after the end
+  bool gradients_;        ///< the algorithm asks for some
   double worst_ = 0.0;    ///< largest value seen
   double penalty_ = 0.0;  ///< of the l1 merit function
-  int iteration_ = 0;
-  bool blocked_ = false;  ///< the last point that was asked for is not on a safe way
-  Stop stop_ = Stop::none;
-  int walls_ = 0;  ///< questions since the last evaluation
+  int walls_ = 0;         ///< questions since the last evaluation
+  bool walled_ = false;   ///< they were too many
   std::exception_ptr exception_;
 };
 

@@ -4,6 +4,8 @@
 #include <hauberk/optimizer.hpp>
 #include <hauberk/section.hpp>
 
+#include <common/walk.hpp>
+
 #include <memory>
 #include <vector>
 
@@ -14,19 +16,18 @@ enum class NloptAlgorithm { slsqp, mma, ccsaq, lbfgs, cobyla };
 /// Steps and optimality are measured in variables scaled by their ranges.
 struct NloptSettings {
   NloptAlgorithm algorithm = NloptAlgorithm::slsqp;
-  int max_iterations = 1000;  ///< accepted points
-  int max_evaluations = 100000;
-  unsigned memory = 20;                ///< of lbfgs, steps; 0: the library's choice
-  double tolerance = 1e-6;             ///< of decrease and optimality, relative to the objective
-  double constraint_tolerance = 1e-8;  ///< violation that counts as none, in the constraints' unit
-  double initial_step = 0.05;          ///< of cobyla, part of a variable's range
-  double min_step = 1e-7;              ///< changes below this are none, part of a variable's range
+  WalkSettings walk;
+  unsigned memory = 20;        ///< of lbfgs, steps; 0: the library's choice
+  double initial_step = 0.05;  ///< of cobyla, part of a variable's range
+  double min_step = 1e-7;      ///< changes below this are none, part of a variable's range
 };
 
-/// See the README for how NLopt is made to keep the contract. Immutable, thread safe.
+/// See the README for how NLopt is made to keep the contract. Thread safe.
 class NloptOptimizer final : public Optimizer {
  public:
   explicit NloptOptimizer(const NloptSettings& settings) : settings_(settings) {}
+  /// mma and ccsaq keep no equations.
+  OptimizerTraits traits() const override;
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,

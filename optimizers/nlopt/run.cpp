@@ -45,7 +45,7 @@ struct Call {
 
   void stop_if_wanted() const
   {
-    if (adapter->stopped() != NloptAdapter::Stop::none) nlopt_force_stop(opt);
+    if (adapter->ended()) nlopt_force_stop(opt);
   }
 };
 
@@ -63,16 +63,28 @@ double objective(unsigned /*n*/, const double* z, double* gradient, void* data) 
   return value;
 }
 
-void constraints(unsigned /*m*/, double* values, unsigned /*n*/, const double* z, double* jacobian,
-                 void* data) noexcept
+void constraints_from(Eigen::Index first, unsigned count, const Call& call, const double* z, double* values,
+                      double* jacobian) noexcept
 {
-  const Call& call = *static_cast<const Call*>(data);
   try {
-    call.adapter->constraints(z, values, jacobian);
+    call.adapter->constraints(z, first, count, values, jacobian);
   } catch (...) {
     call.adapter->fail(std::current_exception());
   }
   call.stop_if_wanted();
+}
+
+void equations(unsigned m, double* values, unsigned /*n*/, const double* z, double* jacobian,
+               void* data) noexcept
+{
+  constraints_from(0, m, *static_cast<const Call*>(data), z, values, jacobian);
+}
+
+void inequalities(unsigned m, double* values, unsigned /*n*/, const double* z, double* jacobian,
+                  void* data) noexcept
+{
+  const Call& call = *static_cast<const Call*>(data);
+  constraints_from(call.adapter->equality_count(), m, call, z, values, jacobian);
 }
 
 nlopt_algorithm algorithm_of(NloptAlgorithm algorithm, bool constrained)
@@ -94,7 +106,7 @@ nlopt_algorithm algorithm_of(NloptAlgorithm algorithm, bool constrained)
 
 void set_tolerances(const Handle& opt, const NloptSettings& settings)
 {
-  opt.check(nlopt_set_ftol_abs(opt.get(), own_tolerance * settings.tolerance));
+  opt.check(nlopt_set_ftol_abs(opt.get(), own_tolerance * settings.walk.tolerance));
   opt.check(nlopt_set_xtol_abs1(opt.get(), settings.min_step));
   opt.check(nlopt_set_vector_storage(opt.get(), settings.memory));
 }
@@ -113,6 +125,17 @@ bool is_failure(nlopt_result result, int asked)
          (result == NLOPT_FAILURE && asked < 2);
 }
 
+void add_constraints(const Handle& opt, NloptAdapter& adapter, Call& call, double tolerance)
+{
+  const auto equal = static_cast<unsigned>(adapter.equality_count());
+  const auto unequal = static_cast<unsigned>(adapter.constraint_count()) - equal;
+  const std::vector<double> tolerances(equal + unequal, tolerance);
+  if (equal > 0)
+    opt.check(nlopt_add_equality_mconstraint(opt.get(), equal, equations, &call, tolerances.data()));
+  if (unequal > 0)
+    opt.check(nlopt_add_inequality_mconstraint(opt.get(), unequal, inequalities, &call, tolerances.data()));
+}
+
 /// From the accepted point until NLopt ends.
 Ending run_once(NloptAdapter& adapter, const NloptSettings& settings)
 {
@@ -126,10 +149,7 @@ Ending run_once(NloptAdapter& adapter, const NloptSettings& settings)
   opt.check(nlopt_set_upper_bounds(opt.get(), upper.data()));
   opt.check(nlopt_set_min_objective(opt.get(), objective, &call));
   set_tolerances(opt, settings);
-  if (m > 0) {
-    const std::vector<double> tolerances(m, settings.constraint_tolerance);
-    opt.check(nlopt_add_inequality_mconstraint(opt.get(), m, constraints, &call, tolerances.data()));
-  }
+  add_constraints(opt, adapter, call, settings.walk.constraint_tolerance);
   if (settings.algorithm == NloptAlgorithm::lbfgs && m > 0) {
     set_tolerances(inner, settings);
     opt.check(nlopt_set_local_optimizer(opt.get(), inner.get()));
@@ -145,30 +165,26 @@ Ending run_once(NloptAdapter& adapter, const NloptSettings& settings)
   return end;
 }
 
-OptimizerResult stopped(const NloptAdapter& adapter, const NloptSettings& settings)
-{
-  switch (adapter.stopped()) {
-    case NloptAdapter::Stop::observer:
-      return adapter.finish("stopped", "stopped on request");
-    case NloptAdapter::Stop::iterations:
-      return adapter.finish("iteration_limit",
-                            "stopped after " + std::to_string(settings.max_iterations) + " iterations");
-    default:
-      return adapter.finish("iteration_limit",
-                            "stopped after " + std::to_string(settings.max_evaluations) + " evaluations");
-  }
-}
-
 }  // namespace
+
+OptimizerTraits NloptOptimizer::traits() const
+{
+  OptimizerTraits traits;
+  traits.thread_safe = true;
+  traits.equalities =
+      settings_.algorithm != NloptAlgorithm::mma && settings_.algorithm != NloptAlgorithm::ccsaq;
+  return traits;
+}
 
 OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::span<const double> start,
                                             OptimizerObserver& observer) const
 {
   NloptAdapter adapter(problem, settings_, observer, start);
+  const Walk& walk = adapter.walk();
   std::string why;
-  if (!adapter.begin(why)) return adapter.finish("failed", "the start cannot be evaluated: " + why);
+  if (!adapter.begin(why)) return walk.finish("failed", "the start cannot be evaluated: " + why);
   Ending end;
-  for (int run = 0; run < most_runs && adapter.stopped() == NloptAdapter::Stop::none; ++run) {
+  for (int run = 0; run < most_runs && !adapter.stopped(); ++run) {
     const double before = adapter.merit();
     const double violation = adapter.violation();
     if (adapter.size() > 0) end = run_once(adapter, settings_);
@@ -176,20 +192,20 @@ OptimizerResult NloptOptimizer::do_minimize(OptimizationProblem& problem, std::s
     if (adapter.leave_walls()) end.why = "it only asked for points that cannot be reached";
     adapter.restore();
     adapter.differentiate();
-    if (end.failed || adapter.critical() || adapter.infeasible()) break;
-    const bool lower = adapter.merit() < before - settings_.tolerance * adapter.unit();
+    if (end.failed || walk.critical() || walk.infeasible()) break;
+    const bool lower = adapter.merit() < before - settings_.walk.tolerance * adapter.unit();
     if (!lower && !(adapter.violation() < worthwhile_violation * violation)) break;
   }
-  if (adapter.stopped() != NloptAdapter::Stop::none) return stopped(adapter, settings_);
-  if (adapter.critical())
-    return adapter.finish("converged", "the conditions of first order hold; NLopt: " + end.why);
-  if (end.failed) return adapter.finish("failed", "NLopt failed: " + end.why);
-  if (adapter.infeasible())
-    return adapter.finish("infeasible",
-                          "no small step reduces the violation of the constraints; NLopt: " + end.why);
-  return adapter.finish("small_step", (adapter.blocked() ? "the next step would pass through an intersection"
-                                                         : "steps became too small to make progress") +
-                                          ("; NLopt: " + end.why));
+  if (adapter.stopped()) return walk.finish_stopped();
+  if (walk.critical())
+    return walk.finish("converged", "the conditions of first order hold; NLopt: " + end.why);
+  if (end.failed) return walk.finish("failed", "NLopt failed: " + end.why);
+  if (walk.infeasible())
+    return walk.finish("infeasible",
+                       "no small step reduces the violation of the constraints; NLopt: " + end.why);
+  return walk.finish("small_step", (walk.blocked() ? "the next step would pass through an intersection"
+                                                   : "steps became too small to make progress") +
+                                       ("; NLopt: " + end.why));
 }
 
 }  // namespace hauberk

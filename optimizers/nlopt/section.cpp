@@ -33,11 +33,11 @@ std::unique_ptr<Optimizer> make_nlopt(const Node& section, Problems& problems)
   NloptSettings settings;
   const auto name = std::find(names.begin(), names.end(), section.at("algorithm").string);
   settings.algorithm = static_cast<NloptAlgorithm>(name - names.begin());
-  settings.max_iterations = integer(section, "max_iterations");
-  settings.max_evaluations = integer(section, "max_evaluations");
+  settings.walk.max_iterations = integer(section, "max_iterations");
+  settings.walk.max_evaluations = integer(section, "max_evaluations");
   settings.memory = static_cast<unsigned>(integer(section, "memory"));
-  settings.tolerance = section.at("tolerance").number;
-  settings.constraint_tolerance = section.at("constraint_tolerance").number;
+  settings.walk.tolerance = section.at("tolerance").number;
+  settings.walk.constraint_tolerance = section.at("constraint_tolerance").number;
   settings.initial_step = section.at("initial_step").number;
   settings.min_step = section.at("min_step").number;
   if (settings.min_step * 10.0 > settings.initial_step) {

@@ -6,6 +6,7 @@
 #include <pagmo/problem.hpp>
 #include <pagmo/types.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,9 @@ class Candidates {
   std::size_t size() const { return free_.size(); }
   /// The accepted point.
   pagmo::vector_double position() const;
+  /// What `fitness` gives of points that are all reached from the accepted one, evaluated as a batch; the
+  /// best of them, if it is the best so far, is accepted when all are known.
+  std::vector<double> fitness_of(const std::vector<pagmo::vector_double>& points) const;
 
   // What pagmo asks for.
   pagmo::vector_double fitness(const pagmo::vector_double& z) const;
@@ -43,6 +47,12 @@ class Candidates {
   pagmo::thread_safety get_thread_safety() const { return pagmo::thread_safety::none; }
 
  private:
+  Eigen::VectorXd point(const pagmo::vector_double& z) const;
+  /// Its number where that is known without an evaluation.
+  std::optional<double> ruled_out(const Eigen::VectorXd& x) const;
+  /// The number of a place that was looked at.
+  double rank(const Walk::Place& place) const;
+
   Walk* walk_ = nullptr;
   std::vector<Eigen::Index> free_;
   pagmo::vector_double lower_, upper_;

@@ -21,11 +21,18 @@ struct PagmoSettings {
   double min_step = 1e-7;     ///< distance between points of a population that has converged
 };
 
-/// See the README for how populations are made to keep the contract. Immutable, thread safe. The same
-/// settings give the same result.
+/// See the README for how populations are made to keep the contract. Thread safe. The same settings and
+/// stream of the problem give the same result.
 class PagmoOptimizer final : public Optimizer {
  public:
   explicit PagmoOptimizer(const PagmoSettings& settings) : settings_(settings) {}
+  /// A population never meets an equation.
+  OptimizerTraits traits() const override
+  {
+    OptimizerTraits traits;
+    traits.thread_safe = traits.stochastic = true;
+    return traits;
+  }
 
  protected:
   OptimizerResult do_minimize(OptimizationProblem& problem, std::span<const double> start,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace hauberk {
 namespace {
@@ -30,14 +31,16 @@ pagmo::population first_population(const Candidates& candidates, const PagmoSett
   pagmo::population population(pagmo::problem(candidates), 0U, settings.seed);
   const auto [lower, upper] = candidates.get_bounds();
   const pagmo::vector_double center = candidates.position();
-  population.push_back(center);
+  std::vector<pagmo::vector_double> points{center};
   std::mt19937_64 generator(settings.seed);
-  while (population.size() < settings.population) {
+  while (points.size() < settings.population) {
     pagmo::vector_double z = center;
     for (std::size_t k = 0; k < z.size(); ++k)
       z[k] = std::clamp(center[k] + settings.initial_step * draw(generator), lower[k], upper[k]);
-    population.push_back(z);
+    points.push_back(z);
   }
+  const std::vector<double> fitness = candidates.fitness_of(points);
+  for (std::size_t i = 0; i < points.size(); ++i) population.push_back(points[i], {fitness[i]});
   return population;
 }
 
@@ -48,9 +51,9 @@ bool search(Walk& walk, const PagmoSettings& settings)
   if (candidates.size() == 0) return false;
   const pagmo::population first = first_population(candidates, settings);
   const pagmo::population last = cmaes(settings).evolve(first);
-  walk.restore();  // an equation is never met by chance
+  walk.restore();  // two inequalities that are an equation are never met by chance
   walk.differentiate();
-  return last.get_problem().get_fevals() >= (settings.generations + 1ULL) * settings.population;
+  return last.get_problem().get_fevals() >= 1ULL * settings.generations * settings.population;
 }
 
 }  // namespace
@@ -58,13 +61,15 @@ bool search(Walk& walk, const PagmoSettings& settings)
 OptimizerResult PagmoOptimizer::do_minimize(OptimizationProblem& problem, std::span<const double> start,
                                             OptimizerObserver& observer) const
 {
-  Walk walk(problem, settings_.walk, observer, start);
+  PagmoSettings settings = settings_;
+  settings.seed = static_cast<unsigned>(seed_of_stream(settings.seed, problem.stream()));
+  Walk walk(problem, settings.walk, observer, start);
   std::string why;
   if (!walk.begin(false, why)) return walk.finish("failed", "the start cannot be evaluated: " + why);
   if (walk.stopped() != Walk::Stop::none) return walk.finish_stopped();
   bool over = false;
   try {
-    over = search(walk, settings_);
+    over = search(walk, settings);
   } catch (const Candidates::Stopped&) {
   }
   if (walk.stopped() != Walk::Stop::none) return walk.finish_stopped();
@@ -73,7 +78,7 @@ OptimizerResult PagmoOptimizer::do_minimize(OptimizationProblem& problem, std::s
     return walk.finish("infeasible", "no small step reduces the violation of the constraints");
   if (over)
     return walk.finish("iteration_limit",
-                       "stopped after " + std::to_string(settings_.generations) + " generations");
+                       "stopped after " + std::to_string(settings.generations) + " generations");
   return walk.finish("small_step", "the population has become small");
 }
 

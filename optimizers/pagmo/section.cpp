@@ -20,8 +20,7 @@ Field count_from(double least, std::string name, std::string default_json, doubl
 
 void pagmo_fields(std::vector<Field>& out)
 {
-  out.push_back(
-      count_field("seed", "1", 4294967295.0, "Seed of all draws; the same one gives the same run."));
+  out.push_back(seed_field());
   out.push_back(count_from(8.0, "population", "20", 1e5, "Points of a generation."));
   out.push_back(count_from(1.0, "generations", "200", 1e6, "Generations after which to stop."));
   out.push_back(count_field("max_iterations", "100000", 1e6,

@@ -108,6 +108,7 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
   extended.gradient = VectorXd::Zero(n + own);
   extended.c = VectorXd::Zero(m + rows);
   extended.J = MatrixXd::Zero(m + rows, n + own);
+  extended.equalities = at.equalities;
   extended.c.head(m) = at.c;
   extended.J.topLeftCorner(m, n) = at.J;
   B.diagonal().head(n).setConstant(shift * curvature());
@@ -139,7 +140,7 @@ Step Bundle::propose(const Linearisation& at, const VectorXd& lower, const Vecto
   if (!step.ok) return step;
   step.d = whole.d.head(n);
   step.multipliers = whole.multipliers.head(m);
-  step.model_violation = total_violation(at.c + at.J * step.d);
+  step.model_violation = total_violation(at.c + at.J * step.d, at.equalities);
   VectorXd model = (at_.r + at_.J * step.d).cwiseAbs();
   VectorXd weight = VectorXd::Zero(residuals);
   MatrixXd mean = MatrixXd::Zero(residuals, n);  // of |r|'s gradients, weighted by the multipliers

@@ -45,10 +45,10 @@ constexpr double correction_length = 0.5;
 void Minimizer::raise_penalty(const Step& step)
 {
   if (at_.c.size() == 0) return;
-  const double target = penalty_margin * step.multipliers.maxCoeff();
+  const double target = penalty_margin * step.multipliers.cwiseAbs().maxCoeff();
   // It may come down again, slowly: a penalty that stays too large follows the constraints in tiny steps.
   penalty_ = std::max(target, 0.5 * (penalty_ + target));
-  const double removed = total_violation(at_.c) - step.model_violation;
+  const double removed = total_violation(at_) - step.model_violation;
   if (removed > 0.0) penalty_ = std::max(penalty_, -step.decrease / (usable * removed));
 }
 
@@ -145,8 +145,8 @@ bool Minimizer::correct(const Step& step, VectorXd& d, VectorXd& c)
 {
   // Constraints curve away from their linearisation. Their values at the end of the step tell by how much;
   // solving the model again with that difference costs no evaluation of the objective.
-  const double violation = total_violation(c);
-  if (step.elastic || largest_violation(c) <= settings_.constraint_tolerance) return false;
+  const double violation = total_violation(c, at_.equalities);
+  if (step.elastic || largest_violation(c, at_.equalities) <= settings_.constraint_tolerance) return false;
   Linearisation curved = at_;
   curved.c = c - at_.J * d;
   const Step corrected = propose(curved);
@@ -154,7 +154,8 @@ bool Minimizer::correct(const Step& step, VectorXd& d, VectorXd& c)
   if ((corrected.d - d).norm() > correction_length * d.norm()) return false;
   if (problem_.largest_safe_step(x_, corrected.d) < 1.0) return false;
   const VectorXd c_corrected = problem_.constraints(problem_.moved(x_, corrected.d, 1.0));
-  if (!c_corrected.allFinite() || total_violation(c_corrected) > correction_gain * violation) return false;
+  if (!c_corrected.allFinite() || total_violation(c_corrected, at_.equalities) > correction_gain * violation)
+    return false;
   d = corrected.d;
   c = c_corrected;
   return true;

@@ -43,7 +43,7 @@ OptimizerResult Minimizer::run()
     }
     if (!report(step)) return finish("stopped", "stopped on request");
     if (converged(step)) return finish("converged", "no step promises a noticeable decrease");
-    if (locally_infeasible(step, at_.c, settings_.constraint_tolerance)) {
+    if (locally_infeasible(step, at_, settings_.constraint_tolerance)) {
       return finish("infeasible", "no small step reduces the violation of the constraints");
     }
     if (iteration_ >= settings_.max_iterations) {
@@ -103,7 +103,7 @@ double Minimizer::optimality(const Step& step) const
 
 bool Minimizer::converged(const Step& step) const
 {
-  if (largest_violation(at_.c) > settings_.constraint_tolerance) return false;
+  if (largest_violation(at_) > settings_.constraint_tolerance) return false;
   // A gradient g promises g^2/(2 H); with H of the objective's size in scaled variables, the square root
   // makes both conditions ask for the same.
   const double scale = this->scale();
@@ -121,7 +121,7 @@ bool Minimizer::report(const Step& step)
   iterate.iteration = iteration_;
   iterate.value = value_;
   iterate.step = step_length_;
-  iterate.constraint_violation = largest_violation(at_.c);
+  iterate.constraint_violation = largest_violation(at_);
   iterate.optimality = optimality(step);
   iterate.x = {x_.data(), static_cast<std::size_t>(x_.size())};
   return observer_.on_iterate(iterate);
@@ -140,12 +140,12 @@ bool Minimizer::restart()
   if (again) return false;
   if (restarted_) {
     const bool better = value_ < restart_value_ - worthwhile_value * std::abs(restart_value_);
-    const bool more_feasible = total_violation(at_.c) < worthwhile_violation * restart_violation_;
+    const bool more_feasible = total_violation(at_) < worthwhile_violation * restart_violation_;
     if (!better && !more_feasible) return false;
   }
   restarted_ = true;
   restart_value_ = value_;
-  restart_violation_ = total_violation(at_.c);
+  restart_violation_ = total_violation(at_);
   slow_steps_ = 0;
   if (least_squares()) {  // cuts of a residual that is not convex may be in the way
     dropped_ = true;

@@ -44,7 +44,7 @@ class Minimizer {
   /// Of the merit function along the step, to first order.
   double slope(const Step& step) const
   {
-    return -step.descent - penalty_ * (total_violation(at_.c) - step.model_violation);
+    return -step.descent - penalty_ * (total_violation(at_) - step.model_violation);
   }
   bool line_search(const Step& step);
   /// The search for sums of squares: a trial that fails is a cut of the model, which then proposes again.
@@ -52,10 +52,13 @@ class Minimizer {
   /// Second-order correction of a full step that ended at constraint values c; false when it does not help.
   bool correct(const Step& step, Eigen::VectorXd& d, Eigen::VectorXd& c);
   void move_to(const Eigen::VectorXd& x, const Trial& tried, const Eigen::VectorXd& s, const Step& step);
-  void remember() { best_.offer(x_, value_, largest_violation(at_.c)); }
+  void remember() { best_.offer(x_, value_, largest_violation(at_)); }
   /// No evaluation is left.
   bool spent() const { return problem_.evaluations() >= settings_.max_evaluations; }
-  double merit(double value, const Eigen::VectorXd& c) const { return value + penalty_ * total_violation(c); }
+  double merit(double value, const Eigen::VectorXd& c) const
+  {
+    return value + penalty_ * total_violation(c, at_.equalities);
+  }
   double scale() const { return objective_scale(first_value_, value_); }
   void reset_hessian(double radius);
   OptimizerResult finish(std::string status, std::string message) const;

@@ -111,5 +111,46 @@ TEST(Walk, RestoresOntoTheConstraintsByNewtonsMethod)
   EXPECT_TRUE(b.walk.critical());
 }
 
+TEST(Walk, LooksAtSeveralPlacesAndAcceptsOne)
+{
+  int asked = 0;
+  FunctionProblem problem = bowl(asked);
+  WalkSettings settings;
+  settings.max_evaluations = 4;
+  Begun b(problem, {1.0, 0.0}, settings);
+  const std::vector<Walk::Place> places =
+      b.walk.look({Vector2d(0.75, 0.0), Vector2d(1.0, 0.0), Vector2d(-1.0, 0.0), Vector2d(0.5, 0.0),
+                   Vector2d(0.9, 0.0), Vector2d(0.8, 0.0)},
+                  true);
+  EXPECT_TRUE(places[0].ok && places[1].ok && places[3].ok && places[4].ok);
+  EXPECT_FALSE(places[2].ok);  // 2 away: not safe
+  EXPECT_FALSE(places[5].ok);  // beyond the budget
+  EXPECT_EQ(b.walk.stopped(), Walk::Stop::evaluations);
+  EXPECT_EQ(problem.evaluated.size(), 4U);
+  EXPECT_EQ(places[3].at.gradient, Vector2d(4.0, 4.0));
+  b.walk.accept(places[3]);
+  EXPECT_EQ(b.walk.accepted().x, Vector2d(0.5, 0.0));
+  EXPECT_EQ(b.walk.best().value(), 0.25);
+  EXPECT_EQ(problem.breach, "");
+}
+
+TEST(Walk, RestoresVariablesWithoutBounds)
+{
+  KnownProblem k = known_problem("hs6");
+  Begun b(k.problem, {1.0, 1.001});
+  b.walk.restore();
+  EXPECT_TRUE(b.walk.best().feasible());
+}
+
+TEST(Walk, EquationsAreViolatedOnBothSides)
+{
+  FunctionProblem problem = hs71_equation();
+  Begun b(problem, {1, 5, 5, 1});  // c = (12, 0)
+  EXPECT_EQ(b.recorder.iterates.back().constraint_violation, 12.0);
+  EXPECT_FALSE(b.walk.best().feasible());
+  b.walk.restore();
+  EXPECT_NEAR(b.walk.accepted().x.squaredNorm(), 40.0, 1e-7);
+}
+
 }  // namespace
 }  // namespace hauberk

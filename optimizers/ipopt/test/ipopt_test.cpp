@@ -27,11 +27,12 @@ FunctionProblem bowl()
 
 /// A walk that has begun, and what Ipopt sees of it.
 struct Begun {
-  Begun(OptimizationProblem& problem, const std::vector<double>& start) : walk(problem, {}, recorder, start)
+  Begun(OptimizationProblem& problem, const std::vector<double>& start, bool exact = false)
+      : walk(problem, {}, recorder, start)
   {
     std::string why;
     EXPECT_TRUE(walk.begin(true, why)) << why;
-    nlp = new IpoptNlp(walk, walk.problem().scaled(walk.accepted().x), {});
+    nlp = new IpoptNlp(walk, walk.problem().scaled(walk.accepted().x), IpoptSettings{}, exact);
   }
   Recorder recorder;
   Walk walk;
@@ -92,6 +93,43 @@ TEST(IpoptNlp, WhatIsNotSafeCannotBeEvaluatedAndIsAskedForOnceOnARay)
   EXPECT_TRUE(b.nlp->eval_f(2, near.data(), true, value));
   EXPECT_EQ(asked, 2);  // the direction that it is evaluated on
   EXPECT_EQ(problem.breach, "");
+}
+
+TEST(IpoptNlp, TheHessianIsThatOfTheScaledLagrangian)
+{
+  FunctionProblem problem = hs71_equation();
+  problem.hessian_offered = true;
+  Begun b(problem, {1, 5, 5, 1}, true);  // ranges of 4, unit 16
+  const Eigen::Vector4d x(1, 5, 5, 1), z = x / 4.0;
+  const Eigen::Vector2d lambda(0.5, -0.25);
+  Eigen::Matrix<double, 10, 1> lower;
+  ASSERT_TRUE(
+      b.nlp->eval_h(4, z.data(), false, 2.0, 2, lambda.data(), false, 10, nullptr, nullptr, lower.data()));
+  // Ipopt's 2 f/16 + lambda . c.
+  const Eigen::MatrixXd H = 16.0 * problem.hessian_function(x, 2.0 / 16.0, -lambda);
+  Eigen::Index entry = 0;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    for (Eigen::Index k = 0; k <= i; ++k) EXPECT_NEAR(lower[entry++], H(i, k), 1e-12) << i << k;
+  EXPECT_EQ(problem.breach, "");
+}
+
+TEST(Ipopt, UsesTheHessianAndGoesOnWhereItIsNotKnown)
+{
+  for (const int known : {1000000, 3}) {
+    FunctionProblem problem = rosenbrock(-2.0, 2.0);
+    problem.hessian_offered = true;
+    const auto exact = problem.hessian_function;
+    problem.hessian_function = [&problem, exact, known](const VectorXd& x, double weight, const VectorXd& l) {
+      return problem.products > 2 * known ? Eigen::MatrixXd(Eigen::MatrixXd::Constant(2, 2, std::nan("")))
+                                          : exact(x, weight, l);
+    };
+    Recorder recorder;
+    const OptimizerResult r = IpoptOptimizer({}).minimize(problem, std::vector<double>{-1.2, 1.0}, recorder);
+    EXPECT_EQ(r.status, "converged") << r.message;
+    EXPECT_NEAR(r.value, 0.0, 1e-8);
+    EXPECT_GT(problem.products, 4);
+    EXPECT_EQ(problem.breach, "");
+  }
 }
 
 TEST(IpoptNlp, AStopIsThrown)

@@ -55,7 +55,7 @@ TEST(NloptAdapter, EvaluatesAPointOnce)
   const Eigen::Vector4d z = Eigen::Vector4d(1, 4, 4, 1) / 4.0;
   Eigen::Vector4d gradient;
   Eigen::Vector3d c;
-  b.adapter.constraints(z.data(), c.data(), nullptr);
+  b.adapter.constraints(z.data(), 0, 3, c.data(), nullptr);
   const double value = b.adapter.objective(z.data(), gradient.data());
   EXPECT_EQ(b.adapter.objective(z.data(), nullptr), value);
   EXPECT_EQ(c, Eigen::Vector3d(9.0, 6.0, -6.0));  // -c: the sign of NLopt
@@ -72,7 +72,7 @@ TEST(NloptAdapter, AnUnsafePointIsAWallThatIsNotEvaluated)
   EXPECT_EQ(b.adapter.objective(z.data(), gradient.data()), 2.0);  // the worst that was seen, and one unit
   EXPECT_EQ(gradient, Eigen::Vector2d(-4.0, 0.0));                 // rises away from the accepted point
   EXPECT_EQ(problem.evaluated.size(), 1U);
-  EXPECT_TRUE(b.adapter.blocked());
+  EXPECT_TRUE(b.adapter.walk().blocked());
   EXPECT_EQ(problem.accepted.size(), 1U);
 }
 
@@ -85,11 +85,11 @@ TEST(NloptAdapter, AFailedEvaluationIsAWallWithLinearisedConstraints)
   const Eigen::Vector4d z = Eigen::Vector4d(2, 5, 5, 1) / 4.0;
   Eigen::Vector3d c;
   EXPECT_EQ(b.adapter.objective(z.data(), nullptr), 2.0);
-  b.adapter.constraints(z.data(), c.data(), nullptr);
+  b.adapter.constraints(z.data(), 0, 3, c.data(), nullptr);
   // c = (0, 12, -12) and its slopes (25, 2, -2) at the start, times 1, with NLopt's sign.
   EXPECT_NEAR((c - Eigen::Vector3d(-25.0, -14.0, 14.0)).norm(), 0.0, 1e-12);
   EXPECT_EQ(b.adapter.merit(), start);
-  EXPECT_FALSE(b.adapter.blocked());
+  EXPECT_FALSE(b.adapter.walk().blocked());
 }
 
 TEST(NloptAdapter, AcceptsWhatIsBetterOnly)
@@ -109,10 +109,12 @@ TEST(NloptAdapter, NothingIsAskedAfterAStop)
 {
   FunctionProblem problem = bowl();
   Begun b(problem, {1.0, 0.0});
-  b.adapter.stop(NloptAdapter::Stop::observer);
-  const Eigen::Vector2d z(0.0, 0.0);
-  b.adapter.objective(z.data(), nullptr);
-  EXPECT_EQ(problem.evaluated.size(), 1U);
+  b.recorder.limit = 2;
+  const Eigen::Vector2d better(0.0, 0.0), best(0.0, -0.25);
+  b.adapter.objective(better.data(), nullptr);
+  EXPECT_TRUE(b.adapter.stopped());
+  b.adapter.objective(best.data(), nullptr);
+  EXPECT_EQ(problem.evaluated.size(), 2U);
 }
 
 TEST(NloptAdapter, NotANumberIsAWall)

@@ -84,6 +84,26 @@ TEST(Subproblem, ConsistentConstraintsAreNotRelaxed)
   EXPECT_NEAR(step.multipliers[0], 3.75, 1e-13);
 }
 
+TEST(Subproblem, EquationsHaveMultipliersOfEitherSignAndAreRelaxedOnTheirSide)
+{
+  const VectorXd one = VectorXd::Ones(1);
+  for (const double side : {-1.0, 1.0}) {
+    // side (d - c) = 0 with g = 3: d = c, and 3 + d = side multiplier.
+    Linearisation at{VectorXd::Constant(1, 3.0), VectorXd::Constant(1, side * -0.75),
+                     MatrixXd::Constant(1, 1, side), 1};
+    const Step met = propose_step(MatrixXd::Identity(1, 1), at, -one, one, 0.0);
+    ASSERT_TRUE(met.ok);
+    EXPECT_NEAR(met.d[0], 0.75, 1e-14);
+    EXPECT_NEAR(met.multipliers[0], side * 3.75, 1e-13);
+    at.c *= 2.0;  // d = 1.5 is out of reach
+    const Step nearest = propose_step(MatrixXd::Identity(1, 1), at, -one, one, 0.0);
+    ASSERT_TRUE(nearest.ok);
+    EXPECT_TRUE(nearest.elastic);
+    EXPECT_NEAR(nearest.d[0], 1.0, 1e-9);
+    EXPECT_NEAR(nearest.model_violation, 0.5, 1e-9);
+  }
+}
+
 Node section(double initial_step, double max_step, double min_step)
 {
   std::vector<Field> fields;

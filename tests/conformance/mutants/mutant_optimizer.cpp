@@ -44,7 +44,8 @@ class Misused final : public OptimizationProblem {
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override
   {
     shared_scratch = x[0];
-    if (is("shares_scratch")) std::this_thread::yield();
+    // Threads meet here, however busy the machine is.
+    if (is("shares_scratch") || is("remembers_the_last")) std::this_thread::yield();
     const double scratch = shared_scratch;
     if (is("miscounts_batches")) return in_a_batch(x, want_gradient, 2);
     if (is("residuals_of_a_batch") && problem_.residual_count() > 0) return with_residuals(x, want_gradient);

@@ -49,4 +49,4 @@ Field seed_field()
   return count_field("seed", "1", 4294967295.0, "Seed of all draws; the same one gives the same run.");
 }
 
-  // namespace hauberk
+}  // namespace hauberk

@@ -99,7 +99,7 @@ GapTerms gap_terms(const NearestFeatures& at, const Vec3& rho, int order)
   return out;
 }
 
-/// How nearest points move with the sizes and places of both bodies; that edges turn with them, which the
+/// How nearest points move with the sizes and places of both bodies; that edges turn with sizes, which the
 /// mollifier sees, is left out.
 void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1, SideTerms& out)
 {

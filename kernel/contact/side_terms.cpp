@@ -116,14 +116,6 @@ void SideTerms::add_solid_probe(const Body& P, const ProbePoint& q, double w1, c
   for (std::size_t k = 0; k < d.size(); ++k) curve_P[k] += w1 * d[k];
 }
 
-std::vector<double> SideTerms::geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,
-                                        const std::vector<double>& curve)
-{
-  std::vector<double> out{position[0], position[1], position[2], d[3], d[4], d[5]};
-  out.insert(out.end(), curve.begin(), curve.end());
-  return out;
-}
-
 template void SideTerms::add_parameters<1>(const PairFrame&, const FieldValue&, const ProbePoint&, double);
 template void SideTerms::add_parameters<2>(const PairFrame&, const FieldValue&, const ProbePoint&, double);
 
@@ -162,6 +154,38 @@ PairTerms to_world(const SideTerms& side, const Mat3& M, const Vec3& xi, int ord
   t.hessian.block<3, 3>(6, 3) += S;
   t.hessian.block<3, 3>(3, 6) += S.transpose();
   return t;
+}
+
+namespace {
+
+std::size_t further_quantities(const Body& body)
+{
+  if (body.solid) return body.solid->sizes().size();
+  return body.curve ? harmonic_dofs * body.curve->size() : 0;
+}
+
+/// Of one body; d, further: of the side; turn: of its element, in the world.
+std::vector<double> geometry_of(const Body& body, const Pose& pose, const Mat3& M,
+                                const std::array<double, primitive_dofs>& d,
+                                const std::vector<double>& further, const Vec3& turn)
+{
+  const Vec3 force = pose.rotation.transpose() * (M * Vec3(d[0], d[1], d[2]));
+  const Vec3 own_turn = pose.rotation.transpose() * turn - body.center.cross(force);
+  std::vector<double> out{force[0], force[1], force[2], d[3], d[4], d[5]};
+  out.insert(out.end(), further.begin(), further.end());
+  out.resize(primitive_dofs + further_quantities(body), 0.0);
+  out.insert(out.end(), own_turn.begin(), own_turn.end());
+  return out;
+}
+
+}  // namespace
+
+GeometryTerms geometry_terms(const SideTerms& side, const Mat3& M, const Body& P, const Pose& pose_p,
+                             const Body& F, const Pose& pose_f)
+{
+  const PairTerms world = to_world(side, M, pose_p.position - pose_f.position, 1);
+  return {geometry_of(P, pose_p, M, side.dP, side.curve_P, world.gradient.segment<3>(3)),
+          geometry_of(F, pose_f, M, side.dF, side.curve_F, world.gradient.segment<3>(6))};
 }
 
 }  // namespace hauberk

@@ -16,7 +16,7 @@ using Mat9 = Eigen::Matrix<double, 9, 9>;
 /// What an evaluation is asked for. Less is faster.
 struct Request {
   int order = 0;            ///< 0: energy, 1: and gradient, 2: and Hessian
-  bool parameters = false;  ///< also d energy / d (geometry of both bodies, clearance)
+  bool parameters = false;  ///< also d energy / d (geometry of both bodies, clearance); needs the gradient
   bool points = false;      ///< also list contact points and forces
 };
 
@@ -57,18 +57,12 @@ struct SideTerms {
   template <int dim>
   void add_parameters(const PairFrame& frame, const FieldValue& f, const ProbePoint& q, double w1);
 
-  /// d energy / d(all geometric quantities of P or F), positions as given in the frame of its element.
-  std::vector<double> geometry_of_P(const Vec3& position) const { return geometry(position, dP, curve_P); }
-  std::vector<double> geometry_of_F(const Vec3& position) const { return geometry(position, dF, curve_F); }
-
  private:
   void add_field_size(const FieldValue& f, double w1);
   /// At the point p of F's frame.
   void add_solid_field(const Body& F, const Vec3& p, double w1);
   /// n: the field's gradient in P's frame.
   void add_solid_probe(const Body& P, const ProbePoint& q, double w1, const Vec3& n);
-  static std::vector<double> geometry(const Vec3& position, const std::array<double, primitive_dofs>& d,
-                                      const std::vector<double>& curve);
 };
 
 /// Terms in the world frame for (eta, w_P, w_F), eta = shift of P's element minus shift of F's.
@@ -82,5 +76,25 @@ struct PairTerms {
 ///   eta' = exp(-w_F)(xi + eta) - xi,   w_P' = log(exp(-w_F) exp(w_P)) = w_P - w_F - 1/2 w_F x w_P + ...,
 /// with xi the vector from F's element origin to P's, and turns vectors from F's frame to the world.
 PairTerms to_world(const SideTerms& side, const Mat3& M, const Vec3& xi, int order);
+
+/// d energy / d(all geometric quantities of a body, its turn) of P and F, positions and turns in the frames
+/// of their elements; what Model::geometry_derivative takes to parameters.
+///
+/// A turn of a body about its centre c is one of its element about its origin, and a shift that takes the
+/// centre back. So with the force f that the energy's derivative in the place of the body is, and the
+/// derivative t in the turn of its element, the derivative in its own turn is
+///
+///     tau = t - c x f,
+///
+/// the sum of (p - c) x f over the points p of contact. Energies depend on the relative pose of bodies alone,
+/// so nothing else has to be known of them: also where a force is none at a point, as that of a mollified
+/// pair of edges.
+struct GeometryTerms {
+  std::vector<double> P, F;
+};
+
+/// `side` needs its gradient; M: axes of F in the world.
+GeometryTerms geometry_terms(const SideTerms& side, const Mat3& M, const Body& P, const Pose& pose_p,
+                             const Body& F, const Pose& pose_f);
 
 }  // namespace hauberk

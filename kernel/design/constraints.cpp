@@ -59,7 +59,7 @@ void DesignConstraints::add_hole_derivatives(const Model& model, const Hole& hol
     for (std::size_t v = 0; v < row.size(); ++v) {
       for (const auto& [el, parameter] : scene_->design.variables[v].entries) {
         if (el != element) continue;
-        row[v] += factor * model.size_derivative(static_cast<std::size_t>(body), quantity, parameter);
+        row[v] += factor * model.geometry_derivative(static_cast<std::size_t>(body), quantity, parameter);
       }
     }
   };

@@ -287,19 +287,17 @@ class Assembler {
     }
   }
 
-  /// Chain rule to element parameters; positions of bodies are in the element frame.
+  /// Chain rule to element parameters.
   void add_parameters(int p, int f, const Mat3& M, const Pose& pp, const Pose& pf, const SideTerms& t)
   {
     out_.d_clearance += t.d_clearance;
-    const auto in_element = [&](const Pose& pose, const std::array<double, primitive_dofs>& d) -> Vec3 {
-      return pose.rotation.transpose() * (M * Vec3(d[0], d[1], d[2]));
-    };
-    const auto add = [&](int body, const std::vector<double>& geometry) {
-      const Vector gradient = parameter_gradient(m_, body, geometry);
+    const auto add = [&](int body, const std::vector<double>& by_geometry) {
+      const Vector gradient = parameter_gradient(m_, body, by_geometry);
       out_.parameters.col(m_.bodies[body].element).head(gradient.size()) += gradient;
     };
-    add(p, t.geometry_of_P(in_element(pp, t.dP)));
-    add(f, t.geometry_of_F(in_element(pf, t.dF)));
+    const GeometryTerms geometry = geometry_terms(t, M, m_.bodies[p], pp, m_.bodies[f], pf);
+    add(p, geometry.P);
+    add(f, geometry.F);
   }
 
   const Model& m_;

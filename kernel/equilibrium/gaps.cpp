@@ -33,12 +33,6 @@ Gap gap_between(const Side& side, double gap)
   return g;
 }
 
-/// The derivative in a body's position, from F's frame to that of the body's element.
-Vec3 in_element(const PairFrame& frame, const Pose& pose, const std::array<double, primitive_dofs>& d)
-{
-  return pose.rotation.transpose() * (frame.M * Vec3(d[0], d[1], d[2]));
-}
-
 /// Derivatives of a gap out of those of its side (terms of weight 1).
 void set_derivatives(const Side& side, const PairFrame& frame, const SideTerms& t, Gap& g)
 {
@@ -54,8 +48,10 @@ void set_derivatives(const Side& side, const PairFrame& frame, const SideTerms& 
   g.dy.segment(m.offset(side.pair.j), nc) -= side.mj.J.middleCols(nm, nc).transpose() * eta;
   g.dy.segment<3>(m.offset(side.pair.i) + nc) += wi;
   g.dy.segment<3>(m.offset(side.pair.j) + nc) += wj;
-  const Vector dp = parameter_gradient(m, side.p, t.geometry_of_P(in_element(frame, side.pp, t.dP)));
-  const Vector df = parameter_gradient(m, side.f, t.geometry_of_F(in_element(frame, side.pf, t.dF)));
+  const GeometryTerms geometry =
+      geometry_terms(t, frame.M, m.bodies[side.p], side.pp, m.bodies[side.f], side.pf);
+  const Vector dp = parameter_gradient(m, side.p, geometry.P);
+  const Vector df = parameter_gradient(m, side.f, geometry.F);
   g.da = side.swapped ? df : dp;
   g.db = side.swapped ? dp : df;
 }

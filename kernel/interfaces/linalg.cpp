@@ -19,6 +19,37 @@ Mat3 rotation_exp(const Vec3& w)
   return Mat3::Identity() + sinc(angle) * W + (0.5 * half * half) * (W * W);
 }
 
+Mat3 rotation_exp_jacobian(const Vec3& w)
+{
+  // (a - sin a)/a^3 cancels: below 1/2 its series 1/3! - a^2/5! + a^4/7! - ... is exact to rounding.
+  constexpr double small = 0.5;
+  constexpr int terms = 8;
+  const double angle = w.norm();
+  const double half = sinc(0.5 * angle);
+  double third = 0.0;
+  if (angle < small) {
+    double term = 1.0 / 6.0;
+    for (int k = 1; k <= terms; ++k) {
+      third += term;
+      term *= -angle * angle / ((2.0 * k + 2.0) * (2.0 * k + 3.0));
+    }
+  } else {
+    third = (angle - std::sin(angle)) / (angle * angle * angle);
+  }
+  const Mat3 W = skew(w);
+  return Mat3::Identity() + (0.5 * half * half) * W + third * (W * W);
+}
+
+Vec3 rotation_log(const Mat3& Q)
+{
+  // Of the unit quaternion (cos a/2, n sin a/2): Eigen divides by its largest component, so that neither
+  // small turns nor those near half a turn lose digits.
+  const Eigen::Quaterniond q(Q);
+  const double sine = q.vec().norm(), cosine = q.w();
+  if (sine == 0.0) return Vec3::Zero();
+  return (2.0 * std::atan2(std::copysign(sine, cosine), std::abs(cosine)) / sine) * q.vec();
+}
+
 Mat3 rotation_from_z(const Vec3& axis)
 {
   // Rodrigues about e_z x axis = (-y, x, 0), with (1 - cos)/sin^2 = 1/(1 + z). Where z < 0 the equal form

@@ -122,14 +122,17 @@ std::vector<PrimitiveJacobian> Shape::jacobians(std::span<const double> p) const
         fmt::format("shape: {} Jacobians returned for {} primitives", out.size(), shapes.size()));
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::size_t expected = static_cast<std::size_t>(geometric_dofs(shapes[i])) * p.size();
+    const std::size_t without = static_cast<std::size_t>(geometric_dofs(shapes[i])) * p.size();
+    const std::size_t with = without + rotation_dofs * p.size();
     const std::string which = fmt::format("shape: Jacobian of primitive {}", i);
-    if (out[i].size() != expected) {
-      throw PluginError(fmt::format("{} has {} entries, expected {}", which, out[i].size(), expected));
+    if (out[i].size() != without && out[i].size() != with) {
+      throw PluginError(fmt::format("{} has {} entries, expected {}, or {} with those of its rotation", which,
+                                    out[i].size(), without, with));
     }
     for (const double v : out[i]) {
       if (!std::isfinite(v)) throw PluginError(which + " is not finite");
     }
+    out[i].resize(with, 0.0);
   }
   return out;
 }

@@ -310,7 +310,8 @@ Vector parameter_gradient(const Model& m, int body, const std::vector<double>& g
   const std::size_t k = body;
   Vector out = Vector::Zero(m.parameter_count[m.bodies[k].element]);
   for (std::size_t r = 0; r < geometry.size(); ++r) {
-    for (int c = 0; c < out.size(); ++c) out[c] += geometry[r] * m.size_derivative(k, static_cast<int>(r), c);
+    for (int c = 0; c < out.size(); ++c)
+      out[c] += geometry[r] * m.geometry_derivative(k, static_cast<int>(r), c);
   }
   return out;
 }

@@ -43,8 +43,8 @@ struct Model {
   std::vector<int> first_loop;             ///< per element, and one past the end, where there are spines
   std::vector<Link> links;                 ///< at rest
   std::vector<std::array<int, 2>> linked;  ///< elements of a patch with links between them, ascending
-  /// Per body: d(position, R, r0, r1, harmonics)/d(element parameters), row-major, file units (dimensionless
-  /// ratios).
+  /// Per body: d(position, R, r0, r1, harmonics, rotation)/d(element parameters), row-major, file units; see
+  /// PrimitiveJacobian.
   std::vector<PrimitiveJacobian> jacobians;
   std::vector<int> parameter_count;  ///< per element
 
@@ -53,13 +53,15 @@ struct Model {
   /// G of the squared size macro . G macro that the published objective takes; empty: the identity.
   Matrix macro_square;
 
-  /// d (scaled position, R, r0, r1, harmonics of a body; quantity 0, 1, ...) / d parameter of its element
-  /// (file units).
-  double size_derivative(std::size_t body, int quantity, int parameter) const
+  /// d (scaled position, R, r0, r1, harmonics of a body, and its turn; quantity 0, 1, ...) / d parameter of
+  /// its element (file units).
+  double geometry_derivative(std::size_t body, int quantity, int parameter) const
   {
-    const int n = parameter_count[bodies[body].element];
-    const int entry = quantity * n + parameter;
-    return jacobians[body][entry] / length;
+    const std::size_t n = parameter_count[bodies[body].element];
+    const std::size_t entry = quantity * n + parameter;
+    const PrimitiveJacobian& J = jacobians[body];
+    const bool turn = entry + rotation_dofs * n >= J.size();  // an angle, which no length scales
+    return turn ? J[entry] : J[entry] / length;
   }
   int element_count() const { return static_cast<int>(rest.size()); }
   int element_dofs() const { return coordinate_count + 3; }
@@ -79,8 +81,8 @@ struct Model {
 /// The indices of an image for people: two, or three where the third is not 0.
 std::vector<int> shown(const Image& image);
 
-/// Derivatives in the parameters of a body's element from those in its scaled geometric quantities, in the
-/// order of `size_derivative`.
+/// Derivatives in the parameters of a body's element from those in its scaled geometric quantities and its
+/// turn, in the order of `geometry_derivative`.
 Vector parameter_gradient(const Model& m, int body, const std::vector<double>& geometry);
 
 /// Unknowns: macro, element coordinates, rotations.

@@ -29,6 +29,19 @@ inline Mat3 skew(const Vec3& a)
 /// Rotation matrix exp(skew(w)) (Rodrigues), accurate for small |w|. Thread safe.
 Mat3 rotation_exp(const Vec3& w);
 
+/// How the rotation turns as w changes, the left Jacobian of SO(3):
+///
+///     d exp(skew(w)) = skew(J dw) exp(skew(w)),
+///     J = I + (1 - cos a)/a^2 W + (a - sin a)/a^3 W^2,   W = skew(w), a = |w|
+///
+/// (Chirikjian, Stochastic Models, Information Theory, and Lie Groups 2, 2011, page 40; Sola, Deray and
+/// Atchuthan 2018, equation (145)). Regular for a < 2 pi. Accurate for small |w|. Thread safe.
+Mat3 rotation_exp_jacobian(const Vec3& w);
+
+/// The shortest w with rotation_exp(w) = Q, |w| <= pi; of half a turn, one of the two. Accurate for small
+/// turns and for those near half a turn. Thread safe.
+Vec3 rotation_log(const Mat3& Q);
+
 /// Shortest rotation that takes e_z to the unit vector `axis`; for axis = -e_z, half a turn about e_x.
 Mat3 rotation_from_z(const Vec3& axis);
 

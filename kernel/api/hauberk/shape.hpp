@@ -91,12 +91,23 @@ enum SizeQuantity : int { quantity_R = 3, quantity_r0 = 4, quantity_r1 = 5 };
 /// Number of those of a harmonic of its curve: c (3), then s (3).
 inline constexpr int harmonic_dofs = 6;
 
-/// All geometric quantities of a primitive; harmonics, or the sizes of a solid, last.
+/// Number of those of its rotation, where it depends on parameters; see PrimitiveJacobian.
+inline constexpr int rotation_dofs = 3;
+
+/// All geometric quantities of a primitive but its rotation; harmonics, or the sizes of a solid, last.
 int geometric_dofs(const Primitive& primitive);
 
 /// d(position, size, curve or sizes of a solid)/d(parameters), row-major geometric_dofs x parameter count.
-/// Rotations of primitives do not depend on parameters. The row of R of a curve tube is not used, nor are
-/// those of r0 and r1 of a triangle mesh, nor the three of a solid's `size`.
+/// The row of R of a curve tube is not used, nor are those of r0 and r1 of a triangle mesh, nor the three of
+/// a solid's `size`.
+///
+/// Three more rows at the end say how the rotation Q turns; without them it is constant. They are the
+/// components of the vector omega in the element frame with
+///
+///     dQ/dp = skew(omega) Q,
+///
+/// in radians per unit of the parameter: `degree` times as much per degree. (For Q = exp(skew(w)) Q0 and
+/// components of w as parameters they are the columns of rotation_exp_jacobian(w).)
 using PrimitiveJacobian = std::vector<double>;
 
 /// A parametric element: a union of primitives. Immutable after construction, so all calls are thread safe.
@@ -115,12 +126,14 @@ class Shape {
   /// parameter when p is inadmissible (for instance r0 >= R).
   std::vector<Primitive> primitives(std::span<const double> p) const;
 
-  /// Jacobian of each primitive's (position, size, curve) with respect to p.
+  /// Jacobian of each primitive's (position, size, curve, rotation) with respect to p: all of them have the
+  /// rows of the rotation, which are nought where the implementation gives none.
   std::vector<PrimitiveJacobian> jacobians(std::span<const double> p) const;
 
  protected:
   virtual const std::vector<ParameterInfo>& do_parameters() const = 0;
   virtual void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const = 0;
+  /// Without the last three rows of a Jacobian, the primitive's rotation does not depend on p.
   virtual void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const = 0;
 };
 

@@ -124,7 +124,7 @@ TEST(ClosedTube, JacobiansAreConstantAndThoseOfTheCurve)
       const Primitive from = shape->primitives(p)[0], to = shape->primitives(q)[0];
       for (std::size_t i = 1; i < 3; ++i)
         EXPECT_NEAR(jacobian[(3 + i) * n + k], (to.size[i] - from.size[i]) / 0.0625, 1e-13);
-      for (std::size_t row = 6; row < jacobian.size() / n; ++row) {
+      for (std::size_t row = 6; row < 6 + 6 * from.curve.size(); ++row) {
         const auto value = [&](const Primitive& tube) {
           const Harmonic& h = tube.curve[(row - 6) / 6];
           return ((row - 6) % 6 < 3 ? h.c : h.s)[static_cast<Eigen::Index>((row - 6) % 3)];

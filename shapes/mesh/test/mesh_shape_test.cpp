@@ -288,7 +288,7 @@ TEST(Mesh, ThePrimitiveIsTheFilesSurfaceTimesItsScale)
     EXPECT_LT((mesh.position + mesh.R() * mesh.surface->points()[k] - 2.5 * given[k]).norm(), 1e-12);
   EXPECT_EQ(mesh.position, Vec3(25.0, -50.0, 75.0));
   const PrimitiveJacobian J = shape.jacobians(p)[0];
-  ASSERT_EQ(J.size(), 6U);
+  ASSERT_EQ(J.size(), 9U);
   EXPECT_NEAR(J[3], mesh.R() / 2.5, 1e-14);
   EXPECT_NEAR(J[1], -20.0, 1e-13);
   EXPECT_THROW(shape.primitives(std::vector<double>{0.0}), InputError);

@@ -53,6 +53,14 @@ TEST(ShapeChecks, SoundAnswersPass)
   EXPECT_EQ(shape.jacobians(five).size(), 1U);
 }
 
+TEST(ShapeChecks, RowsOfTheRotationAreThereWhetherAnswered)
+{
+  AnyShape shape;
+  EXPECT_EQ(shape.jacobians(five)[0], PrimitiveJacobian(9, 0.0));
+  shape.jacobian[0] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_EQ(shape.jacobians(five)[0], shape.jacobian[0]);
+}
+
 TEST(ShapeChecks, Parameters)
 {
   const AnyShape shape;
@@ -95,7 +103,7 @@ TEST(ShapeChecks, Jacobians)
   AnyShape shape;
   shape.jacobian[0].push_back(0.0);
   EXPECT_EQ(message<PluginError>([&] { shape.jacobians(five); }),
-            "shape: Jacobian of primitive 0 has 7 entries, expected 6");
+            "shape: Jacobian of primitive 0 has 7 entries, expected 6, or 9 with those of its rotation");
   shape.jacobian[0].assign(6, std::nan(""));
   EXPECT_EQ(message<PluginError>([&] { shape.jacobians(five); }),
             "shape: Jacobian of primitive 0 is not finite");

@@ -1,9 +1,13 @@
+#include "differences.hpp"
+
 #include <hauberk/linalg.hpp>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace hauberk {
@@ -48,6 +52,47 @@ TEST(Linalg, RotationExpKeepsDigitsOfSmallAngles)
   EXPECT_DOUBLE_EQ(Q(2, 1), w.x());
   EXPECT_DOUBLE_EQ(Q(0, 2), w.y());
   EXPECT_DOUBLE_EQ(Q(1, 0), w.z());
+}
+
+TEST(Linalg, RotationExpJacobianIsItsDerivative)
+{
+  std::mt19937 random(4);
+  for (const double angle : {0.0, 1e-9, 1e-3, 0.49, 0.51, 2.0, 3.1, 6.0}) {
+    const Vec3 w = angle * random_vector(random).normalized(), dw = random_vector(random);
+    const Mat3 claimed = skew(rotation_exp_jacobian(w) * dw) * rotation_exp(w);
+    std::array<double, 3> error{};
+    for (int j = 0; j < 3; ++j) {
+      const double h = 0.02 / (1 << j);
+      error[j] = ((rotation_exp(w + h * dw) - rotation_exp(w - h * dw)) / (2.0 * h) - claimed).norm();
+    }
+    test::expect_second_order(error, 1.0, 1e-12);
+  }
+  // Its series and its closed form meet.
+  const Vec3 axis = random_vector(random).normalized();
+  const Mat3 below = rotation_exp_jacobian(std::nextafter(0.5, 0.0) * axis);
+  EXPECT_LT((below - rotation_exp_jacobian(0.5 * axis)).norm(), 1e-15);
+}
+
+TEST(Linalg, RotationLogIsTheShortestWay)
+{
+  std::mt19937 random(5);
+  constexpr double pi = std::numbers::pi;
+  EXPECT_EQ(rotation_log(Mat3::Identity()), Vec3(Vec3::Zero()));
+  for (const double angle : {1e-20, 1e-9, 0.1, 1.5, 3.0, pi - 1e-6, pi - 1e-12}) {
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 w = angle * random_vector(random).normalized();
+      EXPECT_LT((rotation_log(rotation_exp(w)) - w).norm(), 2e-15 * std::max(1.0, angle)) << angle;
+    }
+  }
+  for (int k = 0; k < 20; ++k) {
+    const Mat3 half = rotation_exp(pi * random_vector(random).normalized());
+    const Vec3 w = rotation_log(half);
+    EXPECT_NEAR(w.norm(), pi, 1e-15);
+    EXPECT_LT((rotation_exp(w) - half).norm(), 2e-15);
+  }
+  const Vec3 beyond = rotation_log(rotation_exp({0.0, 0.0, 4.0}));
+  EXPECT_LT((beyond - Vec3(0.0, 0.0, 4.0 - 2.0 * pi)).norm(), 2e-15);
+  EXPECT_LT((rotation_log(rotation_exp({1e-20, 0, 0})) - Vec3(1e-20, 0, 0)).norm(), 1e-35);
 }
 
 TEST(Linalg, RotationFromZReachesTheAxisByTheShortestWay)

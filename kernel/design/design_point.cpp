@@ -1,14 +1,12 @@
 #include "design/design_point.hpp"
 
+#include "design/body_between.hpp"
 #include "equilibrium/relaxation.hpp"
-#include "geometry/closed_curve.hpp"
 #include "geometry/separation.hpp"
 #include "model/held_model.hpp"
 #include "model/links.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/solid.hpp>
-#include <hauberk/triangle_surface.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,66 +27,6 @@ constexpr double longest_motion = 0.5;
 constexpr int most_openings = 12;
 constexpr int most_tries = 24;
 constexpr double shortest_part = 1.0 / 256.0;
-
-std::shared_ptr<const ClosedCurve> mixed(const ClosedCurve& a, const ClosedCurve& b, double t)
-{
-  if (a.size() != b.size())
-    throw PluginError("shape: the number of harmonics of a curve depends on the parameters");
-  std::vector<Harmonic> harmonics = a.harmonics();
-  for (std::size_t k = 0; k < harmonics.size(); ++k) {
-    harmonics[k].c += t * (b.harmonics()[k].c - harmonics[k].c);
-    harmonics[k].s += t * (b.harmonics()[k].s - harmonics[k].s);
-  }
-  return std::make_shared<const ClosedCurve>(std::move(harmonics), 1.0);
-}
-
-/// Bound of the distance between points of two curves at the same coordinate.
-double farthest_apart(const ClosedCurve& a, const ClosedCurve& b)
-{
-  double sum = 0.0;
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-    sum +=
-        (a.harmonics()[k].c - b.harmonics()[k].c).norm() + (a.harmonics()[k].s - b.harmonics()[k].s).norm();
-  return sum;
-}
-
-/// The solid at sizes between those of a and b; null where there is none.
-std::shared_ptr<const Solid> mixed(const Solid& a, const Solid& b, double t)
-{
-  std::vector<double> sizes = a.sizes();
-  for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = std::lerp(sizes[k], b.sizes()[k], t);
-  return a.with_sizes(sizes);
-}
-
-/// Body between a and b, interpolated linearly. Its kind is that of `b` unless both are tubes.
-Body between(const Body& a, const Body& b, double t)
-{
-  Body q = a;
-  const auto mix = [t](double x, double y) { return (1.0 - t) * x + t * y; };
-  q.R = mix(a.R, b.R);
-  q.r0 = mix(a.r0, b.r0);
-  q.r1 = mix(a.r1, b.r1);
-  q.center = (1.0 - t) * a.center + t * b.center;
-  q.bound = std::max(a.bound, b.bound);
-  q.reach = std::max(a.reach, b.reach);
-  if (!b.is_circle_tube()) q.kind = b.kind;
-  if (a.curve && b.curve) set_core(q, mixed(*a.curve, *b.curve, t), q.r0);
-  if (a.solid && b.solid && !same_solid(a, b)) q.solid = mixed(*a.solid, *b.solid, t);
-  return q;
-}
-
-double shape_speed(const Body& a, const Body& b)
-{
-  if (a.solid && b.solid) {
-    const double own = same_solid(a, b) ? 0.0 : a.solid->speed(b.solid->sizes()) / a.unit;
-    return own + (a.center - b.center).norm();
-  }
-  const double core = a.surface && b.surface
-                          ? std::abs(a.R - b.R) * std::max(a.surface->bound(), b.surface->bound())
-                      : a.curve && b.curve ? farthest_apart(*a.curve, *b.curve)
-                                           : std::abs(a.R - b.R);
-  return core + std::max(std::abs(a.r0 - b.r0), std::abs(a.r1 - b.r1)) + (a.center - b.center).norm();
-}
 
 /// Two bodies on a straight way on which their shapes change, too.
 struct ChangingPair {
@@ -128,7 +66,8 @@ struct ChangingPair {
 
   double gap_at(double t) const
   {
-    const Body P = between(a->bodies[p], b->bodies[p], t), Q = between(a->bodies[q], b->bodies[q], t);
+    const Body P = body_between(a->bodies[p], b->bodies[p], t),
+               Q = body_between(a->bodies[q], b->bodies[q], t);
     const bool none = (a->bodies[p].solid && !P.solid) || (a->bodies[q].solid && !Q.solid);
     if (none) return 0.0;  // nothing is known of solids that cannot be made
     return separation(P, pose_at(pair.i, {0, 0}, t), Q, pose_at(pair.j, pair.image, t), a->clearance,

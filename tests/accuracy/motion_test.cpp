@@ -236,6 +236,14 @@ double sampled_change(const Model& m, const TorusAt& at)
   return 1.0;
 }
 
+/// Moves a primitive in its element, and turns it about its centre, by up to `size` of all that can be.
+void place_anew(Primitive& p, double size, std::mt19937_64& rng)
+{
+  std::uniform_real_distribution<double> shift(-0.3, 0.3);
+  p.position += size * p.R() * Vec3(shift(rng), shift(rng), shift(rng));
+  p.rotation = test::random_rotation(rng, size * std::numbers::pi) * p.rotation;
+}
+
 TEST(Motion, NoCollisionBeforeTheCertifiedChangeOfParameters)
 {
   const test::Sheet sheet(3);
@@ -253,11 +261,14 @@ TEST(Motion, NoCollisionBeforeTheCertifiedChangeOfParameters)
       for (double& p : e.parameters) p *= 1.0 + size * (factor(rng) - 1.0);
     }
     Model b = a;
+    std::seed_seq other_seed{k, 79L};
+    std::mt19937_64 places(other_seed);
     {
       const std::vector<PlacedElement>& elements = changed.elements;
       std::size_t body = 0;
       for (std::size_t e = 0; e < elements.size(); ++e) {
-        for (const Primitive& p : changed.types[0].shape->primitives(elements[e].parameters)) {
+        for (Primitive p : changed.types[0].shape->primitives(elements[e].parameters)) {
+          if (k % 3 == 2) place_anew(p, size, places);
           b.bodies[body] = make_body(p, static_cast<int>(e), b.bodies[body].index, b.length);
           ++body;
         }
@@ -269,7 +280,10 @@ TEST(Motion, NoCollisionBeforeTheCertifiedChangeOfParameters)
     const double alpha = safe_parameter_step(a, b, from, dy);
     const TorusAt at = [&](int body, const Image& image, double s) {
       const std::size_t i = body;
-      Torus t = from_kernel(a.bodies[i], image_pose(a, advanced(a, from, dy, s), a.bodies[i].element, image));
+      Body placed = a.bodies[i];
+      placed.center += s * (b.bodies[i].center - placed.center);
+      placed.axes = Eigen::Quaterniond(placed.axes).slerp(s, Eigen::Quaterniond(b.bodies[i].axes));
+      Torus t = from_kernel(placed, image_pose(a, advanced(a, from, dy, s), a.bodies[i].element, image));
       t.R += s * (b.bodies[i].R - t.R);
       t.r0 += s * (b.bodies[i].r0 - t.r0);
       t.r1 += s * (b.bodies[i].r1 - t.r1);

@@ -45,7 +45,9 @@ const Planted all[] = {
     {"shape", "number_changes", "shape.primitives", "depend on the parameters"},
     {"shape", "not_a_number", "shape.primitives", "position that is not finite"},
     {"shape", "hidden_length", "shape.scaling", "with all lengths times 2, position y of 'right'"},
-    {"shape", "turns", "shape.rotations", "the rotation of 'right' depends on the parameters"},
+    {"shape", "turns", "shape.rotations", "of axis x of 'right')/d waist"},
+    {"shape", "turns_the_other_way", "shape.rotations", "of axis x of 'right')/d waist"},
+    {"shape", "turns_in_degrees", "shape.rotations", "of axis x of 'right')/d waist"},
     {"shape", "kink", "shape.smooth", "jump at waist = 1.5, and it is said to be smooth"},
     {"shape", "jump", "shape.smooth", "and it is said to be smooth (parameters: R = "},
     {"shape", "meets_itself", "shape.surface", "meets itself"},
@@ -158,6 +160,19 @@ TEST_P(Mutants, AreCaught)
   if (table)
     std::ofstream(std::getenv("HAUBERK_TABLE"), std::ios::app)
         << planted.kind << ' ' << planted.defect << ':' << failed << '\n';
+}
+
+TEST(Rotations, ThatTurnAsTheirRowsSayPass)
+{
+  Conditions conditions;
+  conditions.setup.section = R"({"defect": "turns_as_it_says"})";
+  conditions.filter = "^shape\\.";
+  const Report report = conform(folder + "/mutant_shape.so", conditions);
+  EXPECT_GT(report.results.size(), 8U);
+  for (const Result& result : report.results)
+    EXPECT_TRUE(result.outcome.status == Outcome::Status::passed ||
+                result.outcome.status == Outcome::Status::skipped)
+        << result.name << ": " << result.outcome.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(Planted, Mutants, testing::ValuesIn(all), [](const auto& info) {

@@ -70,6 +70,8 @@ const std::vector<Mistake> of_shapes = {
     {"turns"},
     {"turns_far"},
     {"turns_behind_option"},
+    {"turns_the_other_way"},
+    {"turns_in_degrees"},
     {"jump"},
     {"jump_far"},
     {"jump_of_r_far"},

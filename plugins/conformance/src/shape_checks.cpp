@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <set>
@@ -199,7 +200,15 @@ std::vector<Deviation> accepted_deviations(const Along& moved, const Values& col
   return {};
 }
 
-void jacobians(Trial& trial)
+/// What of a primitive is compared with differences.
+struct Compared {
+  std::function<Values(const Primitive&)> values;
+  /// Their derivatives, out of a column of the primitive's Jacobian.
+  std::function<Values(const Primitive&, const Values& column)> claimed;
+  std::function<std::string(const Primitive&, std::size_t component)> name;
+};
+
+void compare_derivatives(Trial& trial, const Compared& compared)
 {
   const Object object = trial.make();
   const Shape& shape = *object.shape;
@@ -211,21 +220,45 @@ void jacobians(Trial& trial)
     const std::vector<PrimitiveJacobian> claimed = shape.jacobians(point.p);
     require(claimed.size() == here.size(), "{} Jacobians for {} primitives", claimed.size(), here.size());
     for (std::size_t i = 0; i < here.size(); ++i) {
-      const std::size_t rows = claimed[i].size() / count;
+      Values column(claimed[i].size() / count);
       for (std::size_t k = 0; k < count; ++k) {
-        Values column(rows);
-        for (std::size_t row = 0; row < rows; ++row) column[row] = claimed[i][row * count + k];
+        for (std::size_t row = 0; row < column.size(); ++row) column[row] = claimed[i][row * count + k];
         const Along moved = [&](double s) {
           Values p = point.p;
           p[k] += s;
-          return quantities(shape.primitives(p).at(i));
+          return compared.values(shape.primitives(p).at(i));
         };
-        for (const Deviation& wrong : accepted_deviations(moved, column, point.margin[k]))
-          fail("d({} of '{}')/d {} at {} = {:.6g}: {}", quantity_name(here[i], wrong.component), here[i].name,
+        const Values expected = compared.claimed(here[i], column);
+        for (const Deviation& wrong : accepted_deviations(moved, expected, point.margin[k]))
+          fail("d({} of '{}')/d {} at {} = {:.6g}: {}", compared.name(here[i], wrong.component), here[i].name,
                shape.parameters()[k].name, shape.parameters()[k].name, point.p[k], text_of(wrong));
       }
     }
   }
+}
+
+void jacobians(Trial& trial)
+{
+  const auto all_but_rotation = [](const Primitive&, const Values& column) {
+    return Values(column.begin(), column.end() - rotation_dofs);
+  };
+  compare_derivatives(trial, {quantities, all_but_rotation, quantity_name});
+}
+
+/// Rotations turn as the last three rows say, and do not where there are none: of Q all entries are compared,
+/// with dQ/dp = skew(omega) Q.
+void rotations(Trial& trial)
+{
+  const auto entries = [](const Mat3& Q) { return Values(Q.data(), Q.data() + Q.size()); };
+  const auto values = [entries](const Primitive& primitive) { return entries(primitive.rotation); };
+  const auto claimed = [entries](const Primitive& primitive, const Values& column) {
+    const double* omega = column.data() + column.size() - rotation_dofs;
+    return entries(skew(Vec3(omega[0], omega[1], omega[2])) * primitive.rotation);
+  };
+  const auto name = [](const Primitive&, std::size_t component) {
+    return fmt::format("component {} of axis {}", "xyz"[component % 3], "xyz"[component / 3]);
+  };
+  compare_derivatives(trial, {values, claimed, name});
 }
 
 /// Distances of a solid from points near it and its probe, as functions of its sizes; `claimed` are
@@ -311,21 +344,6 @@ void solid_sizes(Trial& trial)
   if (!any) skip("none of its primitives is a solid");
 }
 
-/// A rotation of a primitive may not depend on parameters: nothing carries its derivative.
-void rotations(Trial& trial)
-{
-  const Object object = trial.make();
-  const std::vector<Primitive> first = object.shape->primitives(draw_point(*object.shape, trial).p);
-  for (int draw_number = 0; draw_number < points(trial); ++draw_number) {
-    const std::vector<Primitive> other = object.shape->primitives(draw(*object.shape, trial, draw_number).p);
-    for (std::size_t i = 0; i < std::min(first.size(), other.size()); ++i) {
-      const double turned = (first[i].rotation - other[i].rotation).cwiseAbs().maxCoeff();
-      require(turned <= rounding, "the rotation of '{}' depends on the parameters, by {:.3g}", first[i].name,
-              turned);
-    }
-  }
-}
-
 void scaling(Trial& trial)
 {
   const Object object = trial.make();
@@ -353,6 +371,9 @@ void scaling(Trial& trial)
         const double largest = factor * std::max(small[i].position.norm(), small[i].R());
         // Sizes of a solid may have any unit; its distances are lengths.
         const std::size_t rows = small[i].solid ? primitive_dofs : std::min(a.size(), b.size());
+        const double turned = (small[i].rotation - large[i].rotation).cwiseAbs().maxCoeff();
+        require(turned <= rounding, "with all lengths times {}, '{}' is turned, by {:.3g}", factor,
+                small[i].name, turned);
         if (small[i].solid && large[i].solid) require_scaled(small[i], large[i], factor, trial.random);
         for (std::size_t row = 0; row < rows; ++row)
           require(std::abs(b[row] - factor * a[row]) <= rounding * largest,
@@ -380,8 +401,9 @@ void add_shape_checks(std::vector<Check>& out)
       primitives);
   add("shape.jacobians", "Jacobians are the derivatives: differences approach them with slope 2", jacobians);
   add("shape.solid_sizes", "sizes of solids move distance and probe as the solid says", solid_sizes);
-  add("shape.rotations", "rotations of primitives do not depend on parameters", rotations);
-  add("shape.scaling", "all lengths times c gives positions and sizes times c", scaling);
+  add("shape.rotations", "rotations turn as Jacobians say: differences approach them with slope 2",
+      rotations);
+  add("shape.scaling", "all lengths times c gives positions and sizes times c, and turns nothing", scaling);
   add("shape.surface",
       "surfaces of primitives are closed, do not meet themselves, and are within their spheres",
       check_surfaces);

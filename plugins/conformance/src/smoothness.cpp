@@ -58,6 +58,7 @@ class JumpSearch {
     for (const Primitive& primitive : shape_.primitives(p)) {
       const Values q = quantities(primitive);
       out.insert(out.end(), q.begin(), q.end());
+      out.insert(out.end(), primitive.rotation.data(), primitive.rotation.data() + primitive.rotation.size());
     }
     for (const PrimitiveJacobian& jacobian : shape_.jacobians(p)) {
       const std::size_t rows = jacobian.size() / p.size();

@@ -56,7 +56,8 @@ class Mutant final : public Shape {
     if (is("number_changes") && p[waist] > 1.5) out.pop_back();
     if (is("not_a_number")) right.position.y() = std::nan("");
     if (is("hidden_length")) right.position.y() += 0.1;
-    if (is("turns")) right.rotation = rotation_exp(Vec3(0.0, 0.0, p[waist] - 1.5));
+    if (is("turns") || turns_with_rows())
+      right.rotation = rotation_exp(Vec3(0.0, 0.0, p[waist] - 1.5)) * right.rotation;
     if (is("kink")) right.position.y() += 0.1 * p[R] * std::abs(p[waist] - 1.5);
     if (is("jump") && p[waist] > 1.5) right.position.y() += 1e-3 * p[R];
     if (is("meets_itself")) {  // a figure of eight whose loops cross in the middle
@@ -83,6 +84,10 @@ class Mutant final : public Shape {
     if (is("nearly_right_derivative")) x_waist *= 1.0 + 1e-6;
     if (is("forgotten_column")) out.back()[5 * 3 + r] = 0.0;
     if (is("transposed")) std::swap(out.back()[0 * 3 + waist], out.back()[2 * 3 + R]);
+    if (turns_with_rows()) {
+      double& z_waist = out.back()[8 * 3 + waist];
+      z_waist = is("turns_the_other_way") ? -1.0 : is("turns_in_degrees") ? 1.0 / degree : 1.0;
+    }
     if (is("too_few_rows")) out.back().resize(9);
     if (is("kink")) {
       y_R += 0.1 * std::abs(p[waist] - 1.5);
@@ -97,6 +102,11 @@ class Mutant final : public Shape {
  private:
   enum { R, r, waist };
   bool is(const char* defect) const { return defect_ == defect; }
+  /// No defect by itself: `turns_as_it_says` is right.
+  bool turns_with_rows() const
+  {
+    return is("turns_as_it_says") || is("turns_the_other_way") || is("turns_in_degrees");
+  }
   bool is_far(std::span<const double> p) const { return p[R] > 20.0; }
   bool is_corner(std::span<const double> p) const
   {

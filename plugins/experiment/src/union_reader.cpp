@@ -22,13 +22,13 @@ bool usable_name(const std::string& name)
   });
 }
 
-/// The part's coordinates are called x, y and z, so its shape cannot have such parameters.
+/// A part's place has parameters of its own, so its shape cannot have such ones.
 void check_parameters(const Node& part, const Shape& shape, Problems& problems)
 {
-  for (const char* coordinate : {"x", "y", "z"}) {
-    if (parameter_index(shape, coordinate) < 0) continue;
-    problems.add(part.at("shape"), "shape '" + part.at("shape").string + "' has a parameter '" + coordinate +
-                                       "', which is a coordinate of parts, so it cannot be one");
+  for (const char* name : place_parameters) {
+    if (parameter_index(shape, name) < 0) continue;
+    problems.add(part.at("shape"), "shape '" + part.at("shape").string + "' has a parameter '" + name +
+                                       "', which places parts, so it cannot be one");
   }
 }
 

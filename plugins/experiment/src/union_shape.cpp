@@ -11,8 +11,26 @@ namespace hauberk {
 namespace {
 
 constexpr std::size_t coordinates = 3;
-constexpr const char* coordinate_names[coordinates] = {"x", "y", "z"};
 constexpr double farthest = 1e12;  ///< wide enough for any unit of length
+/// Degrees. The rotation vector is at most sqrt(3) times as long, less than the full turn at which its
+/// components no longer tell all rotations nearby.
+constexpr double farthest_turn = 180.0;
+
+/// The place of a part, and how its rotation turns with the three parameters of it.
+struct Placed {
+  Vec3 position;
+  Mat3 rotation;
+  Mat3 turns;  ///< columns, radians per degree
+
+  /// From the last six of the part's parameters.
+  Placed(const UnionPart& part, std::span<const double> place) : position(place[0], place[1], place[2])
+  {
+    const Vec3 w = degree * Vec3(place[3], place[4], place[5]);
+    // A part that is not turned has the rotation of the experiment to the last bit.
+    rotation = w == Vec3::Zero() ? part.rotation : Mat3(rotation_exp(w) * part.rotation);
+    turns = degree * rotation_exp_jacobian(w);
+  }
+};
 
 /// Runs a call into a part's shape; what is wrong there names the part.
 template <class Call>
@@ -27,18 +45,44 @@ auto of_part(const std::string& name, Call&& call)
   }
 }
 
-/// Adds the Jacobian `own` of a part's primitive to `J`, whose rows have `count` entries; the part's `n`
-/// parameters begin at `first`, and its position follows them.
-void place_jacobian(const PrimitiveJacobian& own, std::size_t n, const Mat3& A, std::size_t first,
-                    std::size_t count, PrimitiveJacobian& J)
-{
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec3 dx = A * Vec3(own[k], own[n + k], own[2 * n + k]);
-    for (std::size_t i = 0; i < coordinates; ++i) J[i * count + first + k] = dx[static_cast<Eigen::Index>(i)];
-    for (std::size_t row = coordinates; row < J.size() / count; ++row)
-      J[row * count + first + k] = own[row * n + k];
+/// Columns of a Jacobian, one for each parameter.
+class Columns {
+ public:
+  explicit Columns(std::size_t count, PrimitiveJacobian& J) : count_(count), J_(J) {}
+  std::size_t rows() const { return J_.size() / count_; }
+  double& at(std::size_t row, std::size_t column) { return J_[row * count_ + column]; }
+  /// Into three rows.
+  void set(std::size_t row, std::size_t column, const Vec3& v)
+  {
+    for (std::size_t i = 0; i < coordinates; ++i) at(row + i, column) = v[static_cast<Eigen::Index>(i)];
   }
-  for (std::size_t i = 0; i < coordinates; ++i) J[i * count + first + n + i] = 1.0;
+
+ private:
+  std::size_t count_;
+  PrimitiveJacobian& J_;
+};
+
+/// Adds the Jacobian `own` of the part's primitive at x to `J`; the part's `n` own parameters begin at
+/// `first`, and its place follows them.
+void place_jacobian(const PrimitiveJacobian& own, std::size_t n, const Vec3& x, const Placed& part,
+                    std::size_t first, Columns& J)
+{
+  const std::size_t turn = J.rows() - rotation_dofs;
+  const auto turned = [&](std::size_t row, std::size_t k) -> Vec3 {
+    return part.rotation * Vec3(own[row * n + k], own[(row + 1) * n + k], own[(row + 2) * n + k]);
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    J.set(0, first + k, turned(0, k));
+    for (std::size_t row = coordinates; row < turn; ++row) J.at(row, first + k) = own[row * n + k];
+    J.set(turn, first + k, turned(turn, k));
+  }
+  const Vec3 arm = part.rotation * x;
+  for (std::size_t i = 0; i < coordinates; ++i) {
+    const Vec3 omega = part.turns.col(static_cast<Eigen::Index>(i));
+    J.at(i, first + n + i) = 1.0;
+    J.set(0, first + n + coordinates + i, omega.cross(arm));
+    J.set(turn, first + n + coordinates + i, omega);
+  }
 }
 
 void union_fields(std::vector<Field>& out)
@@ -90,12 +134,18 @@ UnionShape::UnionShape(std::vector<UnionPart> parts) : parts_(std::move(parts))
       info.name = part.name + "." + info.name;
       parameters_.push_back(std::move(info));
     }
-    for (std::size_t i = 0; i < coordinates; ++i) {
-      const std::string coordinate = coordinate_names[i];
-      parameters_.push_back({part.name + "." + coordinate, "length",
+    for (std::size_t i = 0; i < coordinates; ++i)
+      parameters_.push_back({part.name + "." + place_parameters[i], "length",
                              part.position[static_cast<Eigen::Index>(i)], -farthest, farthest,
-                             coordinate + " of the part's origin in the element frame", true});
-    }
+                             std::string(place_parameters[i]) + " of the part's origin in the element frame",
+                             true});
+    for (std::size_t i = coordinates; i < place_parameters.size(); ++i)
+      parameters_.push_back(
+          {part.name + "." + place_parameters[i], "degree", 0.0, -farthest_turn, farthest_turn,
+           std::string(place_parameters[i]).substr(1) +
+               " of the rotation vector that turns the part about its origin, in the element frame, beyond "
+               "its rotation in the experiment",
+           true});
   }
   first_.push_back(parameters_.size());
 }
@@ -106,12 +156,12 @@ void UnionShape::do_primitives(std::span<const double> p, std::vector<Primitive>
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const UnionPart& part = parts_[k];
     const std::span<const double> own = p.subspan(first_[k], first_[k + 1] - first_[k]);
-    const std::size_t n = own.size() - coordinates;
-    const Vec3 position(own[n], own[n + 1], own[n + 2]);
+    const std::size_t n = own.size() - place_parameters.size();
+    const Placed placed(part, own.subspan(n));
     for (Primitive& primitive : of_part(part.name, [&] { return part.shape->primitives(own.first(n)); })) {
       primitive.name = part.name + "." + primitive.name;
-      primitive.position = position + part.rotation * primitive.position;
-      primitive.rotation = part.rotation * primitive.rotation;
+      primitive.position = placed.position + placed.rotation * primitive.position;
+      primitive.rotation = placed.rotation * primitive.rotation;
       out.push_back(std::move(primitive));
     }
   }
@@ -122,15 +172,17 @@ void UnionShape::do_jacobians(std::span<const double> p, std::vector<PrimitiveJa
   out.clear();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const UnionPart& part = parts_[k];
-    const std::size_t n = first_[k + 1] - first_[k] - coordinates;
+    const std::size_t n = first_[k + 1] - first_[k] - place_parameters.size();
     const std::span<const double> own = p.subspan(first_[k], n);
+    const Placed placed(part, p.subspan(first_[k] + n, place_parameters.size()));
     const auto [primitives, jacobians] = of_part(
         part.name, [&] { return std::make_pair(part.shape->primitives(own), part.shape->jacobians(own)); });
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       // A shape without parameters has empty Jacobians, so the number of rows is asked of the primitive.
-      const auto rows = static_cast<std::size_t>(geometric_dofs(primitives[i]));
+      const std::size_t rows = static_cast<std::size_t>(geometric_dofs(primitives[i])) + rotation_dofs;
       PrimitiveJacobian J(rows * p.size(), 0.0);
-      place_jacobian(jacobians[i], n, part.rotation, first_[k], p.size(), J);
+      Columns columns(p.size(), J);
+      place_jacobian(jacobians[i], n, primitives[i].position, placed, first_[k], columns);
       out.push_back(std::move(J));
     }
   }

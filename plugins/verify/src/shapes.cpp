@@ -161,17 +161,23 @@ Parameters of_part(const Parameters& parameters, const std::string& name)
   return own;
 }
 
-/// Where a part is: x, y and z of its parameters, else its `position`.
+/// Where a part is: x, y and z of its parameters, else its `position`; its `rotation`, and then a turn by the
+/// vector of rx, ry and rz, in degrees.
 Place place_of(const json::object& part, const Parameters& own, const std::string& where)
 {
   Place out;
   out.rotation = read_turn(part.if_contains("rotation"), where + "/rotation");
   if (const json::value* position = part.if_contains("position"))
     out.position = vector_of(*position, where + "/position");
+  Vec3 turn = Vec3::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const auto given = own.find(std::string(1, "xyz"[i]));
-    if (given != own.end()) out.position[i] = given->second;
+    const std::string axis(1, "xyz"[i]);
+    if (const auto given = own.find(axis); given != own.end()) out.position[i] = given->second;
+    if (const auto given = own.find("r" + axis); given != own.end())
+      turn[i] = given->second * std::numbers::pi / 180.0;
   }
+  if (turn != Vec3::Zero())
+    out.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * out.rotation;
   return out;
 }
 

@@ -82,10 +82,8 @@ TEST(Meaning, Unions)
   EXPECT_EQ(of_parts("[]"), at + ": expected an array of at least 1 objects, found an empty array");
   EXPECT_EQ(with_b(R"({ "name": "b", "rings": [ { "name": "bad" } ], "shape": "rings" })"),
             at + "/1/rings/0/name: no ring can be called 'bad'");
-  EXPECT_EQ(
-      with_b(R"({ "name": "b", "shape": "moved" })"),
-      at +
-          "/1/shape: shape 'moved' has a parameter 'x', which is a coordinate of parts, so it cannot be one");
+  EXPECT_EQ(with_b(R"({ "name": "b", "shape": "moved" })"),
+            at + "/1/shape: shape 'moved' has a parameter 'x', which places parts, so it cannot be one");
   EXPECT_EQ(
       with_b(R"({ "name": "b", "shape": "placed" })"),
       at +

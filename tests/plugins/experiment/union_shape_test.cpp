@@ -19,7 +19,7 @@
 namespace hauberk::test {
 namespace {
 
-/// A ring of radius a^2 with its centre at (a cos b, sin b, a b).
+/// A ring of radius a^2 with its centre at (a cos b, sin b, a b), turned by exp(b skew(1, 2, -1)).
 class Curved final : public Shape {
  protected:
   const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
@@ -29,16 +29,19 @@ class Curved final : public Shape {
     Primitive ring;
     ring.name = "ring";
     ring.position = Vec3(p[0] * std::cos(p[1]), std::sin(p[1]), p[0] * p[1]);
+    ring.rotation = rotation_exp(p[1] * axis);
     ring.size = {p[0] * p[0], 0.1, 0.1};
     out = {ring};
   }
   void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const override
   {
     out = {{std::cos(p[1]), -p[0] * std::sin(p[1]), 0.0, std::cos(p[1]), p[1], p[0],  //
-            2.0 * p[0], 0.0, 0.0, 0.0, 0.0, 0.0}};
+            2.0 * p[0], 0.0, 0.0, 0.0, 0.0, 0.0,                                      //
+            0.0, axis[0], 0.0, axis[1], 0.0, axis[2]}};
   }
 
  private:
+  const Vec3 axis{1.0, 2.0, -1.0};
   std::vector<ParameterInfo> parameters_{{"a", "length", 1.3, 0.0, 9.0, "", true},
                                          {"b", "1", 0.4, -9.0, 9.0, "", false}};
 };
@@ -95,7 +98,7 @@ std::shared_ptr<const Shape> of_plugins()
   return experiment ? experiment->scene.types[0].shape : nullptr;
 }
 
-/// All geometric quantities of a primitive.
+/// All geometric quantities of a primitive, and the nine entries of its rotation.
 std::vector<double> geometry(const Primitive& p)
 {
   std::vector<double> out{p.position[0], p.position[1], p.position[2]};
@@ -104,6 +107,20 @@ std::vector<double> geometry(const Primitive& p)
     for (const Vec3& v : {h.c, h.s}) out.insert(out.end(), v.data(), v.data() + 3);
   if (p.solid)
     for (const double size : p.solid->sizes()) out.push_back(size);
+  out.insert(out.end(), p.rotation.data(), p.rotation.data() + p.rotation.size());
+  return out;
+}
+
+/// What a Jacobian says of how they change with parameter k of n: dQ = skew(omega) Q.
+std::vector<double> claimed_changes(const Primitive& p, const PrimitiveJacobian& J, std::size_t k,
+                                    std::size_t n)
+{
+  const std::size_t rows = geometric_dofs(p);
+  std::vector<double> out;
+  for (std::size_t row = 0; row < rows; ++row) out.push_back(J.at(row * n + k));
+  const Vec3 omega(J.at(rows * n + k), J.at((rows + 1) * n + k), J.at((rows + 2) * n + k));
+  const Mat3 change = skew(omega) * p.rotation;
+  out.insert(out.end(), change.data(), change.data() + change.size());
   return out;
 }
 
@@ -141,13 +158,12 @@ void expect_derivatives(const Shape& shape, const std::vector<double>& at)
     }
     std::size_t entry = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
-      const std::size_t rows = geometry(here[i]).size();
-      ASSERT_EQ(claimed[i].size(), rows * at.size());
-      for (std::size_t row = 0; row < rows; ++row, ++entry) {
+      ASSERT_EQ(claimed[i].size(), (geometric_dofs(here[i]) + rotation_dofs) * at.size());
+      const std::vector<double> changes = claimed_changes(here[i], claimed[i], k, at.size());
+      for (std::size_t row = 0; row < changes.size(); ++row, ++entry) {
         if (unused(here[i], row)) continue;
         std::array<double, 3> error{};
-        for (std::size_t s = 0; s < error.size(); ++s)
-          error[s] = std::abs(slopes[s][entry] - claimed[i][row * at.size() + k]);
+        for (std::size_t s = 0; s < error.size(); ++s) error[s] = std::abs(slopes[s][entry] - changes[row]);
         expect_second_order(error, 1.0, 1e-10, (here[i].name + " " + shape.parameters()[k].name).c_str());
       }
     }
@@ -172,13 +188,17 @@ TEST(UnionShape, NamesArePrefixedAndPlacesAreParameters)
   const UnionShape shape = curved_and_fixed();
   std::vector<std::string> names;
   for (const ParameterInfo& info : shape.parameters()) names.push_back(info.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"c.a", "c.b", "c.x", "c.y", "c.z", "f.x", "f.y", "f.z"}));
-  EXPECT_EQ(defaults(shape), (std::vector<double>{1.3, 0.4, 1, 2, 3, 10, 0, 0}));
+  EXPECT_EQ(names, (std::vector<std::string>{"c.a", "c.b", "c.x", "c.y", "c.z", "c.rx", "c.ry", "c.rz", "f.x",
+                                             "f.y", "f.z", "f.rx", "f.ry", "f.rz"}));
+  EXPECT_EQ(defaults(shape), (std::vector<double>{1.3, 0.4, 1, 2, 3, 0, 0, 0, 10, 0, 0, 0, 0, 0}));
   EXPECT_FALSE(shape.parameters()[1].smooth);
   EXPECT_EQ(shape.parameters()[1].unit, "1");
   EXPECT_EQ(shape.parameters()[2].unit, "length");
   EXPECT_LT(shape.parameters()[2].lower, -1e6);
   EXPECT_GT(shape.parameters()[2].upper, 1e6);
+  EXPECT_EQ(shape.parameters()[5].unit, "degree");
+  EXPECT_EQ(shape.parameters()[5].lower, -180.0);
+  EXPECT_EQ(shape.parameters()[5].upper, 180.0);
 }
 
 TEST(UnionShape, PartsAreTurnedThenMoved)
@@ -197,13 +217,36 @@ TEST(UnionShape, PartsAreTurnedThenMoved)
   EXPECT_NEAR((found[0].position - Vec3(1, 2, 3)).norm(),
               Vec3(1.3 * std::cos(0.4), std::sin(0.4), 0.52).norm(), 1e-15);
   const Vec3 axis = Vec3(1, -2, 0.5).normalized();
-  EXPECT_NEAR(found[0].rotation.col(2).dot(axis), axis.z(), 1e-15);
+  EXPECT_NEAR(found[0].rotation.col(2).dot(axis), (rotation_exp({0.4, 0.8, -0.4}).col(2)).dot(axis), 1e-15);
+}
+
+TEST(UnionShape, RotationVectorsTurnPartsInTheElementFrame)
+{
+  const UnionShape shape = curved_and_fixed();
+  std::vector<double> p = defaults(shape);
+  const std::vector<Primitive> before = shape.primitives(p);
+  p[8 + 3] = 90.0;  // f.rx
+  const std::vector<Primitive> after = shape.primitives(p);
+  // (1, 2, 3) by a quarter about z is (-2, 1, 3), and that by one about x is (-2, -3, 1).
+  EXPECT_LT((after[2].position - Vec3(8, -3, 1)).norm(), 1e-14);
+  EXPECT_LT((after[2].rotation * Vec3::UnitX() - Vec3::UnitZ()).norm(), 1e-15);
+  EXPECT_EQ(after[0].position, before[0].position);
+  EXPECT_EQ(after[0].rotation, before[0].rotation);
+  p[8 + 3] = 180.5;
+  EXPECT_THROW(shape.primitives(p), InputError);
 }
 
 TEST(UnionShape, DerivativesAreThoseOfItsPrimitives)
 {
   const UnionShape shape = curved_and_fixed();
-  expect_derivatives(shape, defaults(shape));
+  std::vector<double> p = defaults(shape);
+  expect_derivatives(shape, p);
+  for (const double turn : {40.0, 170.0}) {
+    p[5] = p[12] = turn;
+    p[6] = -0.5 * turn;
+    p[13] = turn - 60.0;
+    expect_derivatives(shape, p);
+  }
 }
 
 TEST(UnionShape, DerivativesOfEveryKindOfTube)
@@ -214,7 +257,8 @@ TEST(UnionShape, DerivativesOfEveryKindOfTube)
   const std::map<std::string, double> given{{"rings.one.R", 3}, {"rings.one.r0", 0.4}, {"rings.one.r1", 0.5},
                                             {"rings.two.R", 2}, {"rings.two.r0", 0.3}, {"rings.two.r1", 0.3},
                                             {"frame.size", 4},  {"frame.r", 0.3},      {"tube.R", 5},
-                                            {"tube.a", 2},      {"tube.b", 1},         {"tube.r", 0.2}};
+                                            {"tube.a", 2},      {"tube.b", 1},         {"tube.r", 0.2},
+                                            {"rings.rx", 25},   {"frame.rz", -70},     {"tube.ry", 110}};
   for (std::size_t k = 0; k < p.size(); ++k)
     if (const auto value = given.find(shape->parameters()[k].name); value != given.end())
       p[k] = value->second;

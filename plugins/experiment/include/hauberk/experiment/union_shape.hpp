@@ -5,6 +5,7 @@
 
 #include <hauberk/plugin.hpp>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,24 +17,31 @@ namespace hauberk {
 struct UnionPart {
   std::string name;
   std::shared_ptr<const Shape> shape;
-  Mat3 rotation = Mat3::Identity();  ///< columns are the part's axes in the element frame
+  Mat3 rotation = Mat3::Identity();  ///< columns are the part's axes in the element frame where no parameter
+                                     ///< turns it
   Vec3 position = Vec3::Zero();      ///< of the part's origin unless parameters say otherwise; file units
 };
+
+/// Names of the parameters that place a part: its position, and the rotation vector.
+inline constexpr std::array<const char*, 6> place_parameters{"x", "y", "z", "rx", "ry", "rz"};
 
 /// Union of the primitives of all parts, each part placed rigidly: a primitive with the place (x, Q) in its
 /// part has
 ///
-///     x' = t + A x,   Q' = A Q
+///     x' = t + A x,   Q' = A Q,   A = exp(skew(w)) A0
 ///
-/// in the element, where A is the part's rotation, which is fixed, and t its position, of which all three
-/// components are parameters. Sizes, curves, surfaces and solids of primitives are in their own frames and
-/// stay as they are. So with the part's parameters q
+/// in the element, where t is the part's position, A0 its fixed rotation, and w a rotation vector about its
+/// origin in the element frame; all components of t and w are parameters, those of w in degrees. Sizes,
+/// curves, surfaces and solids of primitives are in their own frames and stay as they are. So with the part's
+/// parameters q, by which Q turns with omega_q, and J = rotation_exp_jacobian(w), whose columns are omega_k,
 ///
-///     dx'/dq = A dx/dq,   dx'/dt = I.
+///     dx'/dq = A dx/dq,   dx'/dt = I,   dx'/dw_k = omega_k x A x,
+///     dQ'/dq = skew(A omega_q) Q',      dQ'/dw_k = skew(omega_k) Q'.
 ///
-/// Parameters are, part after part, those of its shape as NAME.PARAMETER, then NAME.x, NAME.y and NAME.z;
-/// primitives are called NAME.PRIMITIVE. Names of parts have no '.', so no two of different parts are equal.
-/// Immutable, thread safe. What a part throws passes through with "part 'NAME': " before its message.
+/// Parameters are, part after part, those of its shape as NAME.PARAMETER, then NAME.x, NAME.y, NAME.z,
+/// NAME.rx, NAME.ry and NAME.rz (place_parameters); primitives are called NAME.PRIMITIVE. Names of parts have
+/// no '.', so no two of different parts are equal. Immutable, thread safe. What a part throws passes through
+/// with "part 'NAME': " before its message.
 class UnionShape final : public Shape {
  public:
   explicit UnionShape(std::vector<UnionPart> parts);

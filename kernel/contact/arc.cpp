@@ -24,6 +24,9 @@ constexpr double surface_element = 0.25;
 constexpr double product_element = 1.0;
 
 constexpr double smallest_panel = 1e-12;
+/// Evaluations that the integral of one pair is worth, about half a second: blades with a thousand radii of
+/// curvature around them stay below, and what does not would take hours and could not be interrupted.
+constexpr int most_evaluations = 3000000;
 
 template <int n>
 struct GaussRule {
@@ -230,6 +233,7 @@ class ArcIntegral {
         request_(request),
         near_(near),
         out_(out),
+        last_(out.evaluations + most_evaluations),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
                                   : (frame.difference != nullptr ? product_element : surface_element) /
                                         (2.0 * pi * reference_radius * settings.g_hat)))
@@ -268,7 +272,7 @@ class ArcIntegral {
     const ProbePoint& q = p.q;
     const FieldValue& f = p.f;
     const PanelBound b = panel_bound(probe_, s, q, f, settings_.g_hat + probe_.offset + settings_.clearance);
-    ++out_.evaluations;
+    if (++out_.evaluations > last_) too_flat(frame_, "integrals over contacts", most_evaluations);
     const double g = b.value - probe_.offset - settings_.clearance;
     out_.min_gap = std::min(out_.min_gap, g);
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
@@ -468,6 +472,7 @@ class ArcIntegral {
   const Request& request_;
   const NearPanels& near_;
   SideTerms& out_;
+  int last_;  ///< evaluation after which to give up
   double weight_;
   std::vector<ContactPoint> nodes_;
 };

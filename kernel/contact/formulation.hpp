@@ -52,6 +52,9 @@ struct ContactSettings {
   unsigned threads = 1;  ///< that evaluate pairs of a large scene; never changes a result
 };
 
+/// Throws ComputationError: what is sought between two bodies takes more evaluations than any pair is worth.
+[[noreturn]] void too_flat(const PairFrame& frame, const char* what, long evaluations);
+
 /// Sum of the clamped log barrier over every local minimum of the distance with gap < g_hat (paper eq. (4),
 /// in the gap instead of its square), derivatives by the implicit-function theorem:
 ///   D_q = d_q,   D_qq = d_qq - d_qc H^-1 d_cq,   H = d_cc at the minimum.

@@ -149,7 +149,7 @@ class StationarySearch {
   void visit(const PanelField& p)
   {
     const Panel& s = p.s;
-    if (++evaluations_ > last_) give_up();
+    if (++evaluations_ > last_) too_flat(probe_.f, "closest points", most_evaluations);
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
     if (panel_bound(probe_, s, p.q, p.f, threshold_).bound > threshold_) return;
     const Local l = local_of(probe_, p.q, p.f);
@@ -189,15 +189,6 @@ class StationarySearch {
   {
     const Body& P = *probe_.f.P;
     return P.solid && P.solid->fold() != Fold::none ? unfolded<dim>(P.solid->fold(), m) : m;
-  }
-
-  [[noreturn]] void give_up() const
-  {
-    const Body &P = *probe_.f.P, &F = *probe_.f.F;
-    throw ComputationError(fmt::format(
-        "closest points of elements {} and {} take more than {} evaluations: their cross-sections are "
-        "too flat for their size (r1/r0 {:.3g} and {:.3g})",
-        P.element, F.element, most_evaluations, P.r1 / P.r0, F.r1 / F.r0));
   }
 
   /// Panels this small hold at most one basin, or one that starts from a neighbour: a fraction of the
@@ -293,8 +284,7 @@ class StationarySearch {
       if (!lower) {
         // Inside of F the distance has ridges, where nothing is deeper beside them and no slope ends.
         const bool ends = (slope < 1e-10 && lowest > -flat) || l.f.m.phi < 0.0;
-        if (ends && l.f.m.phi < threshold_)
-          insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
+        if (ends && l.f.m.phi < threshold_) insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
         return;
       }
     }
@@ -310,6 +300,15 @@ class StationarySearch {
 };
 
 }  // namespace
+
+void too_flat(const PairFrame& frame, const char* what, long evaluations)
+{
+  const Body &P = *frame.P, &F = *frame.F;
+  throw ComputationError(fmt::format(
+      "{} of elements {} and {} take more than {} evaluations: their cross-sections are too flat for their "
+      "size (r1/r0 {:.3g} and {:.3g})",
+      what, P.element, F.element, evaluations, P.r1 / P.r0, F.r1 / F.r0));
+}
 
 template <int dim>
 std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations,

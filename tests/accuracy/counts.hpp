@@ -15,7 +15,7 @@ inline long count(const char* name, long otherwise)
 }
 
 inline long pair_count() { return count("HAUBERK_ACCURACY_PAIRS", 1200); }
-inline long motion_count() { return count("HAUBERK_ACCURACY_MOTIONS", 100); }
+inline long motion_count() { return count("HAUBERK_ACCURACY_MOTIONS", 40); }
 inline long search_starts() { return count("HAUBERK_ACCURACY_STARTS", 1); }
 
 }  // namespace hauberk::brute

@@ -24,7 +24,9 @@ project() {  # TEMPLATE NAME
   local folder=$work/$2
   quietly "$prefix/bin/hauberk" plugins new --kind "$1" "$2" "$folder"
   if grep -rnE 'plugin_name|PluginName|plugin_kind|plugin_template' "$folder"; then fail "$2: a mark of the template was left"; fi
-  quietly cmake -S "$folder" -B "$folder/build" -D CMAKE_PREFIX_PATH="$prefix" "${launcher[@]}"
+  # What compiles twice as fast and runs fast enough.
+  quietly cmake -S "$folder" -B "$folder/build" -D CMAKE_PREFIX_PATH="$prefix" -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 \
+    "${launcher[@]}"
   if grep -n 'CMake Warning' "$work/log.txt"; then fail "$2: a warning where nothing differs"; fi
   quietly cmake --build "$folder/build"
   # Distances of solids take most of the time of all checks, 9 s; tests/conformance has them of rounded_ring.

@@ -11,6 +11,7 @@ namespace {
 
 struct Ring : PlainTorus {
   static constexpr const char* kind = "ring";
+  static constexpr bool revolved = true;
   static std::vector<ParameterInfo> parameters()
   {
     return {{"R", "length", 5.0, 1e-9, 1e9, "radius of the core", true},

@@ -24,9 +24,9 @@ constexpr double surface_element = 0.25;
 constexpr double product_element = 1.0;
 
 constexpr double smallest_panel = 1e-12;
-/// Evaluations that the integral of one pair is worth, about half a second: blades with a thousand radii of
-/// curvature around them stay below, and what does not would take hours and could not be interrupted.
-constexpr int most_evaluations = 3000000;
+/// Evaluations that the integral of one pair is worth, some seconds. Blades, with thousands of radii of
+/// curvature around them, would take hours.
+constexpr int most_evaluations = 30000000;
 
 template <int n>
 struct GaussRule {

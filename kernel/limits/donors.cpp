@@ -73,7 +73,8 @@ bool may_fold(const Model& m, const LimitTask& task)
 {
   if (!m.load->periodic()) return false;
   if (task.direction.is_angle()) return task.sense == Sense::negative;
-  return !m.lattice.empty() && pushes(m, task.direction);
+  return !m.lattice.empty() && pushes(m, task.direction) &&
+         bounded_by_links(m, task) == Boundedness::attained;
 }
 
 Donors::Donors(const Model& m, const std::vector<LimitTask>& tasks)

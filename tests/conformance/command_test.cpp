@@ -124,14 +124,14 @@ TEST(Conform, ParametersOfTheSectionAreLookedAt)
 TEST(Conform, EachPluginOfALibrary)
 {
   const std::string file = HAUBERK_BINARY_DIR "/tests/bad_plugins/several.so";
-  const Outcome all = run_program({"plugins", "conform", file, "--filter", "^descriptor$|rotations"});
+  const Outcome all = run_program({"plugins", "conform", file, "--filter", "^descriptor$|^shape.primitives$"});
   EXPECT_EQ(all.code, 0) << all.out;
   EXPECT_NE(all.out.find("plugin several_ring 1.0, a shape: " + file + "\n"), std::string::npos) << all.out;
   EXPECT_NE(all.out.find("2 checks: 2 passed, 0 failed, 0 skipped\n"), std::string::npos) << all.out;
   EXPECT_NE(all.out.find("plugin several_search 2.0, an optimizer: " + file + "\n"), std::string::npos);
 
   // The filter matches no check of the optimizer.
-  const Outcome shape = run_program({"plugins", "conform", file, "--filter", "rotations"});
+  const Outcome shape = run_program({"plugins", "conform", file, "--filter", "^shape.primitives$"});
   EXPECT_EQ(shape.code, 0);
   EXPECT_EQ(shape.out.find("several_search"), std::string::npos) << shape.out;
   EXPECT_EQ(run_program({"plugins", "conform", file, "--filter", "nonsense"}).code, 2);

@@ -162,6 +162,12 @@ void repeatable(Trial& trial)
     const std::vector<double> again = exercise(object);
     require(same_bits(first, again), "asked again, it answers otherwise: {}", first_difference(first, again));
   }
+  // What only remembers its last question has the same one to remember until others come between.
+  const Exercise others(object, trial);
+  static_cast<void>(others(object));
+  const std::vector<double> after = exercise(object);
+  require(same_bits(first, after), "asked again after something else, it answers otherwise: {}",
+          first_difference(first, after));
   // What optimizers are asked has no order.
   const std::vector<double> backwards = object.optimizer ? first : exercise.backwards(object);
   require(same_bits(first, backwards), "asked in another order, it answers otherwise: {}",

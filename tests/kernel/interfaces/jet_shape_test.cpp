@@ -67,8 +67,11 @@ TEST(JetShape, HasValuesAndExactDerivativesOfOneTemplate)
   const PrimitiveJacobian tube{6.0, 0.0, 0.0,  1.0, 0.0, 0.0,   // position
                                0.0, 0.0, 0.0,  0.0, 0.0, 0.0,   // size
                                1.0, 0.0, 0.0,  0.0, 0.0, 0.0,   // c
-                               0.0, 0.0, 0.25, 3.0, 0.0, 0.0};  // s
-  const PrimitiveJacobian ring{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.5, 0.0, -4.0};
+                               0.0, 0.0, 0.25, 3.0, 0.0, 0.0,   // s
+                               0.0, 0.0, 0.0,  0.0, 0.0, 0.0};  // no turn
+  const PrimitiveJacobian ring{0.0, 0.0, 0.0, 0.0, 0.0, 0.0,    // position
+                               1.0, 0.0, 0.0, 0.5, 0.0, -4.0,   // size
+                               0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   EXPECT_EQ(J[0], tube);
   EXPECT_EQ(J[1], ring);
 

@@ -316,7 +316,7 @@ TEST(Loads, ThoseThatPushMayFold)
   const auto folds = [](const Model& m, const std::vector<double>& components) {
     return may_fold(m, {Direction::along(components), Sense::positive});
   };
-  const Model space = make_model(cubic(), solid, 0.0), sheet = make_model(chainmail(1, 1), flat, 0.0);
+  const Model space = make_model(diamond(), solid, 0.0), sheet = make_model(chainmail(1, 1), flat, 0.0);
   EXPECT_FALSE(folds(space, {1, 1, 1, 0, 0, 0}));
   EXPECT_FALSE(folds(space, {0, 1, 0, 0, 0, 0}));
   EXPECT_TRUE(folds(space, {0, -1, 0, 0, 0, 0}));
@@ -330,6 +330,8 @@ TEST(Loads, ThoseThatPushMayFold)
   EXPECT_TRUE(folds(sheet, {0, 0, 1}));
   EXPECT_TRUE(may_fold(sheet, {Direction::at_degrees(30), Sense::negative}));
   EXPECT_FALSE(may_fold(sheet, {Direction::at_degrees(30), Sense::positive}));
+  // Nothing is linked, and nothing holds such a solid together.
+  EXPECT_FALSE(folds(make_model(cubic(), solid, 0.0), {0, -1, 0, 0, 0, 0}));
 }
 
 /// A patch above the plane of its apex turns over about its own height: its image lies there, too.

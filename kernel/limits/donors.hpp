@@ -6,9 +6,9 @@
 
 namespace hauberk {
 
-/// True for a limit that has room to be short of the furthest state: that of a cell which repeats under a load
-/// that pushes it together along some line, as compressions do and, along components that links bound, shears.
-/// Fabrics that are stretched alone are taut.
+/// True for a limit that has room to be short of the furthest state: that of a cell which repeats under a
+/// load that pushes it together along some line, as compressions do and, along components that links bound,
+/// shears. Fabrics that are stretched alone are taut.
 bool may_fold(const Model& model, const LimitTask& task);
 
 /// Donors are numbered task by task; each has one donor for every symmetry of the scene, the identity first.

@@ -47,10 +47,10 @@ inline constexpr std::size_t most_symmetric_elements = 200000;
 ///
 /// Elements are compared as the model has them (primitives at rest, scaled), so that two shapes of different
 /// names may be equal. A torus is symmetric about its axis and under all mirrors through its centre. A closed
-/// curve is compared by its harmonics, up to a shift of its coordinate and its sense, a solid by points of its
-/// surface, which have to lie on it again. Meshes are equal only where one lies upon the other: of theirs,
-/// rotations of the element alone are found. An element's symmetry has to keep its origin, which is what load
-/// cases move: a ring away from its origin has no others.
+/// curve is compared by its harmonics, up to a shift of its coordinate and its sense, a solid by points of
+/// its surface, which have to lie on it again. Meshes are equal only where one lies upon the other: of
+/// theirs, rotations of the element alone are found. An element's symmetry has to keep its origin, which is
+/// what load cases move: a ring away from its origin has no others.
 ///
 /// A candidate takes O(n) for n elements if it is a symmetry, and mostly O(1) if it is none: elements are
 /// first told apart by how their neighbours lie around them, rare ones are looked at first, and only elements

@@ -124,7 +124,8 @@ TEST(Conform, ParametersOfTheSectionAreLookedAt)
 TEST(Conform, EachPluginOfALibrary)
 {
   const std::string file = HAUBERK_BINARY_DIR "/tests/bad_plugins/several.so";
-  const Outcome all = run_program({"plugins", "conform", file, "--filter", "^descriptor$|^shape.primitives$"});
+  const Outcome all =
+      run_program({"plugins", "conform", file, "--filter", "^descriptor$|^shape.primitives$"});
   EXPECT_EQ(all.code, 0) << all.out;
   EXPECT_NE(all.out.find("plugin several_ring 1.0, a shape: " + file + "\n"), std::string::npos) << all.out;
   EXPECT_NE(all.out.find("2 checks: 2 passed, 0 failed, 0 skipped\n"), std::string::npos) << all.out;

@@ -102,15 +102,15 @@ std::vector<Sector> tube_sectors(const Primitive& torus)
   return out;
 }
 
-/// Strips of a solid's chart between two neighbouring values of u. A row of points that are all one is a pole:
-/// of a chart with two, at v = 0 and pi, the half between them is the surface, cut into n/2 rows.
+/// Strips of a solid's chart between two neighbouring values of u. A row of points that are all one is a
+/// pole: of a chart with two, at v = 0 and pi, the half between them is the surface, cut into n/2 rows.
 std::vector<Sector> chart_sectors(const Primitive& body)
 {
   const int n = body.facets;
   const double step = 2.0 * std::numbers::pi / n;
   const auto at = [&](double u, double v) -> Vec3 {
-    return body.place.position +
-           body.place.rotation * body.solid->surface_point({std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
+    return body.place.position + body.place.rotation * body.solid->surface_point({std::cos(u), std::sin(u),
+                                                                                  std::cos(v), std::sin(v)});
   };
   double spread = 0.0;
   for (int i = 1; i < n; ++i) spread = std::max(spread, (at(i * step, 0.0) - at(0.0, 0.0)).norm());

@@ -26,7 +26,8 @@ SceneSpec cubic();
 /// that has y among its shortest vectors.
 SceneSpec trefoils();
 
-/// Tetrahedra of struts on the sites of diamond, corner in corner (share/experiments/diamond_tetrahedra.json).
+/// Tetrahedra of struts on the sites of diamond, corner in corner
+/// (share/experiments/diamond_tetrahedra.json).
 SceneSpec diamond();
 
 /// Truncated tetrahedra of struts on a cubic lattice, edge over edge.

@@ -1,6 +1,7 @@
 #include "tasks/design/evaluation_log.hpp"
 
 #include <fmt/format.h>
+#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,10 +18,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view format_name = "hauberk-evaluations/3 ";
+constexpr std::string_view format_name = "hauberk-evaluations/4 ";
 constexpr std::string_view end_of_line = " .";  ///< of a whole one
 constexpr char evaluation_mark = 'E';
 constexpr char states_mark = 'S';
+
+/// CRC-32 of a line up to here, as the line has it.
+std::string checksum(std::string_view text)
+{
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format(" {:08x}", crc.checksum());
+}
+
+/// What a whole line says, without its checksum and its end; null where it is not what was written.
+std::optional<std::string> undamaged(std::string_view line)
+{
+  constexpr std::size_t sum_length = 9;
+  line.remove_suffix(end_of_line.size());
+  if (line.size() < sum_length) return std::nullopt;
+  const std::string_view text = line.substr(0, line.size() - sum_length);
+  if (text.empty() || checksum(text) != line.substr(text.size())) return std::nullopt;
+  return std::string(text);
+}
 
 /// Same bits: 0 and -0 are different designs, and nothing is nearly the same.
 bool same(const std::vector<double>& a, const std::vector<double>& b)
@@ -60,7 +80,11 @@ class Writer {
         text_ += c;
     }
   }
-  std::string line() && { return std::move(text_.append(end_of_line)); }
+  std::string line() &&
+  {
+    text_ += checksum(text_);
+    return std::move(text_.append(end_of_line));
+  }
 
  private:
   std::string text_;
@@ -156,8 +180,14 @@ bool EvaluationLog::read(std::string_view identity)
     return false;
   position += line.size() + 1;
   while (std::getline(in, line) && !in.eof() && line.ends_with(end_of_line)) {
-    known_ += line.front() == evaluation_mark ? 1 : 0;
-    lines_.push_back({position, line.substr(0, line.size() - end_of_line.size())});
+    std::optional<std::string> text = undamaged(line);
+    if (!text) {
+      warn_(fmt::format("warning: {}: line {} is damaged; it and what follows are computed again",
+                        file_.string(), lines_.size() + 2));
+      break;
+    }
+    known_ += text->front() == evaluation_mark ? 1 : 0;
+    lines_.push_back({position, std::move(*text)});
     position += line.size() + 1;
   }
   in.close();

@@ -13,8 +13,9 @@
 namespace hauberk {
 
 /// A text file of lines: first who computes, then one line per evaluation and one per set of warm starts,
-/// with every number in the shortest form that reads back as the same double. Lines are written whole, and
-/// one that a kill cut off is ignored. Where the file cannot be written, a warning says so and nothing more
+/// with every number in the shortest form that reads back as the same double and with a checksum. Lines are
+/// written whole, and one that a kill cut off is ignored; from one that is damaged on nothing is believed,
+/// which is warned of. Where the file cannot be written, a warning says so and nothing more
 /// is remembered. Not thread safe.
 class EvaluationLog final : public EvaluationMemory {
  public:

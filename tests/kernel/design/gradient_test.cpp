@@ -223,11 +223,13 @@ TEST(DesignProblem, AdjointsAreCounted)
 }
 
 /// What an optimizer does that tries two designs before it accepts the first, from the start on.
-std::vector<double> try_two_accept_the_first(const fs::path& log, bool go_on)
+std::vector<double> try_two_accept_the_first(
+    const fs::path& log, bool go_on,
+    const EvaluationLog::Warn& warn = [](const std::string& w) { ADD_FAILURE() << w; })
 {
   const SceneSpec scene = uneven_chainmail();
   const Sheet load(2);
-  EvaluationLog memory(log, "identity", go_on, [](const std::string& w) { ADD_FAILURE() << w; });
+  EvaluationLog memory(log, "identity", go_on, warn);
   DesignProblem problem({scene, load, 0.0, LimitSettings{}, spec(), 1, [] { return true; }});
   problem.set_memory(&memory);
   std::vector<double> numbers;
@@ -281,6 +283,19 @@ TEST(DesignMemory, HoldsForAnOptimizerThatAcceptsWhatItTriedFirst)
   std::ofstream(log, std::ios::binary) << all.substr(0, ends[2]) + all.substr(ends[3]);
   EXPECT_EQ(try_two_accept_the_first(log, true), whole);
   EXPECT_EQ(text_of(log), all);
+  // Damage, wherever a number, its sign or the number of numbers is another one: told, and not believed.
+  const std::size_t begin = ends[3], length = ends[4] - begin;
+  for (const double share : {0.0, 0.02, 0.3, 0.9}) {
+    std::string damaged = all;
+    char& hit = damaged[begin + static_cast<std::size_t>(share * static_cast<double>(length))];
+    hit = hit == '7' ? '8' : '7';
+    std::ofstream(log, std::ios::binary) << damaged;
+    std::string warning;
+    EXPECT_EQ(try_two_accept_the_first(log, true, [&](const std::string& w) { warning += w; }), whole);
+    EXPECT_NE(warning.find("line 5 is damaged; it and what follows are computed again"), std::string::npos)
+        << warning;
+    EXPECT_EQ(text_of(log), all);
+  }
   fs::remove(log);
 }
 

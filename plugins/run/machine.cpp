@@ -1,8 +1,13 @@
 #include "run/machine.hpp"
 
+#include <sched.h>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -22,7 +27,77 @@ std::string processor_name()
   return "";
 }
 
+std::string first_line(const std::filesystem::path& file)
+{
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+/// The path of this process' group of version 2, "/" where there is none.
+std::string own_group()
+{
+  std::ifstream in("/proc/self/cgroup");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("0::/")) return line.substr(3);
+  return "/";
+}
+
+std::optional<unsigned> least(std::optional<unsigned> a, std::optional<unsigned> b)
+{
+  return a && b ? std::min(a, b) : a ? a : b;
+}
+
+std::optional<unsigned> quota_of_groups()
+{
+  const std::filesystem::path root = "/sys/fs/cgroup";
+  std::optional<unsigned> out;
+  for (std::filesystem::path group = own_group();; group = group.parent_path()) {
+    out = least(out, processors_of_quota(first_line(root / group.relative_path() / "cpu.max")));
+    if (!group.has_relative_path()) break;
+  }
+  const std::string period = first_line(root / "cpu/cpu.cfs_period_us");
+  return least(out, processors_of_quota(first_line(root / "cpu/cpu.cfs_quota_us") + " " + period));
+}
+
+std::optional<unsigned> count_in(const char* text)
+{
+  unsigned count = 0;
+  const std::string_view all = text == nullptr ? "" : text;
+  const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), count);
+  return error == std::errc() && end == all.data() + all.size() && count > 0 ? std::optional(count)
+                                                                             : std::nullopt;
+}
+
+/// Null where there are more processors than a set of the usual size holds.
+std::optional<unsigned> affinity()
+{
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (::sched_getaffinity(0, sizeof set, &set) != 0) return std::nullopt;
+  return static_cast<unsigned>(CPU_COUNT(&set));
+}
+
 }  // namespace
+
+std::optional<unsigned> processors_of_quota(std::string_view cpu_max)
+{
+  std::istringstream in{std::string(cpu_max)};
+  double quota = 0.0, period = 0.0;
+  if (!(in >> quota >> period) || !(quota > 0.0) || !(period > 0.0)) return std::nullopt;
+  constexpr double most = 1e6;
+  return static_cast<unsigned>(std::min(most, std::ceil(quota / period)));
+}
+
+unsigned available_processors()
+{
+  std::optional<unsigned> out = affinity();
+  if (!out) out = std::thread::hardware_concurrency();
+  out = least(out, quota_of_groups());
+  out = least(out, count_in(std::getenv("SLURM_CPUS_PER_TASK")));
+  return std::max(1U, *out);
+}
 
 Machine this_machine()
 {

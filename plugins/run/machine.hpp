@@ -1,10 +1,24 @@
 #pragma once
+/// What a run has to work with.
+
 #include "results/document.hpp"
+
+#include <optional>
+#include <string_view>
 
 namespace hauberk {
 
 /// The processor as /proc/cpuinfo names it, how many there are, and the load average of the last minute.
 /// Thread safe.
 Machine this_machine();
+
+/// Processors that this process may use, at least 1: those of its affinity, no more than the quota of its
+/// control groups allows (cpu.max of version 2 of the group and all above it, cfs_quota_us of version 1), and
+/// no more than SLURM_CPUS_PER_TASK says. Thread safe.
+unsigned available_processors();
+
+/// Whole processors that a quota amounts to, rounded up: `cpu_max` is the text of cpu.max, a quota and a
+/// period in microseconds. Null where there is no limit, or none that can be read.
+std::optional<unsigned> processors_of_quota(std::string_view cpu_max);
 
 }  // namespace hauberk

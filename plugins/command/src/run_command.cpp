@@ -2,6 +2,7 @@
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
 #include "run/interrupt.hpp"
+#include "run/machine.hpp"
 #include "run/memory.hpp"
 #include "run/provenance.hpp"
 #include "run/run_folder.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <thread>
 
 namespace hauberk::command {
 namespace {
@@ -24,7 +24,7 @@ constexpr int most_threads = 4096;
 
 unsigned thread_count(const Options& options)
 {
-  if (!options.has("threads")) return std::max(1U, std::thread::hardware_concurrency());
+  if (!options.has("threads")) return available_processors();
   const int n = options.get<int>("threads");
   if (n < 1 || n > most_threads)
     throw UsageError(fmt::format("--threads: expected a number from 1 to {}, found {}", most_threads, n),
@@ -178,7 +178,7 @@ Description run_description()
                {.name = "threads",
                 .takes = Takes::integer,
                 .value = "N",
-                .help = "threads to use; default: all of the machine",
+                .help = "threads to use; default: all processors that the process may use",
                 .more = "Results do not depend on it."},
                {.name = "quiet", .help = "show no progress"}},
               experiment_options())};

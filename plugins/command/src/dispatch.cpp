@@ -38,6 +38,17 @@ int run(const std::vector<std::string>& words)
   throw UsageError(fmt::format("unknown command '{}'{}", name, did_you_mean(name, known)), overview());
 }
 
+/// Help that is asked for is output like any other.
+int run_or_show(const std::vector<std::string>& words)
+{
+  try {
+    return run(words);
+  } catch (const ShowHelp& shown) {
+    fmt::print("{}", shown.text());
+    return exit_done;
+  }
+}
+
 int fail(int code, const std::string& message) noexcept
 {
   std::fprintf(stderr, "hauberk: %s\n", message.c_str());
@@ -49,11 +60,8 @@ int fail(int code, const std::string& message) noexcept
 int dispatch(const std::vector<std::string>& words) noexcept
 {
   try {
-    const int code = run(words);
+    const int code = run_or_show(words);
     return std::fflush(stdout) == 0 ? code : fail(exit_failed, "standard output cannot be written");
-  } catch (const ShowHelp& shown) {
-    fmt::print("{}", shown.text());
-    return exit_done;
   } catch (const UsageError& error) {
     std::fprintf(stderr, "hauberk: %s\n\n%s", error.what(), error.usage().c_str());
     return exit_bad_input;

@@ -1,5 +1,7 @@
 #include "run/machine.hpp"
 
+#include "run/first_line.hpp"
+
 #include <sched.h>
 #include <algorithm>
 #include <charconv>
@@ -25,14 +27,6 @@ std::string processor_name()
     return name < line.size() ? line.substr(name) : "";
   }
   return "";
-}
-
-std::string first_line(const std::filesystem::path& file)
-{
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  return line;
 }
 
 /// The path of this process' group of version 2, "/" where there is none.

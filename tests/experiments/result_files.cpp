@@ -26,6 +26,7 @@ Contents contents(const fs::path& folder)
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     // Evaluations of an interrupted design are lines, not a result; repeated_search_test.cpp is about them.
     if (entry.path().filename() == ".hauberk-evaluations") continue;
+    if (entry.path().filename() == ".hauberk-lock") continue;  // folder_lock_test.cpp is about it
     if (entry.is_regular_file()) out[entry.path().filename().string()] = read_text(entry.path());
   }
   return out;

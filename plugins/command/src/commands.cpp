@@ -104,7 +104,8 @@ std::vector<Entry> files()
           {"../share/hauberk/schema/experiment.schema.json", "schema of experiment files, for editors"},
           {"out/NAME/results.json", "what `run` computed of NAME.json, with the other files of its task"},
           {".hauberk-previous", "in the folder of results: those of a former run, until the new one is done"},
-          {".hauberk-evaluations", "in the folder of a design's results: what `--resume` goes on from"}};
+          {".hauberk-evaluations", "in the folder of a design's results: what `--resume` goes on from"},
+          {".hauberk-lock", "in the folder of results: the run that writes into it"}};
 }
 
 std::string usage_of_all()

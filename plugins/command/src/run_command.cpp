@@ -1,6 +1,7 @@
 #include "dispatch.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
+#include "run/folder_lock.hpp"
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
 #include "run/memory.hpp"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 namespace hauberk::command {
 namespace {
@@ -155,33 +157,40 @@ int conclude(const Job& job, RunFolder& output, const boost::json::object& docum
 
 Description run_description()
 {
-  return {.name = "run",
-          .form = "EXPERIMENT.json [-o DIR] [--force] [--threads N] [--set path=value ...]",
-          .line = "compute what the experiment asks for",
-          .synopsis = "run EXPERIMENT.json [options]",
-          .summary = "Computes what the experiment asks for and writes it to a folder.",
-          .arguments = {experiment_argument()},
-          .options = joined(
-              {{.name = "output",
-                .letter = 'o',
-                .takes = Takes::text,
-                .value = "DIR",
-                .help = "folder for the results; default: out/NAME-OF-THE-FILE",
-                .offer = Offer::folders},
-               {.name = "force",
-                .help = "replace results that the folder holds",
-                .more = "Without it they are refused. They stay in its folder `.hauberk-previous` until the "
-                        "new run is done."},
-               {.name = "resume",
-                .help = "go on from the partial results of the same experiment in the folder",
-                .more = "Where nothing is left to do it says so; where there are no results it starts anew."},
-               {.name = "threads",
-                .takes = Takes::integer,
-                .value = "N",
-                .help = "threads to use; default: all processors that the process may use",
-                .more = "Results do not depend on it."},
-               {.name = "quiet", .help = "show no progress"}},
-              experiment_options())};
+  return {
+      .name = "run",
+      .form = "EXPERIMENT.json [-o DIR] [--force] [--threads N] [--set path=value ...]",
+      .line = "compute what the experiment asks for",
+      .synopsis = "run EXPERIMENT.json [options]",
+      .summary = "Computes what the experiment asks for and writes it to a folder.",
+      .arguments = {experiment_argument()},
+      .options = joined(
+          {{.name = "output",
+            .letter = 'o',
+            .takes = Takes::text,
+            .value = "DIR",
+            .help = "folder for the results; default: out/NAME-OF-THE-FILE",
+            .offer = Offer::folders},
+           {.name = "force",
+            .help = "replace results that the folder holds",
+            .more = "Without it they are refused. They stay in its folder `.hauberk-previous` until the "
+                    "new run is done."},
+           {.name = "resume",
+            .help = "go on from the partial results of the same experiment in the folder",
+            .more = "Where nothing is left to do it says so; where there are no results it starts anew."},
+           {.name = "take-over",
+            .takes = Takes::text,
+            .value = "HOST:PID",
+            .help = "take the folder from this run, which is no more",
+            .more = "A run holds its folder; what a run of this machine leaves when it is killed is known "
+                    "to be gone, that of another machine is not."},
+           {.name = "threads",
+            .takes = Takes::integer,
+            .value = "N",
+            .help = "threads to use; default: all processors that the process may use",
+            .more = "Results do not depend on it."},
+           {.name = "quiet", .help = "show no progress"}},
+          experiment_options())};
 }
 
 int run_command(const std::vector<std::string>& words)
@@ -195,11 +204,16 @@ int run_command(const std::vector<std::string>& words)
   Job job = open_job(options);
   warn_of_plugins(*job.prepared);
   Provenance origin = provenance(*job.prepared, threads, job.task->measures_time());
+  const std::string take_over = options.has("take-over") ? options.get<std::string>("take-over") : "";
+  std::optional<FolderLock> lock;  // of a folder that is there; a new one has nothing that could be lost
+  if (std::filesystem::is_directory(folder)) lock.emplace(folder, take_over);
   const Former former = options.has("resume") ? resume(folder, job, origin) : Former{};
   if (former.left == Left::nothing) return already_complete(job, former.document, folder);
   const std::vector<const char*> names = result_names();
   // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
   prepare_output_directory(folder, options.has("force") || options.has("resume"), names);
+
+  if (!lock) lock.emplace(folder, take_over);
 
   const bool resuming = former.left == Left::something;
   if (!resuming) drop_journal(folder);

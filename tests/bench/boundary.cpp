@@ -46,7 +46,8 @@ int main(int argc, char** argv)
     ring.name = "ring";
     for (ElementType& type : scene.types)
       type.shape = std::make_shared<TorusUnion>(std::vector<std::string>{"ring"}, std::vector<Torus>{ring});
-    load = std::make_shared<InPlanePeriodic>(StrainMeasure::tensor, InPlanePeriodic::OutOfPlane{}, Hold{true, false});
+    load = std::make_shared<InPlanePeriodic>(StrainMeasure::tensor, InPlanePeriodic::OutOfPlane{},
+                                             InPlanePeriodic::Hold{true, false});
   }
   const LimitResult limit = measured(*prepared, scene, *load);
   fmt::print("{} {:.17g} {} iterations\n", to_string(limit.status), limit.value.value_or(0.0),

@@ -7,107 +7,145 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
-#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <sstream>
+#include <string>
 
 namespace hauberk {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// When a process began, in ticks since the machine did: field 22 of its stat, counted behind its name,
-/// which may have spaces and brackets. Empty where there is no such process, or where it has ended and its
-/// parent has not asked for it yet.
-std::string start_of(long pid)
-{
-  const std::string stat = first_line(fs::path("/proc") / std::to_string(pid) / "stat");
-  const std::size_t behind = stat.rfind(')');
-  if (behind == std::string::npos) return "";
-  std::istringstream fields(stat.substr(behind + 1));
-  constexpr int from_the_state = 19;
-  std::string word;
-  fields >> word;
-  if (word == "Z" || word == "X") return "";
-  for (int k = 0; k < from_the_state; ++k) fields >> word;
-  return word;
-}
+constexpr const char* unknown = "-";
 
 /// The run that a lock names.
 struct Holder {
-  std::string host, boot, processes, start;  ///< machine and when it began; namespace of processes
-  long pid = 0;
+  std::string host, pid, machine, boot;  ///< machine: its id, whatever its name; boot: the time it is up
 
-  std::string name() const { return fmt::format("{}:{}", host, pid); }
-  std::string text() const { return fmt::format("{} {} {} {} {}\n", host, pid, start, boot, processes); }
+  std::string name() const { return host.empty() ? "?" : host + ":" + pid; }
+  std::string text() const { return fmt::format("{} {} {} {}\n", host, pid, machine, boot); }
 };
 
 Holder this_run()
 {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  std::error_code error;
-  Holder own{host.data(), first_line("/proc/sys/kernel/random/boot_id"),
-             fs::read_symlink("/proc/self/ns/pid", error).string(), start_of(::getpid()), ::getpid()};
-  for (std::string* word : {&own.host, &own.boot, &own.processes, &own.start})
-    if (word->empty() || word->find(' ') != std::string::npos) *word = "-";
+  Holder own{host.data(), std::to_string(::getpid()), first_line("/etc/machine-id"),
+             first_line("/proc/sys/kernel/random/boot_id")};
+  for (std::string* word : {&own.host, &own.machine, &own.boot})
+    if (word->empty() || word->find_first_of(" \t") != std::string::npos) *word = unknown;
   return own;
 }
 
-Holder read_holder(const fs::path& file)
+/// What the file says; nothing in it where a run was killed before it had written.
+Holder read_holder(int descriptor)
 {
-  std::istringstream in(first_line(file));
+  std::array<char, 1024> text{};
+  const ssize_t length = ::pread(descriptor, text.data(), text.size(), 0);
+  std::istringstream in(std::string(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length))));
   Holder holder;
-  in >> holder.host >> holder.pid >> holder.start >> holder.boot >> holder.processes;
+  in >> holder.host >> holder.pid >> holder.machine >> holder.boot;
   return holder;
 }
 
-/// Certain only of a process that this one can look for.
-bool is_gone(const Holder& holder, const Holder& own)
+/// Whether the locks of this machine would tell if the run was going on.
+bool is_of_this_machine(const Holder& holder, const Holder& own)
 {
-  if (holder.host != own.host || holder.host == "-") return false;
-  if (holder.boot != own.boot) return true;
-  return holder.processes == own.processes && start_of(holder.pid) != holder.start;
+  const auto same = [](const std::string& a, const std::string& b) { return a == b && a != unknown; };
+  return holder.host.empty() || same(holder.boot, own.boot) ||
+         (same(holder.host, own.host) && same(holder.machine, own.machine));
+}
+
+/// Of a file that another run has taken away in the meantime there is nothing to hold.
+bool is_still_there(int descriptor, const fs::path& file)
+{
+  struct stat opened {
+  }, found{};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(file.c_str(), &found) == 0 &&
+         opened.st_dev == found.st_dev && opened.st_ino == found.st_ino;
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& holder, const std::string& take_over,
+                         bool going_on)
+{
+  const std::string other =
+      take_over.empty() || take_over == holder ? "" : fmt::format(" (not {})", take_over);
+  throw InputError(
+      fmt::format("{}: the run {} writes into this folder; wait for it, or give another folder with -o{}",
+                  folder.string(), holder,
+                  going_on ? "" : fmt::format("; if it is no more, --take-over {}{}", holder, other)));
+}
+
+enum class Answer {
+  free,    ///< no process that this machine knows has the lock
+  taken,   ///< one has it
+  unknown  ///< this file system has no locks
+};
+
+struct Opened {
+  int descriptor = -1;  ///< -1: the file cannot be made
+  Answer answer = Answer::unknown;
+};
+
+Answer ask_for_lock(int descriptor)
+{
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Answer::free;
+  return errno == EWOULDBLOCK ? Answer::taken : Answer::unknown;
+}
+
+Opened open_locked(const fs::path& file)
+{
+  for (;;) {
+    const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (descriptor < 0) return {};
+    const Answer answer = ask_for_lock(descriptor);
+    if (is_still_there(descriptor, file)) return {descriptor, answer};
+    ::close(descriptor);
+  }
+}
+
+/// Whether what the file says leaves it to this run.
+bool is_left(const Holder& holder, const Holder& own, Answer answer)
+{
+  if (answer == Answer::unknown) return holder.host.empty();
+  return answer == Answer::free && is_of_this_machine(holder, own);
 }
 
 }  // namespace
 
 FolderLock::FolderLock(const fs::path& folder, const std::string& take_over) : file_(folder / lock_file)
 {
-  const Holder own = this_run();
-  constexpr int attempts = 3;  // others may find the same lock left behind, and be quicker
-  for (int k = 0; k < attempts; ++k) {
-    const int file = ::open(file_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file >= 0) {
-      const std::string text = own.text();
-      // A lock that a full disk leaves empty is one all the same.
-      static_cast<void>(::write(file, text.data(), text.size()) < 0);
-      ::close(file);
-      held_ = true;
-      return;
-    }
-    if (errno != EEXIST) return;
-    const Holder holder = read_holder(file_);
-    if (!is_gone(holder, own) && holder.name() != take_over) {
-      throw InputError(fmt::format(
-          "{}: the run {} writes into this folder; wait for it, give another folder with -o, or, if it is no "
-          "more, --take-over {}{}",
-          folder.string(), holder.name(), holder.name(),
-          take_over.empty() ? "" : fmt::format(" (not {})", take_over)));
-    }
-    ::unlink(file_.c_str());
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(file_, error);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw InputError(fmt::format("{}: is not a file; remove it", file_.string()));
+  const Opened opened = open_locked(file_);
+  if (opened.descriptor < 0) return;
+  const Holder own = this_run(), holder = read_holder(opened.descriptor);
+  const std::string name = holder.name();
+  const bool going_on = opened.answer == Answer::taken;
+  if (!is_left(holder, own, opened.answer) && (going_on || name != take_over)) {
+    ::close(opened.descriptor);
+    refuse(folder, name, take_over, going_on);
   }
-  throw InputError(
-      fmt::format("{}: other runs begin in this folder; give another one with -o", folder.string()));
+  descriptor_ = opened.descriptor;
+  // What a full disk does not take is missing in messages alone.
+  const std::string text = own.text();
+  static_cast<void>(::ftruncate(descriptor_, 0) != 0 ||
+                    ::pwrite(descriptor_, text.data(), text.size(), 0) < 0);
 }
 
 FolderLock::~FolderLock()
 {
-  // It may have been taken over.
-  if (held_ && first_line(file_) + "\n" == this_run().text()) ::unlink(file_.c_str());
+  if (descriptor_ < 0) return;
+  // While it is held: whoever has opened it sees that it is gone, and makes a new one.
+  ::unlink(file_.c_str());
+  ::close(descriptor_);
 }
 
 }  // namespace hauberk

@@ -9,14 +9,16 @@ namespace hauberk {
 /// File that says which run an output folder belongs to.
 inline constexpr const char* lock_file = ".hauberk-lock";
 
-/// Holds an output folder for this run until it is destroyed: a file made only where none is, which names
-/// machine, process, when they began, and the namespace of processes. Where the file cannot be made for other
-/// reasons nothing is held: what is wrong with the folder shows when results are written. Not thread safe.
+/// Holds an output folder for this run until it is destroyed: an advisory lock (flock) of a file that names
+/// machine and process. The system takes the lock from a process that ends, however it ends, so what a killed
+/// run leaves is taken over. Other machines may not see it: the file of another one, or of one of which
+/// nothing but the name is known to be the same, counts as held until `take_over` names its run as HOST:PID.
+/// Where the file cannot be made nothing is held; what is wrong with the folder shows when results are
+/// written. Not thread safe.
 class FolderLock {
  public:
-  /// Takes over what is left of a run that is gone. That of another machine, or of another namespace of
-  /// processes, is never taken to be gone: `take_over` names it as HOST:PID. Throws InputError naming the run
-  /// that holds the folder, and the way out; also where `take_over` names another one.
+  /// Throws InputError naming the run that holds the folder, and the way out; also where `take_over` names
+  /// another one, or one that is known to be going on.
   FolderLock(const std::filesystem::path& folder, const std::string& take_over);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -24,7 +26,7 @@ class FolderLock {
 
  private:
   std::filesystem::path file_;
-  bool held_ = false;
+  int descriptor_ = -1;  ///< -1: nothing is held
 };
 
 }  // namespace hauberk

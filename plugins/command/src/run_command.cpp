@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <optional>
 
 namespace hauberk::command {
 namespace {
@@ -182,8 +181,8 @@ Description run_description()
             .takes = Takes::text,
             .value = "HOST:PID",
             .help = "take the folder from this run, which is no more",
-            .more = "A run holds its folder; what a run of this machine leaves when it is killed is known "
-                    "to be gone, that of another machine is not."},
+            .more = "A run holds its folder until it ends, however it ends, as far as this machine knows; "
+                    "whether one of another machine has ended it cannot know."},
            {.name = "threads",
             .takes = Takes::integer,
             .value = "N",
@@ -205,15 +204,15 @@ int run_command(const std::vector<std::string>& words)
   warn_of_plugins(*job.prepared);
   Provenance origin = provenance(*job.prepared, threads, job.task->measures_time());
   const std::string take_over = options.has("take-over") ? options.get<std::string>("take-over") : "";
-  std::optional<FolderLock> lock;  // of a folder that is there; a new one has nothing that could be lost
-  if (std::filesystem::is_directory(folder)) lock.emplace(folder, take_over);
+  // A folder that cannot be made is told of when it is prepared.
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  const FolderLock lock(folder, take_over);
   const Former former = options.has("resume") ? resume(folder, job, origin) : Former{};
   if (former.left == Left::nothing) return already_complete(job, former.document, folder);
   const std::vector<const char*> names = result_names();
   // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
   prepare_output_directory(folder, options.has("force") || options.has("resume"), names);
-
-  if (!lock) lock.emplace(folder, take_over);
 
   const bool resuming = former.left == Left::something;
   if (!resuming) drop_journal(folder);

@@ -1,7 +1,7 @@
 #pragma once
 /// Short constructors that keep the table of fields readable.
 
-#include <hauberk/section.hpp>
+#include <hauberk/kit/fields.hpp>
 
 #include <string>
 #include <vector>
@@ -10,10 +10,7 @@ namespace hauberk::fields {
 
 inline Field make(std::string name, Field::Kind kind, std::string doc, std::string unit = "")
 {
-  Field field;
-  field.name = std::move(name);
-  field.kind = kind;
-  field.doc = std::move(doc);
+  Field field = kit::field(kind, std::move(name), "", std::move(doc));
   field.unit = std::move(unit);
   return field;
 }

@@ -1,5 +1,7 @@
 #include "closed_tube.hpp"
 
+#include <hauberk/kit/fields.hpp>
+
 #include <limits>
 #include <numeric>
 #include <string>
@@ -105,17 +107,6 @@ Family fourier(int harmonics)
   return f;
 }
 
-Field integer(std::string name, double minimum, double maximum, std::string doc)
-{
-  Field field;
-  field.name = std::move(name);
-  field.kind = Field::Kind::integer;
-  field.minimum = minimum;
-  field.maximum = maximum;
-  field.doc = std::move(doc);
-  return field;
-}
-
 }  // namespace
 
 void closed_tube_fields(std::vector<Field>& out)
@@ -130,7 +121,8 @@ void closed_tube_fields(std::vector<Field>& out)
       "racetrack (the same, with straight sides), polygon (R, corner), knot (R, a, b), fourier (c1.x, c1.y, "
       "c1.z, s1.x, ...: all coefficients of cos u, sin u, cos 2 u, ...); and r, the tube's radius.";
   out.push_back(std::move(curve));
-  out.push_back(integer("corners", 2, most_harmonics, "Of a polygon: its corners; 3 without."));
+  out.push_back(
+      kit::integer_field("corners", "", 2, most_harmonics, "Of a polygon: its corners; 3 without."));
   Field turns;
   turns.name = "turns";
   turns.kind = Field::Kind::numbers;
@@ -141,7 +133,7 @@ void closed_tube_fields(std::vector<Field>& out)
       "Of a knot: how often it goes around the axis and up and down meanwhile, without common divisor; "
       "[2, 3] without: a trefoil.";
   out.push_back(std::move(turns));
-  out.push_back(integer("harmonics", 1, most_harmonics, "Of fourier: how many; 3 without."));
+  out.push_back(kit::integer_field("harmonics", "", 1, most_harmonics, "Of fourier: how many; 3 without."));
 }
 
 std::unique_ptr<Shape> make_closed_tube(const Node& section, Problems& problems)

@@ -1,5 +1,6 @@
 #include "torus_union.hpp"
 
+#include <hauberk/kit/fields.hpp>
 #include <hauberk/suggestion.hpp>
 
 #include <Eigen/Geometry>
@@ -131,10 +132,7 @@ class Reader {
 
 Field named(std::string name, Field::Kind kind, std::string doc, std::string unit = {})
 {
-  Field field;
-  field.name = std::move(name);
-  field.kind = kind;
-  field.doc = std::move(doc);
+  Field field = kit::field(kind, std::move(name), "", std::move(doc));
   field.unit = std::move(unit);
   return field;
 }

@@ -1,28 +1,10 @@
 // The smallest correct shape. CMake defines PLUGIN_ID, and ALTERATION: a statement that may spoil the table.
+#include "ring.hpp"
+
 #include <hauberk/plugin.hpp>
 
 namespace hauberk {
 namespace {
-
-/// One round ring of fixed size.
-class Ring final : public Shape {
- protected:
-  const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
-  void do_primitives(std::span<const double>, std::vector<Primitive>& out) const override
-  {
-    Primitive ring;
-    ring.name = "ring";
-    ring.size = {5.0, 0.5, 0.5};
-    out = {ring};
-  }
-  void do_jacobians(std::span<const double>, std::vector<PrimitiveJacobian>& out) const override
-  {
-    out.assign(1, PrimitiveJacobian{});
-  }
-
- private:
-  std::vector<ParameterInfo> parameters_;
-};
 
 void fields(std::vector<Field>&) {}
 

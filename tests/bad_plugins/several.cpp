@@ -1,5 +1,7 @@
 // Two plugins in one library, a shape and an optimizer. CMake defines PLUGIN_ID, with which their ids begin;
 // ALTERATION: a statement that may spoil the second table; and LIST: what the library exports.
+#include "ring.hpp"
+
 #include <hauberk/kit/plugin_table.hpp>
 
 namespace hauberk {
@@ -12,26 +14,6 @@ class Nothing final : public Optimizer {
   {
     return {"failed", "it never tries", {start.begin(), start.end()}};
   }
-};
-
-/// One round ring of fixed size.
-class Ring final : public Shape {
- protected:
-  const std::vector<ParameterInfo>& do_parameters() const override { return parameters_; }
-  void do_primitives(std::span<const double>, std::vector<Primitive>& out) const override
-  {
-    Primitive ring;
-    ring.name = "ring";
-    ring.size = {5.0, 0.5, 0.5};
-    out = {ring};
-  }
-  void do_jacobians(std::span<const double>, std::vector<PrimitiveJacobian>& out) const override
-  {
-    out.assign(1, PrimitiveJacobian{});
-  }
-
- private:
-  std::vector<ParameterInfo> parameters_;
 };
 
 std::unique_ptr<Shape> make_ring(const Node&, Problems&) { return std::make_unique<Ring>(); }

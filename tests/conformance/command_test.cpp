@@ -198,8 +198,11 @@ TEST(New, RefusesWhatMakesNoSense)
         "'" + name +
             "' is no name for a plugin; expected small letters, digits and single '_', such as oval_link");
   }
-  expect_refused({"--kind", "shape", "install", to},
-                 "'install' is no name for a plugin: it means something else to CMake");
+  for (const std::string name : {"install", "optimizer", "my_plugin_name", "plugin_template"}) {
+    expect_refused(
+        {"--kind", "optimizer", name, to},
+        "'" + name + "' is no name for a plugin: it means something else to CMake, or to Hauberk's headers");
+  }
   expect_refused({"--kind", "shape", "sqp", to},
                  "there is a plugin 'sqp' already (" + plugins + "sqp.so); choose another name");
   EXPECT_FALSE(fs::exists(to));

@@ -2,7 +2,7 @@
 /// The one entry of a plugin library: a constant table, checked from the top before anything else is used.
 ///
 /// A plugin is a shared library that exports one constant, `hauberk_plugin` (see shapes/torus_union for an
-/// example). It has no static constructors with effects, and is never unloaded.
+/// example), or a list of several, `hauberk_plugins` (hauberk/kit/plugin_table.hpp). It has no static constructors with effects, and is never unloaded.
 
 #include <hauberk/load_case.hpp>
 #include <hauberk/optimizer.hpp>
@@ -107,7 +107,7 @@ enum class PluginKind : std::uint32_t { shape = 1, load_case = 2, optimizer = 3 
 struct PluginTable {
   Handshake handshake;
   PluginKind kind;
-  const char* id;  ///< as written in experiments; equals the library's file name without prefix and ending
+  const char* id;  ///< as written in experiments; of a library of one plugin its file name without ending
   const char* version;
   const char* summary;   ///< one sentence
   const char* citation;  ///< where the method comes from

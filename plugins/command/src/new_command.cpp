@@ -29,9 +29,11 @@ constexpr std::array<Template, 5> templates = {{{"shape", "shape"},
                                                 {"patch", "load_case"},
                                                 {"optimizer", "optimizer"}}};
 constexpr const char* expected = "shape, solid, load_case, patch or optimizer";
-/// Targets that CMake makes itself, which a plugin cannot be called.
-constexpr std::array<std::string_view, 9> taken = {"all",     "clean", "edit_cache",    "help", "install",
-                                                   "package", "test",  "rebuild_cache", "list"};
+/// Targets that CMake makes itself, and what classes of the interface would be called.
+constexpr std::array<std::string_view, 22> taken = {
+    "all",   "clean", "edit_cache", "help",      "install",   "package",       "test",  "rebuild_cache",
+    "list",  "shape", "load_case",  "optimizer", "primitive", "solid",         "field", "node",
+    "point", "turn",  "problems",   "direction", "about",     "parameter_info"};
 
 /// What stands for the name in the template, and as the name of a class; for the kind and the template.
 constexpr std::string_view name_mark = "plugin_name", class_mark = "PluginName", kind_mark = "plugin_kind",
@@ -50,8 +52,11 @@ void check_name(const std::string& name, const Registry& registry)
         "'{}' is no name for a plugin; expected small letters, digits and single '_', such as oval_link",
         name));
   }
-  if (std::find(taken.begin(), taken.end(), name) != taken.end() || name == name_mark)
-    throw InputError(fmt::format("'{}' is no name for a plugin: it means something else to CMake", name));
+  const auto has = [&name](std::string_view mark) { return name.find(mark) != std::string::npos; };
+  const bool marked = has(name_mark) || has(kind_mark) || has(template_mark);
+  if (std::find(taken.begin(), taken.end(), name) != taken.end() || marked)
+    throw InputError(fmt::format(
+        "'{}' is no name for a plugin: it means something else to CMake, or to Hauberk's headers", name));
   if (name == union_table().id)
     throw InputError(
         fmt::format("there is a shape '{}' already, which is built in; choose another name", name));

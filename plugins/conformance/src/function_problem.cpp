@@ -80,6 +80,7 @@ std::vector<OptimizationProblem::Evaluation> FunctionProblem::evaluate_batch(std
   check_batch(count, points);
   const std::size_t n = lower_bounds.size();
   if (count > 1) ++batches;
+  just_accepted = false;  // each point of a batch counts
   std::vector<Evaluation> found(count);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = backwards ? count - 1 - k : k;

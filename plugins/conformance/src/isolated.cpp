@@ -163,22 +163,27 @@ Report conform_one(Report report, const Identity& identity, const Conditions& co
   return report;
 }
 
-}  // namespace
-
-std::vector<Report> conform_all(const std::filesystem::path& file, const Conditions& conditions)
+Contents contents_of(const std::filesystem::path& file, const Conditions& conditions)
 {
-  const auto start = Clock::now();
-  const Contents contents =
-      conditions.in_process ? look_into(file) : look_into_in_child(file, conditions.seconds);
-  Report report = begun(file, conditions);
-  if (!contents.error.empty()) return {not_loaded(report, contents.error, seconds_since(start))};
+  return conditions.in_process ? look_into(file) : look_into_in_child(file, conditions.seconds);
+}
+
+std::string ids_of(const Contents& contents)
+{
+  std::vector<std::string> ids;
+  for (const Identity& identity : contents.plugins) ids.push_back(identity.id);
+  return fmt::format("{}", fmt::join(ids, ", "));
+}
+
+/// The reports of the plugins that a library has and the conditions name.
+std::vector<Report> conform_contents(Report report, const Contents& contents, const Conditions& conditions,
+                                     Clock::time_point start)
+{
   std::vector<Report> reports;
-  std::vector<std::string> known;
   std::optional<InputError> unmatched;
   report.one_of_several = contents.plugins.size() > 1;
   Conditions named = conditions;
   for (const Identity& identity : contents.plugins) {
-    known.push_back(identity.id);
     named.plugin = identity.id;
     if (!conditions.plugin.empty() && conditions.plugin != identity.id) continue;
     try {
@@ -189,21 +194,34 @@ std::vector<Report> conform_all(const std::filesystem::path& file, const Conditi
   }
   if (reports.empty() && unmatched) throw *unmatched;
   if (reports.empty()) {
-    const std::string why =
-        fmt::format("it has no plugin '{}', but {}", conditions.plugin, fmt::join(known, ", "));
+    const std::string why = fmt::format("it has no plugin '{}', but {}", conditions.plugin, ids_of(contents));
     reports.push_back(not_loaded(report, why, seconds_since(start)));
   }
   return reports;
 }
 
+}  // namespace
+
+std::vector<Report> conform_all(const std::filesystem::path& file, const Conditions& conditions)
+{
+  const auto start = Clock::now();
+  const Contents contents = contents_of(file, conditions);
+  Report report = begun(file, conditions);
+  if (!contents.error.empty()) return {not_loaded(report, contents.error, seconds_since(start))};
+  return conform_contents(std::move(report), contents, conditions, start);
+}
+
 Report conform(const std::filesystem::path& file, const Conditions& conditions)
 {
-  std::vector<Report> reports = conform_all(file, conditions);
-  if (reports.size() == 1) return std::move(reports.front());
-  std::vector<std::string> known;
-  for (const Report& report : reports) known.push_back(report.id);
-  return not_loaded(begun(file, conditions),
-                    fmt::format("it has several plugins, {}; name one of them", fmt::join(known, ", ")), 0.0);
+  const auto start = Clock::now();
+  const Contents contents = contents_of(file, conditions);
+  Report report = begun(file, conditions);
+  if (!contents.error.empty()) return not_loaded(report, contents.error, seconds_since(start));
+  if (contents.plugins.size() > 1 && conditions.plugin.empty()) {
+    return not_loaded(report, fmt::format("it has several plugins, {}; name one of them", ids_of(contents)),
+                      seconds_since(start));
+  }
+  return std::move(conform_contents(std::move(report), contents, conditions, start).front());
 }
 
 }  // namespace hauberk::conformance

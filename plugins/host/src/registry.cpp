@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 #include <system_error>
 
 namespace hauberk {
@@ -101,10 +100,11 @@ const std::vector<fs::path>& Registry::lists(const fs::path& folder) const
 std::vector<PluginEntry> Registry::entries_in(const fs::path& folder) const
 {
   std::vector<PluginEntry> entries;
-  std::set<fs::path> listed(lists(folder).begin(), lists(folder).end());
+  const std::vector<fs::path>& several = lists(folder);
   for (const fs::path& file : library_files(folder))
-    if (!listed.contains(file)) entries.push_back({file.stem().native(), file});
-  for (const fs::path& file : lists(folder)) {
+    if (!std::binary_search(several.begin(), several.end(), file))
+      entries.push_back({file.stem().native(), file});
+  for (const fs::path& file : several) {
     const Loaded& loaded = load(file);
     if (loaded.tables.empty()) entries.push_back({file.stem().native(), file, nullptr, loaded.problem});
     for (const PluginTable* table : loaded.tables) entries.push_back({table->id, file, table});
@@ -143,7 +143,7 @@ const PluginTable& Registry::find(PluginKind kind, std::string_view id) const
     throw InputError(fmt::format("'{}' is not a plugin id; expected letters, digits, '_' and '-'", id));
   }
   for (const fs::path& folder : directories_) {
-    const std::vector<fs::path> files = files_in(folder, id);
+    const std::vector<fs::path> files = files_in(folder, id, true);
     if (files.empty()) continue;
     const Loaded& loaded = load(files.front());
     const PluginTable* table = loaded.find(id);
@@ -156,16 +156,18 @@ const PluginTable& Registry::find(PluginKind kind, std::string_view id) const
   report_missing(kind, id);
 }
 
-std::vector<fs::path> Registry::files_in(const fs::path& folder, std::string_view id) const
+std::vector<fs::path> Registry::files_in(const fs::path& folder, std::string_view id, bool first_only) const
 {
   std::vector<fs::path> out;
   fs::path own = folder / (std::string(id) + ".so");
   const std::vector<fs::path>& several = lists(folder);
-  const bool is_list = std::find(several.begin(), several.end(), own) != several.end();
+  const bool is_list = std::binary_search(several.begin(), several.end(), own);
   // A file of that name that cannot be used is reported, whatever it may have had.
   if (present(own) && (!is_list || load(own).tables.empty())) out.push_back(std::move(own));
-  for (const fs::path& file : several)
+  for (const fs::path& file : several) {
+    if (first_only && !out.empty()) break;
     if (load(file).find(id)) out.push_back(file);
+  }
   return out;
 }
 
@@ -174,7 +176,7 @@ std::vector<fs::path> Registry::files(std::string_view id) const
   std::vector<fs::path> out;
   if (!well_formed_id(id)) return out;
   for (const fs::path& folder : directories_) {
-    std::vector<fs::path> here = files_in(folder, id);
+    std::vector<fs::path> here = files_in(folder, id, false);
     std::move(here.begin(), here.end(), std::back_inserter(out));
   }
   return out;

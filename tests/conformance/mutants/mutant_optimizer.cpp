@@ -2,6 +2,7 @@
 
 #include "defect.hpp"
 
+#include <hauberk/kit/fields.hpp>
 #include <hauberk/optimizer.hpp>
 
 #include <random>
@@ -191,14 +192,7 @@ void fields(std::vector<Field>& out)
 {
   reference_plugin.fields(out);
   add_defect_field(out);
-  Field seed;
-  seed.name = "seed";
-  seed.kind = Field::Kind::integer;
-  seed.minimum = 0.0;
-  seed.maximum = 1e6;
-  seed.default_json = "1";
-  seed.doc = "Seed of all draws.";
-  out.push_back(seed);
+  out.push_back(kit::integer_field("seed", "1", 0.0, 1e6, "Seed of all draws."));
 }
 
 std::unique_ptr<Optimizer> make(const Node& section, Problems& problems)

@@ -31,50 +31,36 @@ struct About {
 /// Of a plugin without settings of its own.
 inline void no_fields(std::vector<Field>& /*out*/) {}
 
+/// A table without a factory.
+consteval PluginTable table_of(PluginKind kind, const About& about, void (*fields)(std::vector<Field>&))
+{
+  return {HAUBERK_HANDSHAKE, kind,   about.id, about.version, about.summary,
+          about.citation,    fields, nullptr,  nullptr,       nullptr};
+}
+
 /// The table of a shape; that of the other kinds is made alike.
 consteval PluginTable shape_table(const About& about, void (*fields)(std::vector<Field>&),
                                   std::unique_ptr<Shape> (*make)(const Node&, Problems&))
 {
-  return {HAUBERK_HANDSHAKE,
-          PluginKind::shape,
-          about.id,
-          about.version,
-          about.summary,
-          about.citation,
-          fields,
-          make,
-          nullptr,
-          nullptr};
+  PluginTable table = table_of(PluginKind::shape, about, fields);
+  table.make_shape = make;
+  return table;
 }
 
 consteval PluginTable load_case_table(const About& about, void (*fields)(std::vector<Field>&),
                                       std::unique_ptr<LoadCase> (*make)(const Node&, double, Problems&))
 {
-  return {HAUBERK_HANDSHAKE,
-          PluginKind::load_case,
-          about.id,
-          about.version,
-          about.summary,
-          about.citation,
-          fields,
-          nullptr,
-          make,
-          nullptr};
+  PluginTable table = table_of(PluginKind::load_case, about, fields);
+  table.make_load_case = make;
+  return table;
 }
 
 consteval PluginTable optimizer_table(const About& about, void (*fields)(std::vector<Field>&),
                                       std::unique_ptr<Optimizer> (*make)(const Node&, Problems&))
 {
-  return {HAUBERK_HANDSHAKE,
-          PluginKind::optimizer,
-          about.id,
-          about.version,
-          about.summary,
-          about.citation,
-          fields,
-          nullptr,
-          nullptr,
-          make};
+  PluginTable table = table_of(PluginKind::optimizer, about, fields);
+  table.make_optimizer = make;
+  return table;
 }
 
 }  // namespace hauberk::kit

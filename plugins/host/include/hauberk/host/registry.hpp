@@ -30,8 +30,8 @@ struct PluginEntry {
 /// Plugins of a list of folders. A plugin is the file ID.so, or one of those that a library of several has in
 /// its list, whatever its name; in the first folder that has it, it is used, and those of that id in later
 /// folders are shadowed. In one folder ID.so comes first, then libraries of several by their names. Loads a
-/// library when it is first asked for, each once: one of several when an id is looked for in its folder that
-/// has no file there. All calls are thread safe.
+/// library when it is first asked for, each once: `find` those of several in a folder that has no file ID.so,
+/// `files` and `list` all of them. All calls are thread safe.
 class Registry {
  public:
   /// `directories` as from plugin_search_path; those that do not exist are passed over.
@@ -62,8 +62,9 @@ class Registry {
   const Loaded& load(const std::filesystem::path& file) const;
   /// The libraries of several plugins in a folder, by their names, as they were when first asked for.
   const std::vector<std::filesystem::path>& lists(const std::filesystem::path& folder) const;
-  /// The files of one folder that have the plugin.
-  std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, std::string_view id) const;
+  /// The files of one folder that have the plugin, or the first of them.
+  std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, std::string_view id,
+                                              bool first_only) const;
   std::vector<PluginEntry> entries_in(const std::filesystem::path& folder) const;
   [[noreturn]] void report_missing(PluginKind kind, std::string_view id) const;
 

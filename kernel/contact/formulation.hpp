@@ -83,6 +83,7 @@ void add_published(const PairFrame& frame, const ContactSettings& settings, cons
 struct Minimum {
   double u = 0.0, v = 0.0;
   double distance = 0.0;  ///< surface distance, no clearance
+  bool flat = false;      ///< no curvature: one of many places with this distance, along a circle or a face
 };
 
 /// All local minima with surface distance below `threshold`, which are in `near`.

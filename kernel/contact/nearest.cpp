@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace hauberk {
 namespace {
@@ -31,8 +32,10 @@ constexpr int most_evaluations = 20000000;
 constexpr double smallest_slope = 2e-16;
 
 /// Surfaces that lie flat upon each other, or coaxial, have no curvature along which they could be nearest:
-/// rounding may make it negative by this much (1/L), and any of these places stands for the others.
+/// rounding may give it this size (1/L) and any sign. One such place is found on each panel.
 constexpr double flat = 1e-12;
+/// Distances of such places that differ by less are those of one circle or face.
+constexpr double same_distance = 1e-12;
 
 /// Minima closer than this are the same one found from two panels.
 constexpr double same_minimum = 1e-5;  // radians
@@ -262,7 +265,7 @@ class StationarySearch {
       const double size = std::hypot(dx, dy);
       if (slope < smallest_slope || (size < 1e-12 && shift == 0.0)) {
         if (lowest > -flat && l.f.m.phi < threshold_)
-          insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
+          insert(out_, canonical({u, v, l.f.m.phi - probe_.offset, lowest <= flat}));
         return;
       }
       if (size > 2.0 * seed_width) {
@@ -284,7 +287,8 @@ class StationarySearch {
       if (!lower) {
         // Inside of F the distance has ridges, where nothing is deeper beside them and no slope ends.
         const bool ends = (slope < 1e-10 && lowest > -flat) || l.f.m.phi < 0.0;
-        if (ends && l.f.m.phi < threshold_) insert(out_, canonical({u, v, l.f.m.phi - probe_.offset}));
+        if (ends && l.f.m.phi < threshold_)
+          insert(out_, canonical({u, v, l.f.m.phi - probe_.offset, lowest <= flat}));
         return;
       }
     }
@@ -326,8 +330,12 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
                  const NearPanels& near, SideTerms& out)
 {
   const Probe<dim> probe(frame);
+  double of_flat = -std::numeric_limits<double>::infinity();
   for (const Minimum& m :
        local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations, near)) {
+    // Of a circle or a face one place stands for the others: their number is that of panels.
+    if (m.flat && m.distance - of_flat < same_distance) continue;
+    if (m.flat) of_flat = m.distance;
     const double g = m.distance - settings.clearance;
     out.min_gap = std::min(out.min_gap, g);
     if (g <= 0.0) continue;

@@ -18,7 +18,8 @@ void DesignJournal::evaluate(const std::vector<std::shared_ptr<DesignPoint>>& po
     if (iterate.states_missing) find_states(iterate, iterate);
     const std::size_t open = points.size() - known;
     const unsigned threads = search_.threads();
-    const unsigned each = std::max(1U, threads / static_cast<unsigned>(open));  // the directions of a point
+    const auto count = static_cast<unsigned>(open);
+    const unsigned each = (threads + count - 1) / count;  // for the directions of a point
     parallel_for(open, threads,
                  [&](std::size_t i) { cost[known + i] = search_.solve(*points[known + i], iterate, each); });
   }

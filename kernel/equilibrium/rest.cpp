@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace hauberk {
 namespace {
@@ -81,8 +82,9 @@ bool holds_core(const Body& b, int facets)
 /// nothing.
 std::string mesh_problem(const SceneSpec& spec, const Model& m, const State& state)
 {
+  std::set<const Facets*> looked_at;
   for (const Body& b : m.bodies) {
-    if (holds_core(b, spec.facets)) continue;
+    if (!looked_at.insert(b.facets.get()).second || holds_core(b, spec.facets)) continue;
     return fmt::format(
         "the mesh of {} is so coarse that the curve at the middle of its tube leaves it; use more than {} "
         "facets",

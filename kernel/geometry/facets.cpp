@@ -205,24 +205,28 @@ Facets::Facets(const ClosedCurve& curve, double r, int n)
 namespace {
 
 /// Derivatives of points of a solid's chart in its sizes, by central differences over other solids of its
-/// kind: charts are smooth, so the error is that of rounding and of the third derivative, some 1e-10.
+/// kind: charts are smooth, so the error is that of rounding and of the third derivative, some 1e-10. At an
+/// end of the sizes that there are, it is one-sided, with an error of 1e-5.
 class ChartBySizes {
  public:
   explicit ChartBySizes(const Solid& solid)
   {
     constexpr double part = 1e-5;
     std::vector<double> sizes = solid.sizes();
+    const std::shared_ptr<const Solid> itself = solid.with_sizes(sizes);
     for (double& size : sizes) {
       const double own = size, step = part * (own != 0.0 ? std::abs(own) : 1.0);
       Between& pair = between_.emplace_back();
       size = own + step;
       pair.above = solid.with_sizes(sizes);
+      if (!pair.above) pair.above = itself, size = own;
       pair.width = size;
       size = own - step;
       pair.below = solid.with_sizes(sizes);
+      if (!pair.below) pair.below = itself, size = own;
       pair.width -= size;
       size = own;
-      if (!pair.above || !pair.below)
+      if (!itself || pair.width == 0.0)
         throw InputError("contact \"mesh\" needs solids that know other sizes, and '" + solid.kind() +
                          "' does not: use another solver.contact");
     }

@@ -82,7 +82,9 @@ bool alike(const Body& a, const Body& b)
   if (!a.solid || !b.solid) return !a.solid && !b.solid;
   const std::vector<double>&own = a.solid->sizes(), &other = b.solid->sizes();
   return a.solid->kind() == b.solid->kind() &&
-         std::equal(own.begin(), own.end(), other.begin(), other.end(), same_length);
+         std::equal(own.begin(), own.end(), other.begin(), other.end(), [](double x, double y) {
+           return std::abs(x - y) <= same_geometry * std::max(std::abs(x), std::abs(y));
+         });
 }
 
 /// Meshes lie upon each other where their frames do: facets know neither mirrors nor turns about the axis.
@@ -110,19 +112,18 @@ bool carries_to_itself(const Solid& solid, const Mat3& turn, double tolerance)
   return true;
 }
 
-bool carries_solid(const Body& a, const Body& b, const Mat3& S)
+bool carries_solid(const Body& a, const Body& b, const Mat3& S, SolidTurns& turns)
 {
   if (!alike(a, b)) return false;
   const Mat3 turn = b.axes.transpose() * S * a.axes;
-  return (turn - Mat3::Identity()).norm() <= same_geometry ||
-         carries_to_itself(*a.solid, turn, same_geometry * a.unit);
+  return (turn - Mat3::Identity()).norm() <= same_geometry || turns.carry_to_itself(a, turn);
 }
 
-bool carries(const Body& a, const Body& b, const Mat3& S)
+bool carries(const Body& a, const Body& b, const Mat3& S, SolidTurns& turns)
 {
   if (!same_sizes(a, b) || (S * a.center - b.center).norm() > same_geometry) return false;
   if (a.facets || b.facets) return carries_mesh(a, b, S);
-  if (a.solid || b.solid) return carries_solid(a, b, S);
+  if (a.solid || b.solid) return carries_solid(a, b, S, turns);
   if (a.curve) return same_curve(*a.curve, *b.curve, b.axes.transpose() * S * a.axes);
   if (a.is_point() && same_length(a.r0, a.r1)) return true;  // a ball
   const Vec3 axis = S * a.axes.col(2);
@@ -219,14 +220,26 @@ void divide_by_surroundings(const Model& m, std::vector<int>& kinds)
 
 }  // namespace
 
-bool carries_bodies(const Model& m, int i, int j, const Mat3& S)
+bool SolidTurns::carry_to_itself(const Body& body, const Mat3& turn)
+{
+  constexpr double rounding = 1e-14;
+  const Solid& solid = *body.solid;
+  for (const Known& k : known_)
+    if ((k.turn - turn).norm() <= rounding && k.sizes == solid.sizes() && k.kind == solid.kind())
+      return k.carries;
+  known_.push_back(
+      {solid.kind(), solid.sizes(), turn, carries_to_itself(solid, turn, same_geometry * body.unit)});
+  return known_.back().carries;
+}
+
+bool carries_bodies(const Model& m, int i, int j, const Mat3& S, SolidTurns& turns)
 {
   const std::span<const Body> from = bodies_of(m, i), to = bodies_of(m, j);
   if (from.size() != to.size()) return false;
   std::vector<bool> taken(to.size(), false);
   for (const Body& a : from) {
     std::size_t k = 0;
-    while (k < to.size() && (taken[k] || !carries(a, to[k], S))) ++k;
+    while (k < to.size() && (taken[k] || !carries(a, to[k], S, turns))) ++k;
     if (k == to.size()) return false;
     taken[k] = true;
   }

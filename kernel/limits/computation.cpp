@@ -12,7 +12,6 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
-#include <thread>
 
 namespace hauberk {
 namespace {
@@ -38,7 +37,7 @@ struct TaskState {
   int iterations = 0;               ///< of what led nowhere
   long evaluations = 0;             ///< the same
   std::size_t missing = 0;          ///< starts not done
-  bool narrow = false;              ///< the last start is that without the widest stage
+  bool narrow = false;              ///< it may fold: the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
   bool learning = false;            ///< others have taught it something, or have begun to
 
@@ -102,7 +101,7 @@ class Computation {
       if (k < asked_) ++unfinished_asked_;
     }
     total_ = items.size();
-    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    threads = thread_count(threads);
     // Threads that have no item of their own help with the pairs of large scenes.
     settings_.schedule.threads =
         static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items.size())));
@@ -401,7 +400,7 @@ class Computation {
     const bool other_elements = s.model.dofs() != model_.dofs();  // fewer of them, or of their coordinates
     for (std::size_t k = 0; k < asked_; ++k) {
       const Direction& along = tasks_[k].direction;
-      if (may_fold(model_, tasks_[k]) &&
+      if (states_[k].narrow &&
           (other_elements || load.conditions(along).size() != model_.load->conditions(along).size()))
         s.tasks.push_back(tasks_[k]);
     }
@@ -429,8 +428,7 @@ class Computation {
   std::vector<GivenState> inherited(unsigned threads)
   {
     std::vector<GivenState> out = settings_.given;
-    if (std::none_of(tasks_.begin(), tasks_.begin() + static_cast<std::ptrdiff_t>(asked_),
-                     [&](const LimitTask& t) { return may_fold(model_, t); }))
+    if (std::none_of(states_.begin(), states_.end(), [](const auto& state) { return state.narrow; }))
       return out;
     for (const Relative& relative : relatives(model_, spec_)) {
       const Solved s = solved(relative, threads);
@@ -467,7 +465,7 @@ class Computation {
     if (!going()) {
       // Also where scenes were not solved that would have given a state.
       for (std::size_t k = 0; k < asked_; ++k)
-        if (may_fold(model_, tasks_[k])) stopped(k, "a scene that this one contains");
+        if (states_[k].narrow) stopped(k, "a scene that this one contains");
       for (const auto& [k, from] : items) stopped(k, from->origin);
       return false;
     }
@@ -566,9 +564,10 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
   std::vector<LimitTask> all = tasks;
   if (apart <= 0.0) return all;
   for (const LimitTask& task : tasks) {
+    if (!task.direction.is_angle()) continue;
     // A taut fabric whose axes are held learns nothing from others: their states break what it holds.
     const bool taut = model.load->periodic() && !may_fold(model, task);
-    if (!task.direction.is_angle() || (taut && !model.load->conditions(task.direction).empty())) continue;
+    if (taut && !model.load->conditions(task.direction).empty()) continue;
     const bool lone = std::none_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
       const double to = std::abs(o.direction.degrees() - task.direction.degrees());
       return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;

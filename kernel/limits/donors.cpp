@@ -55,14 +55,15 @@ Mat3 load_tensor(const Model& m, const Direction& direction)
   return S.reshaped(3, 3);
 }
 
-/// Whether the load pushes along a line that the lattice has.
-bool pushes(const Model& m, const Direction& direction)
+/// Whether the task's load pushes along a line that the lattice has.
+bool pushes(const Model& m, const LimitTask& task)
 {
   constexpr double rounding = 1e-9;
   Eigen::Matrix3Xd T(3, static_cast<Eigen::Index>(m.lattice.size()));
   for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
   const Matrix lines = Eigen::HouseholderQR<Matrix>(T).householderQ() * Matrix::Identity(3, T.cols());
-  const Matrix S = lines.transpose() * load_tensor(m, direction) * lines;
+  const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
+  const Matrix S = sign * lines.transpose() * load_tensor(m, task.direction) * lines;
   const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
   return values.minCoeff() < -rounding * values.cwiseAbs().maxCoeff();
 }
@@ -73,8 +74,7 @@ bool may_fold(const Model& m, const LimitTask& task)
 {
   if (!m.load->periodic()) return false;
   if (task.direction.is_angle()) return task.sense == Sense::negative;
-  return !m.lattice.empty() && pushes(m, task.direction) &&
-         bounded_by_links(m, task) == Boundedness::attained;
+  return !m.lattice.empty() && pushes(m, task) && bounded_by_links(m, task) == Boundedness::attained;
 }
 
 Donors::Donors(const Model& m, const std::vector<LimitTask>& tasks)

@@ -117,7 +117,7 @@ class SymmetrySearch {
       const auto goes_to = [&](const Placed& p) {
         const std::size_t j = p.element;
         return !taken[j] && kinds_[i] == kinds_[j] &&
-               carries_bodies(m_, static_cast<int>(i), p.element, local(O, i, j));
+               carries_bodies(m_, static_cast<int>(i), p.element, local(O, i, j), turns_);
       };
       const auto at = std::find_if(there.begin(), there.end(), goes_to);
       if (at == there.end()) return std::nullopt;
@@ -140,6 +140,7 @@ class SymmetrySearch {
   std::vector<int> kinds_;
   std::vector<int> rarest_;
   std::vector<std::size_t> order_;
+  mutable SolidTurns turns_;
 };
 
 }  // namespace

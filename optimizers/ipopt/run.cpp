@@ -65,7 +65,7 @@ void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings, boo
   options.SetStringValue("sb", "yes");  // no banner
   options.SetStringValue("hessian_approximation", exact ? "exact" : "limited-memory");
   options.SetIntegerValue("limited_memory_max_history", settings.memory);
-  // With this Hessian, Ipopt would choose an adaptive barrier, which leads into walls sooner.
+  // With limited memory, Ipopt would choose an adaptive barrier, which leads into walls sooner.
   options.SetStringValue("mu_strategy", "monotone");
   options.SetNumericValue("mu_init", first ? settings.barrier : std::min(settings.barrier, later_barrier));
   options.SetNumericValue("tol", std::max(1e-12, own_tolerance * settings.walk.tolerance));

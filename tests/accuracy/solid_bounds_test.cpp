@@ -6,6 +6,7 @@
 #include "geometry/separation.hpp"
 #include "panel_figures.hpp"
 #include "random_pairs.hpp"
+#include "solid_kit/solids.hpp"
 #include "statistics.hpp"
 
 #include <hauberk/kit/implicit_solid.hpp>
@@ -41,19 +42,20 @@ struct OvalWire {
   static std::vector<std::vector<Vec3>> cores(const double*) { return {}; }
 };
 
-/// A ring of round wire by its core.
-struct RoundWire : OvalWire {
+/// A ring of round wire by its core, with a field that is no distance.
+struct RoundWire : test::PlainTorus {
   static constexpr const char* kind = "round_wire";
+  static constexpr bool revolved = true;
 
   template <class S>
   static Point<S> core(const Turn<S>& u, const S* q)
   {
-    return {q[0] * u.c, q[0] * u.s, S(0.0)};
+    return test::Torus::core(u, q);
   }
   template <class S>
   static S radius(const S* q)
   {
-    return q[1];
+    return test::Torus::radius(q);
   }
 };
 
@@ -61,11 +63,11 @@ Body kit_body(const Torus& torus)
 {
   Primitive p;
   p.kind = PrimitiveKind::solid;
-  const std::vector<double> sizes{torus.R, torus.r0, torus.r1};
   if (torus.round()) {
-    p.solid = std::make_shared<const kit::ImplicitSolid<RoundWire>>(sizes);
+    p.solid = std::make_shared<const kit::ImplicitSolid<RoundWire>>(std::vector<double>{torus.R, torus.r0});
   } else {
-    p.solid = std::make_shared<const kit::ImplicitSolid<OvalWire>>(sizes);
+    p.solid = std::make_shared<const kit::ImplicitSolid<OvalWire>>(
+        std::vector<double>{torus.R, torus.r0, torus.r1});
   }
   // As Shape::primitives does.
   p.size = {p.solid->radius(), p.solid->thickness(), p.solid->thickness()};

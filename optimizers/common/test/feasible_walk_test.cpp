@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace hauberk {
 namespace {
 
@@ -76,6 +79,15 @@ TEST(FeasibleWalk, EndsWhereItIsTold)
   EXPECT_EQ(outside.status, "failed");
   EXPECT_NE(outside.message.find("constraints"), std::string::npos);
   EXPECT_EQ(outside.evaluations, 0);
+  // A gradient that is none, at the iterate alone: not the end of a descent.
+  FunctionProblem odd = slope_with_a_wall();
+  odd.objective = [](const VectorXd& x, VectorXd& g) {
+    g << std::numeric_limits<double>::quiet_NaN(), 1.0;
+    return 0.5 * x[0] * x[0] + x[1];
+  };
+  EXPECT_EQ(end_of({1.5, 1.0}, {}, never, odd).status, "failed");
+  EXPECT_TRUE(std::isnan(kit::largest(std::vector{1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})));
+  EXPECT_EQ(kit::largest(std::vector{1.0, -3.0, 2.0}), 3.0);
   FunctionProblem failing = slope_with_a_wall();
   failing.fails = [](const VectorXd&) { return true; };
   EXPECT_EQ(end_of({1.5, 1.0}, {}, never, failing).status, "failed");

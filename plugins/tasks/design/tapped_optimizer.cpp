@@ -2,6 +2,9 @@
 
 #include "run/interrupt.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace hauberk {
 namespace {
 
@@ -27,8 +30,18 @@ class InterruptibleProblem final : public OptimizationProblem {
   std::vector<Evaluation> evaluate_batch(std::size_t count, std::span<const double> points,
                                          bool want_gradient) override
   {
-    stop_if_interrupted();
-    return problem_.evaluate_batch(count, points, want_gradient);
+    // In parts: what one of them has found is kept when the next is not begun any more.
+    constexpr std::size_t part = 16;
+    const std::size_t n = lower().size();
+    if (points.size() != count * n) return problem_.evaluate_batch(count, points, want_gradient);  // refused
+    std::vector<Evaluation> found;
+    for (std::size_t k = 0; k < count; k += part) {
+      stop_if_interrupted();
+      const std::size_t here = std::min(part, count - k);
+      for (Evaluation& e : problem_.evaluate_batch(here, points.subspan(k * n, here * n), want_gradient))
+        found.push_back(std::move(e));
+    }
+    return found;
   }
   int residual_count() const override { return problem_.residual_count(); }
   bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override

@@ -1,6 +1,7 @@
 /// Surfaces that are nearest to each other along whole curves or faces: one of these places is found at
 /// least, with its distance, outside of each other and inside.
 
+#include "contact/barrier.hpp"
 #include "contact/formulation.hpp"
 #include "geometry/separation.hpp"
 #include "shapes/rounded_ring/rounded_ring.hpp"
@@ -62,6 +63,22 @@ TEST(FlatContact, OfCoaxialRingsIsFound)
       EXPECT_NEAR(stacked(solid, solid, 1.4, gap), gap, 1e-13);
     }
   }
+}
+
+/// The energy of closest points is that of one place, however many panels have found one.
+TEST(FlatContact, CountsOnceInTheEnergy)
+{
+  constexpr double gap = 0.05, g_hat = 0.2;
+  const Body oval = torus(5, 0.7, 0.5);
+  const Pose above{Vec3(0.0, 0.0, 1.0 + gap), Mat3::Identity()};
+  const PairFrame frame(oval, {Vec3::Zero(), Mat3::Identity()}, oval, above);
+  ContactSettings settings;
+  settings.formulation = Formulation::nearest;
+  settings.g_hat = g_hat;
+  SideTerms terms;
+  add_nearest<2>(frame, settings, {}, {}, terms);
+  EXPECT_NEAR(terms.energy, barrier<0>(gap, g_hat).b, 1e-12);
+  EXPECT_NEAR(terms.min_gap, gap, 1e-14);
 }
 
 TEST(FlatContact, OfFacesIsFound)

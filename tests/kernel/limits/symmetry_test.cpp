@@ -321,6 +321,8 @@ TEST(Loads, ThoseThatPushMayFold)
   EXPECT_FALSE(folds(space, {0, 1, 0, 0, 0, 0}));
   EXPECT_TRUE(folds(space, {0, -1, 0, 0, 0, 0}));
   EXPECT_TRUE(folds(space, {1, 1, -1e-3, 0, 0, 0}));
+  const std::vector<double> volume{1, 1, 1, 0, 0, 0};
+  EXPECT_TRUE(may_fold(space, {Direction::along(volume), Sense::negative}));
   EXPECT_TRUE(folds(space, {0, 0, 0, 0, 0, 1}));
   // (1, 1, 0) (1, 1, 0)^T pulls along one line; a little more shear pushes across it.
   EXPECT_FALSE(folds(space, {1, 1, 0, 0, 0, 0.999}));

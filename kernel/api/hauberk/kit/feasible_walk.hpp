@@ -30,11 +30,12 @@ inline double dot(std::span<const double> a, std::span<const double> b)
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// The largest component by size; 0 where there is none.
+/// The largest component by size; 0 where there is none, not a number where one is none.
 inline double largest(std::span<const double> a)
 {
-  return std::accumulate(a.begin(), a.end(), 0.0,
-                         [](double most, double x) { return std::max(most, std::abs(x)); });
+  return std::accumulate(a.begin(), a.end(), 0.0, [](double most, double x) {
+    return std::isnan(most) || std::abs(x) <= most ? most : std::abs(x);
+  });
 }
 
 /// A walk from iterate to iterate, all of them within the bounds and the constraints. It asks how far a way
@@ -134,21 +135,27 @@ class FeasibleWalk {
     return std::clamp(x, problem_.lower()[i], problem_.upper()[i]);
   }
 
-  /// max(0, -min c); infinite where a constraint is not a number.
+  /// The largest of |c| over equations and max(0, -c) over the others; infinite where one is not a number.
   double violation(const Vector& x)
   {
     Vector c(static_cast<std::size_t>(problem_.constraint_count()));
     if (c.empty()) return 0.0;
     problem_.constraints(x, c, {});
-    double worst = 0.0;
-    for (const double value : c)
-      worst = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(worst, -value);
-    return worst;
+    const auto equations = static_cast<std::size_t>(problem_.equality_count());
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = i < equations ? std::abs(c[i]) : std::max(0.0, -c[i]);
+    const double worst = largest(c);
+    return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
   }
 
   OptimizationProblem::Evaluation evaluate(const Vector& x)
   {
     ++evaluations_;
+    return look(x);
+  }
+
+  /// An evaluation that is ok only where it is finite.
+  OptimizationProblem::Evaluation look(const Vector& x)
+  {
     OptimizationProblem::Evaluation e = problem_.evaluate(x, true);
     const auto finite = [](double v) { return std::isfinite(v); };
     if (e.ok && !(finite(e.value) && std::all_of(e.gradient.begin(), e.gradient.end(), finite))) {
@@ -162,8 +169,8 @@ class FeasibleWalk {
   bool take(OptimizationProblem::Evaluation here, double length)
   {
     problem_.accept(x_);
-    OptimizationProblem::Evaluation seen = problem_.evaluate(x_, true);  // may have changed; costs nothing
-    if (seen.ok && std::isfinite(seen.value)) here = std::move(seen);
+    OptimizationProblem::Evaluation seen = look(x_);  // may have changed; costs nothing
+    if (seen.ok) here = std::move(seen);
     value_ = here.value;
     gradient_ = std::move(here.gradient);
     if (iterations_ == 0 || value_ <= best_value_) {

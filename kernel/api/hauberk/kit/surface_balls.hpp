@@ -132,21 +132,27 @@ class SurfaceBalls {
     return std::max(by_ball, std::sqrt(least_square(away, plate.u, plate.v)) - plate.sag);
   }
 
-  /// The bound of a plate, divided until it reaches `enough` or cannot lower `found`.
-  void divide(const Vec3& x, double enough, const Cell& cell, const Plate& plate, BallDistance& found) const
+  /// Takes `bound`, that of a plate, where it reaches `enough` or nearly the distance of the nearest point
+  /// that was seen, or divides the plate, the nearer quarters first; what cannot lower `found` is passed
+  /// over.
+  void divide(const Vec3& x, double enough, const Cell& cell, double bound, BallDistance& found) const
   {
-    const double bound = from(x, plate);
+    constexpr double nearly = 0.98;
     if (bound >= found.at_least) return;
-    if (bound >= enough || cell.level == deepest) {
+    if (bound >= std::min(enough, nearly * found.distance) || cell.level == deepest) {
       found.at_least = bound;
       return;
     }
-    for (const Cell& part : quarters(cell)) {
-      const Plate finer = this->plate(part);
-      const double center = (x - finer.ball.center).norm();
-      if (center < found.distance) found.distance = center, found.near = finer.ball.center;
-      divide(x, enough, part, finer, found);
+    std::array<std::pair<double, int>, 4> order;
+    const auto parts = quarters(cell);
+    for (int k = 0; k < 4; ++k) {
+      const Plate part = plate(parts[k]);
+      const double center = (x - part.ball.center).norm();
+      if (center < found.distance) found.distance = center, found.near = part.ball.center;
+      order[k] = {std::max(bound, from(x, part)), k};
     }
+    std::sort(order.begin(), order.end());
+    for (const auto& [lower, k] : order) divide(x, enough, parts[k], lower, found);
   }
 
   /// Into the nearer quarters first; what cannot lower the bound is passed over.
@@ -158,7 +164,7 @@ class SurfaceBalls {
     if (center - ball.radius >= found.at_least) return;
     if (cell.level + 1 == levels) {
       const auto at = static_cast<std::size_t>(cell.i * side(levels - 1) + cell.j);
-      return divide(x, enough, cell, plates_[at], found);
+      return divide(x, enough, cell, from(x, plates_[at]), found);
     }
     if (center - ball.radius >= enough) {
       found.at_least = center - ball.radius;

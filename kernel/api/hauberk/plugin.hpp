@@ -2,7 +2,8 @@
 /// The one entry of a plugin library: a constant table, checked from the top before anything else is used.
 ///
 /// A plugin is a shared library that exports one constant, `hauberk_plugin` (see shapes/torus_union for an
-/// example), or a list of several, `hauberk_plugins` (hauberk/kit/plugin_table.hpp). It has no static constructors with effects, and is never unloaded.
+/// example), or a list of several, `hauberk_plugins` (hauberk/kit/plugin_table.hpp). It has no static
+/// constructors with effects, and is never unloaded.
 
 #include <hauberk/load_case.hpp>
 #include <hauberk/optimizer.hpp>

@@ -37,8 +37,8 @@ void check_constraints(const OptimizationProblem& problem, const OptimizerTraits
   }
   if (equalities > 0 && !traits.equalities) {
     throw InputError(fmt::format(
-        "optimizer: the problem has {} equality constraint{}, and this one keeps none; choose 'sqp', "
-        "'bfgs', 'ipopt', or 'nlopt' with its algorithm slsqp, lbfgs or cobyla",
+        "optimizer: the problem has {} equality constraint{}, and this one keeps none; choose one that "
+        "does, which 'hauberk plugins describe' tells of each",
         equalities, equalities == 1 ? "" : "s"));
   }
 }

@@ -211,6 +211,10 @@ TEST(CommandLine, Plugins)
   EXPECT_EQ(one.code, 0);
   EXPECT_NE(one.out.find("max_iterations"), std::string::npos) << one.out;
   // A shape's parameters depend on its fields, unless it has none.
+  const std::string yes = "keeps equations: yes; draws random numbers: no;",
+                    no = "keeps equations: no; draws";
+  EXPECT_NE(one.out.find(yes), std::string::npos) << one.out;
+  EXPECT_NE(run_program({"plugins", "describe", "nelder_mead"}).out.find(no), std::string::npos);
   const Outcome shape = run_program({"plugins", "describe", "closed_tube"});
   EXPECT_NE(shape.out.find("Its parameters depend on these fields."), std::string::npos) << shape.out;
   const Outcome none = run_program({"plugins", "describe", "spq"});

@@ -109,19 +109,38 @@ int list_as_json(const Registry& registry)
   return broken ? exit_failed : exit_done;
 }
 
-/// Parameters of a shape that needs no settings of its own; others depend on them.
-std::string parameters_text(const PluginTable& table)
+/// What `make` (of factories.hpp) makes of a section in which nothing is set; null where the plugin needs
+/// settings.
+template <class Made>
+std::unique_ptr<Made> with_defaults(std::unique_ptr<Made> (*make)(const PluginTable&, const Node&, Problems&),
+                                    const PluginTable& table)
 {
-  if (table.make_shape == nullptr) return "Its parameters are those of its parts, and where these are.\n";
   Field fields;
   fields.kind = Field::Kind::object;
   fields.children = plugin_fields(table);
   Node section;
   section.type = Node::Type::object;
   Problems problems;
-  std::unique_ptr<Shape> shape;
-  if (check_fields(section, fields, problems) && problems.empty())
-    shape = make_shape(table, section, problems);
+  if (!check_fields(section, fields, problems) || !problems.empty()) return nullptr;
+  return make(table, section, problems);
+}
+
+/// What an optimizer declares, as one that is asked for with default settings does.
+std::string traits_text(const PluginTable& table)
+{
+  const std::unique_ptr<Optimizer> optimizer = with_defaults(make_optimizer, table);
+  if (!optimizer) return "What it declares depends on these fields.\n";
+  const OptimizerTraits traits = optimizer->traits();
+  const auto word = [](bool holds) { return holds ? "yes" : "no"; };
+  return fmt::format("with defaults: keeps equations: {}; draws random numbers: {}; thread safe: {}\n",
+                     word(traits.equalities), word(traits.stochastic), word(traits.thread_safe));
+}
+
+/// Parameters of a shape that needs no settings of its own; others depend on them.
+std::string parameters_text(const PluginTable& table)
+{
+  if (table.make_shape == nullptr) return "Its parameters are those of its parts, and where these are.\n";
+  const std::unique_ptr<Shape> shape = with_defaults(make_shape, table);
   if (!shape) return "Its parameters depend on these fields.\n";
   std::string text = fmt::format("{:<20} {:<8} {:>10} {:>10} {:>10}  {}\n", "parameter", "unit", "default",
                                  "lower", "upper", "meaning");
@@ -141,6 +160,7 @@ int describe(const PluginTable& table, const std::string& file)
   const std::vector<Field> fields = plugin_fields(table);
   if (!fields.empty()) fmt::print("{}", fields_reference(fields, section_place(table.kind)));
   if (table.kind == PluginKind::shape) fmt::print("{}", parameters_text(table));
+  if (table.kind == PluginKind::optimizer) fmt::print("{}", traits_text(table));
   return exit_done;
 }
 

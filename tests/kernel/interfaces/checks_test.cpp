@@ -253,8 +253,8 @@ TEST(OptimizerChecks, EquationsThatItDoesNotKeep)
   problem.equality_number = 1;
   EXPECT_EQ(
       run(),
-      "optimizer: the problem has 1 equality constraint, and this one keeps none; choose 'sqp', 'bfgs', "
-      "'ipopt', or 'nlopt' with its algorithm slsqp, lbfgs or cobyla");
+      "optimizer: the problem has 1 equality constraint, and this one keeps none; choose one that does, which "
+      "'hauberk plugins describe' tells of each");
   optimizer.declared.equalities = true;
   EXPECT_EQ(run(), "(nothing thrown)");
   problem.equality_number = 4;

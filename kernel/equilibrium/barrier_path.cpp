@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace hauberk {
 namespace {
@@ -11,6 +13,11 @@ namespace {
 constexpr double unbalanced = 5e-5;
 /// Rounding of coordinates, L, and the smallest gap under load that a stage leaves, as part of g_hat.
 constexpr double rounding = 1e-15, smallest_gap_of_stage = 0.01;
+/// Ends that are wider than one that fails, by these factors: the first three where its forces do not
+/// balance, all where it stalls. A stage that is wider than widest_stalled (L) has no such end.
+constexpr std::array<double, 6> wider_ends = {3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};
+constexpr std::size_t ends_for_balance = 3;
+constexpr double widest_stalled = 1e-7;
 constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
 
@@ -48,8 +55,11 @@ class Path {
 
   Locked run()
   {
-    for (const PlannedStage& planned : planned_stages(choice_, schedule_))
-      if (!stage(planned)) return std::move(out_);
+    for (const PlannedStage& planned : planned_stages(choice_, schedule_)) {
+      if (stage(planned)) continue;
+      end_wider_than(planned.g_hat);
+      return std::move(out_);
+    }
     out_.status = LockStatus::locked;
     balance();
     if (out_.status != LockStatus::locked) return std::move(out_);
@@ -142,19 +152,9 @@ class Path {
     if (!rounding_matters || !(out_.stages.back().residual > unbalanced)) return;
     const Locked narrowest = out_;
     Locked best = out_;
-    for (const double wider : {3.0, 10.0, 30.0}) {
+    for (const double wider : std::span(wider_ends).first(ends_for_balance)) {
       const double g_hat = wider * schedule_.last;
-      out_.stages = narrowest.stages;
-      out_.trail = narrowest.trail;
-      while (out_.stages.size() > 1 && out_.stages.back().g_hat < 2.0 * g_hat) {
-        out_.stages.pop_back();
-        out_.trail.pop_back();
-      }
-      if (out_.stages.back().g_hat < 2.0 * g_hat) break;
-      out_.state = out_.trail.back();
-      out_.status = narrowest.status;  // what an attempt before this one said does not count
-      out_.message = narrowest.message;
-      previous_.reset();
+      if (!go_back(narrowest, g_hat)) break;
       if (!stage(planned_stage(choice_, schedule_, g_hat, true))) {
         if (out_.status == LockStatus::interrupted) return;
         continue;
@@ -165,6 +165,64 @@ class Path {
     best.iterations = out_.iterations;
     best.evaluations = out_.evaluations;
     out_ = std::move(best);
+  }
+
+  /// Goes back to the narrowest stage of `from` that is twice as wide as g_hat; false where there is none.
+  bool go_back(const Locked& from, double g_hat)
+  {
+    out_.stages = from.stages;
+    out_.trail = from.trail;
+    while (!out_.stages.empty() && out_.stages.back().g_hat < 2.0 * g_hat) {
+      out_.stages.pop_back();
+      out_.trail.pop_back();
+    }
+    if (out_.stages.empty()) return false;
+    out_.state = out_.trail.back();
+    out_.status = from.status;  // what an attempt before this one said does not count
+    out_.message = from.message;
+    previous_.reset();
+    return true;
+  }
+
+  /// Where faces lie flat upon each other, the gaps of a narrow stage can be too small for any part of a step
+  /// to be certified. A stage that is wider, and still narrow, is then the last one, if its forces balance.
+  void end_wider_than(double failed)
+  {
+    if (out_.status != LockStatus::stalled || failed > widest_stalled) return;
+    const Locked stalled = out_;
+    for (const double wider : wider_ends) {
+      const double g_hat = wider * failed;
+      if (!go_back(stalled, g_hat)) break;
+      if (stage(planned_stage(choice_, schedule_, g_hat, true))) {
+        if (out_.stages.back().residual > unbalanced) continue;
+        out_.status = LockStatus::locked;
+        out_.error_estimate = room_under_load();
+        out_.message = fmt::format("gaps are left {:g} times as wide as asked, since with narrower ones {}",
+                                   g_hat / schedule_.last, stalled.message);
+        return;
+      }
+      if (out_.status == LockStatus::interrupted) return;
+    }
+    const int iterations = out_.iterations;
+    const long evaluations = out_.evaluations;
+    out_ = stalled;
+    out_.iterations = iterations;
+    out_.evaluations = evaluations;
+  }
+
+  /// By how much the value would rise if the gaps under load closed, to first order: a force is the value's
+  /// derivative with respect to its gap, so this is the sum of force times gap.
+  double room_under_load() const
+  {
+    Request request;
+    request.order = 1;
+    request.points = true;
+    const Stage& last = out_.stage;
+    const ContactEnergy e =
+        contact_energy(m_, out_.state, stage_pairs(m_, out_.state, last), last.contact, request);
+    double room = 0.0;
+    for (const ContactEnergy::Point& p : e.points) room += last.mu * p.contact.force * p.contact.gap;
+    return room;
   }
 
   StageResult attempt(const State& before, const PlannedStage& plan)

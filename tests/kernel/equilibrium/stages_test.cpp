@@ -57,5 +57,25 @@ TEST(Stages, EndWhereContactsAreLessCurvedThanTheyMay)
   }
 }
 
+/// Gaps of the last stages are below the rounding of coordinates here. The end is as narrow as can be, and
+/// says by how much its value is short: closed, it is that of a taut chain, 4 R - 4 r by the cell's length.
+TEST(Stages, EndWiderWhereNoStepOfANarrowOneCanBeCertified)
+{
+  const double R = 5.0, r = 0.7, cell = 12.0;
+  const Sheet load;
+  const Model m = make_model(chain({R, r, r}, {R, r, r}, cell), load, 0.0);
+  Schedule schedule;
+  schedule.last = 1e-14;
+  const MacroLoad pull{load_vector(m, Direction(), Sense::positive), Matrix(m.macro_count, 0)};
+  const Locked l = lock(m, rest_state(m), pull, ContactChoice::automatic, schedule, [] { return true; });
+  ASSERT_EQ(l.status, LockStatus::locked) << l.message;
+  EXPECT_EQ(l.message.find("gaps are left "), 0U) << l.message;
+  EXPECT_GT(l.stages.back().g_hat, schedule.last);
+  const double short_by = (4.0 * R - 4.0 * r) / cell - 1.0 - pull.pull.dot(l.state.macro);
+  EXPECT_GT(short_by, 0.0);
+  ASSERT_TRUE(l.error_estimate);
+  EXPECT_NEAR(*l.error_estimate, short_by, 0.01 * short_by);
+}
+
 }  // namespace
 }  // namespace hauberk::test

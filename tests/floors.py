@@ -17,9 +17,9 @@ PLAN = {
     "kernel/api": [],  # what plugins see
     "kernel/numerics": [],
     "kernel/geometry": ["kernel/api"],
-    "kernel/interfaces": ["kernel/api", "kernel/geometry"],
+    "kernel/interfaces": ["kernel/api", "kernel/numerics", "kernel/geometry"],
     "kernel/contact": ["kernel/api", "kernel/geometry", "kernel/numerics"],
-    "kernel/model": ["kernel/api", "kernel/geometry"],
+    "kernel/model": ["kernel/api", "kernel/numerics", "kernel/geometry"],
     "kernel/motion": ["kernel/api", "kernel/numerics", "kernel/geometry", "kernel/contact", "kernel/model"],
     "kernel/equilibrium": ["kernel/api", "kernel/numerics", "kernel/geometry", "kernel/contact", "kernel/model",
                            "kernel/motion"],

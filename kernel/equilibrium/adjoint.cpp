@@ -2,10 +2,9 @@
 
 #include "equilibrium/curvature.hpp"
 #include "model/near_pairs.hpp"
+#include "numerics/decompositions.hpp"
 
 #include <hauberk/error.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +25,13 @@ Vector solve(const Matrix& H, const Vector& b, const Vector& metric, double load
 {
   const Vector root = metric.cwiseSqrt().cwiseInverse();
   const Matrix scaled = root.asDiagonal() * H * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(0.5 * (scaled + scaled.transpose()));
-  const Vector& values = spectrum.eigenvalues();
+  const auto [values, vectors, converged] = symmetric_eigen(0.5 * (scaled + scaled.transpose()));
   const double least = std::max(rounding * values.cwiseAbs().maxCoeff(), quadrature * load);
   const Vector right = root.cwiseProduct(b);
-  Vector part = spectrum.eigenvectors().transpose() * right;
+  Vector part = vectors.transpose() * right;
   for (Eigen::Index i = 0; i < part.size(); ++i)
     part[i] = std::abs(values[i]) > least ? part[i] / values[i] : 0.0;
-  const Vector z = spectrum.eigenvectors() * part;
+  const Vector z = vectors * part;
   residual = (scaled * z - right).norm() / right.norm();
   return root.cwiseProduct(z);
 }

@@ -1,5 +1,6 @@
 #include "equilibrium/curvature.hpp"
 
+#include "numerics/decompositions.hpp"
 #include "numerics/sparse_ldlt.hpp"
 
 #include <cmath>
@@ -30,9 +31,9 @@ class DenseCurvature final : public Curvature {
   {
     const Vector root = m_.metric.cwiseSqrt().cwiseInverse();
     const Matrix scaled = root.asDiagonal() * hessian_ * root.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> eig(scaled);
-    direction = root.cwiseProduct(eig.eigenvectors().col(0));
-    return eig.eigenvalues()[0];
+    const SymmetricEigen eigen = symmetric_eigen(scaled);
+    direction = root.cwiseProduct(eigen.vectors.col(0));
+    return eigen.values[0];
   }
 
  private:
@@ -83,8 +84,8 @@ class SparseCurvature final : public Curvature {
     if (held == 0) return true;
     moved_ = solver_->solve(m_.held);  // the metric is 1 there
     const Matrix S = m_.held.transpose() * moved_;
-    const Eigen::SelfAdjointEigenSolver<Matrix> inertia(0.5 * (S + S.transpose()));
-    if (solver_->negative() + (inertia.eigenvalues().array() > 0.0).count() != held) return false;
+    const Vector inertia = symmetric_eigenvalues(0.5 * (S + S.transpose()));
+    if (solver_->negative() + (inertia.array() > 0.0).count() != held) return false;
     reaction_.compute(S);
     return true;
   }

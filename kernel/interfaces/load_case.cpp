@@ -1,9 +1,9 @@
+#include "numerics/decompositions.hpp"
+
 #include <hauberk/error.hpp>
 #include <hauberk/load_case.hpp>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -76,16 +76,13 @@ bool LoadCase::do_admissible(std::span<const double> macro) const
   if (!periodic()) return true;
   const Eigen::MatrixXd F = translation_map(*this, macro).topRows(dimensions(*this));
   const Eigen::MatrixXd symmetric = 0.5 * (F + F.transpose());
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-             .eigenvalues()
-             .minCoeff() > 0.0;
+  return symmetric_eigenvalues(symmetric).minCoeff() > 0.0;
 }
 
 std::pair<double, double> LoadCase::do_stretch_range(std::span<const double> macro) const
 {
   if (!periodic()) return {1.0, 1.0};
-  const Eigen::VectorXd values =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(translation_map(*this, macro)).singularValues();
+  const Eigen::VectorXd values = singular_values(translation_map(*this, macro));
   return {values.minCoeff(), values.maxCoeff()};
 }
 

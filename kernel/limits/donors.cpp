@@ -1,7 +1,5 @@
 #include "limits/donors.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include "numerics/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +39,7 @@ Mat3 load_tensor(const Model& m, const Direction& direction)
     T.col(k) = m.lattice[at];
     m.load->position(span(rest.macro), span(none), Vec3::Zero(), m.lattice[at], maps[at]);
   }
-  const Matrix inverse = T.completeOrthogonalDecomposition().pseudoInverse();
+  const Matrix inverse = pseudo_inverse(T);
   Matrix basis(9, nm);
   for (Eigen::Index k = 0; k < nm; ++k) {
     Eigen::Matrix3Xd moved(3, vectors);
@@ -51,7 +49,7 @@ Mat3 load_tensor(const Model& m, const Direction& direction)
   }
   Vector load = Vector::Zero(nm);
   m.load->load(direction, {load.data(), static_cast<std::size_t>(nm)});
-  const Vector S = basis.transpose().completeOrthogonalDecomposition().solve(load);
+  const Vector S = shortest_least_squares(basis.transpose(), load);
   return S.reshaped(3, 3);
 }
 
@@ -61,10 +59,10 @@ bool pushes(const Model& m, const LimitTask& task)
   constexpr double rounding = 1e-9;
   Eigen::Matrix3Xd T(3, static_cast<Eigen::Index>(m.lattice.size()));
   for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
-  const Matrix lines = Eigen::HouseholderQR<Matrix>(T).householderQ() * Matrix::Identity(3, T.cols());
+  const Matrix lines = orthonormal_columns(T);
   const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
   const Matrix S = sign * lines.transpose() * load_tensor(m, task.direction) * lines;
-  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector values = symmetric_eigenvalues(S);
   return values.minCoeff() < -rounding * values.cwiseAbs().maxCoeff();
 }
 

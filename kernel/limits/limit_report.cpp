@@ -3,9 +3,9 @@
 #include "equilibrium/gaps.hpp"
 #include "limits/kinks.hpp"
 #include "model/links.hpp"
+#include "numerics/decompositions.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -236,8 +236,7 @@ ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load
     push(m.bodies[p.b].element, p.image, p.contact.on_f, f * p.contact.normal);
   }
   ForceBalance out;
-  if (load.held.cols() > 0)
-    out.reactions = Eigen::ColPivHouseholderQR<Matrix>(load.held).solve(rest.head(m.macro_count));
+  if (load.held.cols() > 0) out.reactions = least_squares(load.held, rest.head(m.macro_count));
   out.imbalance = unheld(m, load.held, rest).cwiseAbs().maxCoeff();
   return out;
 }

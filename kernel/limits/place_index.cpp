@@ -1,8 +1,7 @@
 #include "limits/place_index.hpp"
 
 #include "limits/symmetry.hpp"
-
-#include <Eigen/LU>
+#include "numerics/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +20,7 @@ LatticeCoordinates::LatticeCoordinates(const Model& m)
   if (m.lattice.empty()) return;
   Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(m.lattice.size()));
   for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
-  const Matrix inverse = (T.transpose() * T).inverse() * T.transpose();
+  const Matrix inverse = reciprocal_basis(T);
   for (Eigen::Index k = 0; k < inverse.rows(); ++k) reciprocal_.emplace_back(inverse.row(k).transpose());
 }
 

@@ -2,8 +2,7 @@
 
 #include "geometry/closed_curve.hpp"
 #include "motion/advancement.hpp"
-
-#include <Eigen/QR>
+#include "numerics/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +151,7 @@ std::optional<State> Carrier::state(const State& from) const
       missed = left.norm();
       if (nc == 0 || missed < 1e-15) break;
       const Matrix J = map.J.middleCols(to_.macro_count, to_.coordinate_count);
-      e += Vector(J.colPivHouseholderQr().solve(left));
+      e += least_squares(J, left);
     }
     if (missed > same) return std::nullopt;
   }

@@ -1,7 +1,6 @@
 #include "limits/place_index.hpp"
 #include "limits/symmetry.hpp"
-
-#include <Eigen/QR>
+#include "numerics/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +31,7 @@ std::optional<Vector> coordinates_at(const Model& m, const Vector& macro, const 
   for (int k = 0; k < most_steps; ++k) {
     m.load->position(span_of(macro), span_of(e), X, T, map);
     const Eigen::Matrix<double, 3, Eigen::Dynamic> J = map.J.middleCols(m.macro_count, nc);
-    const Vector step = J.colPivHouseholderQr().solve(x - map.x);
+    const Vector step = least_squares(J, x - map.x);
     // Steps fall to what rounding leaves; there they stop falling.
     if (!(step.norm() < 0.5 * last) && step.norm() < symmetry_tolerance(x)) break;
     last = step.norm();

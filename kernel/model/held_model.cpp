@@ -1,9 +1,9 @@
 #include "model/held_model.hpp"
+#include "numerics/decompositions.hpp"
 
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <stdexcept>
@@ -119,9 +119,7 @@ Vector metric_weights(const LoadCase& load)
 Matrix null_space(const Matrix& held, const Vector& weights)
 {
   const Vector root = weights.cwiseSqrt().cwiseInverse();
-  const Eigen::HouseholderQR<Matrix> qr(root.asDiagonal() * held);
-  const Matrix Q = qr.householderQ();
-  return root.asDiagonal() * Q.rightCols(held.rows() - held.cols());
+  return root.asDiagonal() * orthogonal_complement(root.asDiagonal() * held);
 }
 
 }  // namespace
@@ -141,8 +139,7 @@ MacroLoad macro_load(const Model& m, const Direction& direction, Sense sense)
     for (int i = 0; i < m.macro_count; ++i) held(i, k) = c[i];
   }
   constexpr double nothing = 1e-9;
-  if (Eigen::ColPivHouseholderQR<Matrix>(held).rank() < held.cols() ||
-      !(within(held, pull).norm() > nothing * pull.norm())) {
+  if (rank(held) < held.cols() || !(within(held, pull).norm() > nothing * pull.norm())) {
     throw PluginError(fmt::format(
         "load case: what is held at {} depends on each other, or holds all that the load could move",
         direction.text()));
@@ -153,7 +150,7 @@ MacroLoad macro_load(const Model& m, const Direction& direction, Sense sense)
 Vector within(const Matrix& held, const Vector& macro)
 {
   if (held.cols() == 0) return macro;
-  return macro - held * Eigen::ColPivHouseholderQR<Matrix>(held).solve(macro);
+  return macro - held * least_squares(held, macro);
 }
 
 double missed(const Matrix& held, const Vector& macro)
@@ -172,7 +169,7 @@ bool keeps(const Matrix& held, const Vector& macro)
 
 HeldModel::HeldModel(const Model& full, const Matrix& held)
     : basis_(null_space(held, metric_weights(*full.load))),
-      back_((basis_.transpose() * basis_).inverse() * basis_.transpose()),
+      back_(reciprocal_basis(basis_)),
       load_(std::make_unique<SubspaceLoadCase>(*full.load, basis_)),
       model_(full)
 {

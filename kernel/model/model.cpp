@@ -3,13 +3,13 @@
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
 #include "model/links.hpp"
+#include "numerics/decompositions.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +29,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> linked_space(const Model& m)
   Eigen::Matrix<double, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(cycles.size()));
   for (std::size_t k = 0; k < cycles.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = cycles[k];
   if (cycles.empty()) return columns;
-  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
-  qr.setThreshold(independent);
-  return qr.householderQ() * Matrix::Identity(3, qr.rank());
+  return orthonormal_span(columns, independent);
 }
 
 /// How far, along each lattice vector, elements that hold each other may be apart: half the vector where
@@ -69,7 +67,7 @@ class ImageRange {
   {
     Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(vectors_));
     for (std::size_t k = 0; k < vectors_; ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
-    const Matrix inverse = (T.transpose() * T).inverse() * T.transpose();
+    const Matrix inverse = reciprocal_basis(T);
     for (std::size_t k = 0; k < vectors_; ++k)
       reciprocal_[k] = inverse.row(static_cast<Eigen::Index>(k)).norm();
   }
@@ -140,13 +138,13 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
       rows(m.offset(t.element) + t.coordinate, k) += t.coefficient;
   }
   if (rows.cols() == 0) return rows;
-  const Eigen::ColPivHouseholderQR<Matrix> qr(rows);
-  if (qr.rank() < rows.cols()) {
+  Matrix span = orthonormal_span(rows);
+  if (span.cols() < rows.cols()) {
     throw InputError(
         "the conditions that hold this patch in its place depend on each other: a patch needs at least two "
         "elements at different places");
   }
-  return qr.householderQ() * Matrix::Identity(m.dofs(), rows.cols());
+  return span;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ packages=(
   libsuitesparse-dev                # CHOLMOD
   libnlopt-dev                      # optimizers/nlopt
   libfmt-dev
+  libzip-dev libpng-dev             # export as 3MF and PNG; the program is built without them, too
   libgtest-dev python3-jsonschema   # tests only
   libbenchmark-dev                  # tests/bench only
 )

@@ -35,6 +35,7 @@ PLAN = {
     "plugins/experiment": ["kernel", "plugins/host", "plugins/document"],
     "plugins/results": ["kernel", "plugins/document"],
     "plugins/pictures": ["kernel", "plugins/document"],
+    "plugins/export": ["kernel", "plugins/document"],
     "plugins/report": ["kernel", "plugins/document", "plugins/results", "plugins/pictures"],
     "plugins/verify": ["kernel/api"],  # independent: it reads results by itself; the interface of primitives alone
     "plugins/conformance": ["kernel", "plugins/host", "plugins/document"],
@@ -55,7 +56,7 @@ PLAN = {
                       "plugins/tasks/task.hpp", "plugins/tasks/limits", "plugins/tasks/design", "plugins/tasks/sweep",
                       "plugins/tasks/chart", "plugins/tasks/stability", "plugins/tasks/transition"],
     "plugins/command": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
-                        "plugins/report", "plugins/verify", "plugins/conformance", "plugins/run",
+                        "plugins/report", "plugins/export", "plugins/verify", "plugins/conformance", "plugins/run",
                         "plugins/tasks"],
 }
 

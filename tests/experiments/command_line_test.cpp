@@ -84,6 +84,8 @@ Usage:
       recheck a result from its file alone
   hauberk report RESULT... -o DIR [--force] [--recheck FOLDER]
       a table and a page of plots of many results
+  hauberk export FILE.json -o OUT.{stl,obj,3mf,glb,vtu,png} [--state S]
+      a fabric to print, to look at or to compute with
   hauberk plugins [list | describe ID | conform FILE.so | new NAME DIR]
       shapes, load cases and optimizers that are found
   hauberk completion bash|zsh|fish

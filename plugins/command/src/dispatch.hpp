@@ -38,6 +38,9 @@ int verify_command(const std::vector<std::string>& words);
 Description report_description();
 int report_command(const std::vector<std::string>& words);
 
+Description export_description();
+int export_command(const std::vector<std::string>& words);
+
 Description plugins_description();  ///< plugins, plugins list, plugins describe
 int plugins_command(const std::vector<std::string>& words);
 

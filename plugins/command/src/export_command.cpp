@@ -1,0 +1,255 @@
+#include "dispatch.hpp"
+#include "document/atomic_file.hpp"
+#include "document/json_place.hpp"
+#include "document/json_text.hpp"
+#include "experiment_options.hpp"
+#include "export/formats.hpp"
+#include "export/picture.hpp"
+#include "run/weave_library.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+namespace hauberk::command {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace exporting;
+
+constexpr const char* formats = "stl, obj, 3mf, glb, vtu or png";
+
+/// Numbers between commas, all of the text.
+std::vector<double> numbers_in(const std::string& text)
+{
+  std::vector<double> out;
+  const char *at = text.data(), *end = at + text.size();
+  while (at != end) {
+    double x = 0.0;
+    const auto read = std::from_chars(at, end, x);
+    if (read.ec != std::errc{} || !std::isfinite(x)) return {};
+    out.push_back(x);
+    if (read.ptr == end) return out;
+    if (*read.ptr != ',') return {};
+    at = read.ptr + 1;
+  }
+  return {};
+}
+
+/// Whole numbers between commas, from 1 to `most`.
+std::vector<int> counts_of(const Options& options, const char* name, int most, const char* example)
+{
+  const auto& text = options.get<std::string>(name);
+  std::vector<int> out;
+  for (const double x : numbers_in(text)) {
+    if (x < 1.0 || x > most || x != std::floor(x)) break;
+    out.push_back(static_cast<int>(x));
+  }
+  if (out.size() != numbers_in(text).size() || out.empty())
+    throw UsageError(
+        fmt::format("--{} {}: expected whole numbers from 1 to {}, as {}", name, text, most, example),
+        options.usage());
+  return out;
+}
+
+std::array<int, 3> repeat_of(const Options& options)
+{
+  std::array<int, 3> repeat{1, 1, 1};
+  if (!options.has("repeat")) return repeat;
+  const std::vector<int> counts = counts_of(options, "repeat", 1000, "3,2");
+  if (counts.size() > 3) throw UsageError("--repeat: expected two or three numbers", options.usage());
+  for (std::size_t k = 0; k < counts.size(); ++k) repeat[k] = counts[k];
+  return repeat;
+}
+
+std::optional<Outline> outline_of(const Options& options)
+{
+  if (!options.has("outline")) return std::nullopt;
+  const auto& text = options.get<std::string>("outline");
+  const std::size_t colon = text.find(':');
+  const std::string kind = text.substr(0, colon);
+  const std::vector<double> sizes =
+      colon == std::string::npos ? std::vector<double>{} : numbers_in(text.substr(colon + 1));
+  if (kind == "disk" && sizes.size() == 1 && sizes[0] > 0.0) return Outline{sizes[0], {}};
+  if (kind == "rectangle" && sizes.size() == 2 && sizes[0] > 0.0 && sizes[1] > 0.0)
+    return Outline{0.0, {0.5 * sizes[0], 0.5 * sizes[1]}};
+  throw UsageError(fmt::format("--outline {}: expected disk:RADIUS or rectangle:A,B", text), options.usage());
+}
+
+double positive(const Options& options, const char* name)
+{
+  if (!options.has(name)) return 0.0;
+  const double value = options.get<double>(name);
+  if (!(value > 0.0) || !std::isfinite(value))
+    throw UsageError(fmt::format("--{} {:g}: expected a number above 0", name, value), options.usage());
+  return value;
+}
+
+/// The fabric that the file speaks of: an experiment, results, or a folder of results.
+Fabric open_fabric(const Options& options)
+{
+  std::string file = options.positional();
+  std::error_code unknown;
+  if (fs::is_directory(file, unknown)) file = (fs::path(file) / results_file).string();
+  const std::string state = options.has("state") ? options.get<std::string>("state") : "rest";
+  const std::string text = read_text_file(file);
+  const bool is_results = text.find("\"hauberk-results/") != std::string::npos;
+  if (!is_results) {
+    if (state != "rest")
+      throw InputError(fmt::format("--state {}: an experiment has only its rest; run it, and give its {}",
+                                   state, results_file));
+    const Job job =
+        prepare_job(open_registry(options), {file, text, options.list("set"), weave_lookup(file)});
+    return fabric_of(job.prepared->scene, job.prepared->experiment.name,
+                     job.prepared->experiment.length_unit);
+  }
+  if (!options.list("set").empty()) throw InputError("--set: results are as they are; give an experiment");
+  const boost::json::value results = parse_json(text, file);
+  const detail::JsonPlace document(results, file);
+  const Job job = prepare_job(open_registry(options),
+                              {file, write_json(document.at("experiment").value()), {}, weave_lookup(file)});
+  return fabric_in_results(results, file, job.prepared->scene, state);
+}
+
+std::string content_of(const std::string& format, const Assembly& assembly, const Options& options)
+{
+  if (format == ".stl") return stl(assembly);
+  if (format == ".obj") return obj(assembly);
+  if (format == ".3mf") return three_mf(assembly);
+  if (format == ".glb") return glb(assembly);
+  if (format == ".vtu") return vtu(assembly);
+  const View view = view_of(options.has("view") ? options.get<std::string>("view") : "iso");
+  std::vector<int> size{800, 600};
+  if (options.has("size")) size = counts_of(options, "size", 8000, "800,600");
+  if (size.size() != 2) throw UsageError("--size: expected width and height, as 800,600", options.usage());
+  return png(render(assembly, view, size[0], size[1]));
+}
+
+/// Refuses copies that are nearer than asked for.
+void require_gap(const Assembly& assembly, const std::optional<Nearest>& nearest, double wanted)
+{
+  if (!(wanted > 0.0) || !nearest || nearest->distance >= wanted) return;
+  throw ComputationError(fmt::format(
+      "--require-gap {:g}: {} and {} are {:.6g} {} apart in this state; make the wire thinner or the rings wider by "
+      "the difference, `hauberk room` says by how much, or export another state",
+      wanted, nearest->names[0], nearest->names[1], std::max(0.0, nearest->distance), assembly.unit));
+}
+
+/// What a person who prints it wants to know.
+std::string summary(const Assembly& assembly, const std::optional<Nearest>& nearest)
+{
+  std::size_t triangles = 0;
+  double total = 0.0, lowest = std::numeric_limits<double>::infinity(), thin = lowest;
+  for (const auto& copy : assembly.copies) {
+    const Mesh& mesh = assembly.meshes[copy.mesh];
+    triangles += mesh.triangles.size();
+    total += volume(mesh);
+    for (const Vec3& x : mesh.points)
+      lowest = std::min(lowest, copy.pose.position.z() + copy.pose.rotation.row(2).dot(x));
+  }
+  for (const auto& primitives : assembly.primitives) thin = std::min(thin, thinnest(primitives));
+  const std::string& unit = assembly.unit;
+  std::string text = fmt::format("{} of {}: {} elements, {} triangles, volume {:.6g} {}^3\n", assembly.state,
+                                 assembly.name, assembly.copies.size(), triangles, total, unit);
+  text += fmt::format("thinnest wire {:.6g} {} across, lowest point z = {:.6g} {}\n", 2.0 * thin, unit,
+                      lowest, unit);
+  if (!nearest) return text + "no two elements are near each other\n";
+  text += fmt::format("smallest gap {:.6g} {}: {} and {}\n", std::max(0.0, nearest->distance), unit,
+                      nearest->names[0], nearest->names[1]);
+  constexpr double touching = 1e-3;  // of the wire
+  if (nearest->distance < touching * thin)
+    text += "elements touch in this state: a printer fuses them; --require-gap refuses that\n";
+  return text;
+}
+
+}  // namespace
+
+Description export_description()
+{
+  return {
+      .name = "export",
+      .form = "FILE.json -o OUT.{stl,obj,3mf,glb,vtu,png} [--state S]",
+      .line = "a fabric to print, to look at or to compute with",
+      .synopsis = "export FILE.json -o OUT [options]",
+      .summary =
+          "Writes the elements of an experiment or of results (or of a folder of results) as closed surfaces: "
+          "STL, OBJ, 3MF, GLB, VTU by the ending of the file's name, or a picture as PNG.",
+      .more =
+          "Primitives of one element that overlap become one surface. What is said of gaps is certified, and "
+          "is that of the exact surfaces, not of their triangles.",
+      .arguments = {{.name = "FILE.json", .offer = Offer::results}},
+      .options = joined(
+          {{.name = "output",
+            .letter = 'o',
+            .takes = Takes::text,
+            .value = "OUT",
+            .help = "the file to write; its ending says in which format",
+            .offer = Offer::files},
+           {.name = "force", .help = "replace a file of that name"},
+           {.name = "state",
+            .takes = Takes::text,
+            .value = "S",
+            .help = "`rest` (default), `limit:K` of results, `initial` or `final` of a design"},
+           {.name = "repeat",
+            .takes = Takes::text,
+            .value = "M,N",
+            .help = "copies of the cell along its vectors"},
+           {.name = "outline",
+            .takes = Takes::text,
+            .value = "SHAPE",
+            .help = "keep elements whose middle is within `disk:RADIUS` or `rectangle:A,B`"},
+           {.name = "chord",
+            .takes = Takes::real,
+            .value = "X",
+            .help =
+                "how far triangles may leave the surface; default a fortieth of the thinnest wire's radius"},
+           {.name = "require-gap",
+            .takes = Takes::real,
+            .value = "X",
+            .help = "write nothing if two elements are nearer than this"},
+           {.name = "view",
+            .takes = Takes::text,
+            .value = "V",
+            .help = "of a picture: `top`, `front`, `side`, `iso` (default), or AZIMUTH,ELEVATION in degrees"},
+           {.name = "size", .takes = Takes::text, .value = "W,H", .help = "of a picture; default 800,600"}},
+          experiment_options())};
+}
+
+int export_command(const std::vector<std::string>& words)
+{
+  Options options(export_description());
+  options.parse(words);
+  if (!options.has("output"))
+    throw UsageError(fmt::format("--output: expected a file that ends in {}", formats), options.usage());
+  const fs::path file = options.get<std::string>("output");
+  std::string format = file.extension().string();
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (format != ".stl" && format != ".obj" && format != ".3mf" && format != ".glb" && format != ".vtu" &&
+      format != ".png")
+    throw UsageError(fmt::format("--output {}: expected an ending of {}", file.string(), formats),
+                     options.usage());
+  const std::array<int, 3> repeat = repeat_of(options);
+  const std::optional<Outline> outline = outline_of(options);
+  const double chord = positive(options, "chord"), gap = positive(options, "require-gap");
+  if (!options.has("force")) refuse_existing_file(file);
+  const Assembly assembly = assemble(open_fabric(options), repeat, outline, chord);
+  const auto nearest = nearest_copies(assembly, std::numeric_limits<double>::infinity());
+  require_gap(assembly, nearest, gap);
+  const std::string content = content_of(format, assembly, options);
+  if (options.has("force"))
+    write_files_atomically(file.has_parent_path() ? file.parent_path() : ".",
+                           {{file.filename().string(), content}}, {});
+  else
+    write_new_file_atomically(file, content);
+  fmt::print("{}written to {}\n", summary(assembly, nearest), file.string());
+  return exit_done;
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,314 @@
+#include "export/fabric.hpp"
+
+#include "document/json_place.hpp"
+#include "geometry/body.hpp"
+#include "geometry/separation.hpp"
+
+#include <hauberk/error.hpp>
+#include <hauberk/solid.hpp>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hauberk::exporting {
+namespace {
+
+using detail::JsonPlace;
+
+constexpr std::size_t most_copies = 100000;
+/// Gaps are known to this part of them.
+constexpr double certain = 1.0 - 1e-6;
+
+Pose pose_at(const JsonPlace& place)
+{
+  const auto position = place.at("position").items(), q = place.at("quaternion").items();
+  if (position.size() != 3 || q.size() != 4) place.fail("expected 3 numbers in position and 4 in quaternion");
+  Pose pose;
+  for (int k = 0; k < 3; ++k) pose.position[k] = position[k].number();
+  const Eigen::Quaterniond turn(q[0].number(), q[1].number(), q[2].number(), q[3].number());
+  if (!(turn.norm() > 0.5)) place.fail("expected a unit quaternion");
+  pose.rotation = turn.normalized().toRotationMatrix();
+  return pose;
+}
+
+std::vector<Vec3> vectors_at(const JsonPlace& place)
+{
+  std::vector<Vec3> out;
+  for (const JsonPlace& vector : place.items()) {
+    Vec3 x = Vec3::Zero();
+    const auto entries = vector.items();
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, entries.size()); ++k)
+      x[static_cast<Eigen::Index>(k)] = entries[k].number();
+    out.push_back(x);
+  }
+  return out;
+}
+
+/// F of the strain of a limit; components that it does not name are nought.
+Mat3 deformation(const JsonPlace& macro)
+{
+  const auto component = [&](const char* name) { return macro.optional_number(name).value_or(0.0); };
+  Mat3 F = Mat3::Identity();
+  F(0, 0) += component("exx");
+  F(1, 1) += component("eyy");
+  F(2, 2) += component("ezz");
+  F(0, 1) = F(1, 0) = component("exy");
+  F(0, 2) = F(2, 0) = component("exz");
+  F(1, 2) = F(2, 1) = component("eyz");
+  return F;
+}
+
+Fabric::Element element_at(const JsonPlace& place, const SceneSpec& scene)
+{
+  Fabric::Element element;
+  element.type = place.at("type").text();
+  const auto type = std::find_if(scene.types.begin(), scene.types.end(),
+                                 [&](const ElementType& t) { return t.name == element.type; });
+  if (type == scene.types.end()) place.at("type").fail("the experiment in the results has no such element");
+  std::vector<double> parameters;
+  for (const ParameterInfo& info : type->shape->parameters())
+    parameters.push_back(place.at("parameters").at(info.name.c_str()).number());
+  element.primitives = type->shape->primitives(parameters);
+  element.rest = element.pose = pose_at(place.at("rest"));
+  return element;
+}
+
+/// The scene that a document or its design has, at rest.
+void read_scene(const JsonPlace& place, const SceneSpec& shapes, Fabric& fabric)
+{
+  for (const JsonPlace& element : place.at("elements").items())
+    fabric.elements.push_back(element_at(element, shapes));
+  fabric.lattice = fabric.rest_lattice = vectors_at(place.at("cell_vectors"));
+}
+
+void move_to_limit(const JsonPlace& limit, Fabric& fabric)
+{
+  const auto poses = limit.at("poses").items();
+  if (poses.size() != fabric.elements.size())
+    limit.at("poses").fail(fmt::format("expected {} poses, found {}", fabric.elements.size(), poses.size()));
+  for (std::size_t k = 0; k < poses.size(); ++k) fabric.elements[k].pose = pose_at(poses[k]);
+  const Mat3 F = deformation(limit.at("macro"));
+  for (Vec3& v : fabric.lattice) v = (F * v).eval();
+  const auto direction = limit.find("direction_deg");
+  fabric.state += fmt::format(": {}{}", limit.at("sense").text(),
+                              direction ? fmt::format(" at {:g} degrees", direction->number()) : "");
+}
+
+/// The limit "limit:K" speaks of.
+JsonPlace limit_of(const JsonPlace& document, const std::string& file, const std::string& state)
+{
+  const auto limits = document.find("limits");
+  const std::vector<JsonPlace> all = limits ? limits->items() : std::vector<JsonPlace>{};
+  std::size_t number = 0, used = 0;
+  const std::string digits = state.substr(6);
+  try {
+    number = std::stoul(digits, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != digits.size() || number >= all.size())
+    throw InputError(fmt::format("--state {}: {} has {} limits{}", state, file, all.size(),
+                                 all.empty() ? "" : fmt::format(", limit:0 to limit:{}", all.size() - 1)));
+  return all[number];
+}
+
+/// What tells primitives apart: numbers that make the same surface are equal.
+std::vector<double> signature(const Fabric::Element& element)
+{
+  std::vector<double> out;
+  for (const Primitive& p : element.primitives) {
+    for (const double x : p.position) out.push_back(x);
+    for (const double x : p.rotation.reshaped()) out.push_back(x);
+    for (const double x : p.size) out.push_back(x);
+    for (const Harmonic& h : p.curve)
+      for (int k = 0; k < 3; ++k) out.insert(out.end(), {h.c[k], h.s[k]});
+    if (p.solid) out.insert(out.end(), p.solid->sizes().begin(), p.solid->sizes().end());
+  }
+  return out;
+}
+
+bool within(const Outline& outline, const Vec3& x)
+{
+  if (outline.radius > 0.0) return std::hypot(x.x(), x.y()) <= outline.radius;
+  return std::abs(x.x()) <= outline.half_sides[0] && std::abs(x.y()) <= outline.half_sides[1];
+}
+
+Vec3 middle_of(const std::vector<Assembly::Copy>& copies)
+{
+  Vec3 sum = Vec3::Zero();
+  for (const auto& copy : copies) sum += copy.pose.position;
+  return copies.empty() ? sum : Vec3(sum / static_cast<double>(copies.size()));
+}
+
+void keep_within(Assembly& assembly, const Outline& outline)
+{
+  const Vec3 middle = middle_of(assembly.copies);
+  std::erase_if(assembly.copies,
+                [&](const Assembly::Copy& c) { return !within(outline, c.pose.position - middle); });
+  if (assembly.copies.empty())
+    throw InputError("--outline: no element's middle lies within; give a larger one, or --repeat more cells");
+}
+
+/// Copies of one cell, `shift` cells along the vectors.
+void add_cell(const Fabric& fabric, const std::vector<int>& mesh_of, const std::array<int, 3>& shift,
+              bool named, Assembly& assembly)
+{
+  Vec3 moved = Vec3::Zero(), rest = Vec3::Zero();
+  for (std::size_t v = 0; v < fabric.lattice.size(); ++v) {
+    moved += shift[v] * fabric.lattice[v];
+    rest += shift[v] * fabric.rest_lattice[v];
+  }
+  for (std::size_t k = 0; k < fabric.elements.size(); ++k) {
+    const Fabric::Element& element = fabric.elements[k];
+    Assembly::Copy copy{mesh_of[k], static_cast<int>(k), fmt::format("{} {}", element.type, k), element.pose,
+                        element.rest};
+    if (named) {
+      copy.name += fmt::format(" [{}, {}", shift[0], shift[1]);
+      copy.name += fabric.lattice.size() == 3 ? fmt::format(", {}]", shift[2]) : "]";
+    }
+    copy.pose.position += moved;
+    copy.rest.position += rest;
+    assembly.copies.push_back(std::move(copy));
+  }
+}
+
+/// The meshes of a fabric's elements, each surface once, and which of them each element has.
+std::vector<int> add_meshes(const Fabric& fabric, double chord, Assembly& assembly)
+{
+  std::map<std::pair<std::string, std::vector<double>>, int> known;
+  std::map<std::string, int> of_type;
+  std::vector<int> mesh_of;
+  for (const Fabric::Element& element : fabric.elements) {
+    const auto [entry, is_new] =
+        known.try_emplace({element.type, signature(element)}, static_cast<int>(assembly.meshes.size()));
+    mesh_of.push_back(entry->second);
+    if (!is_new) continue;
+    const double fine = chord > 0.0 ? chord : thinnest(element.primitives) / 40.0;
+    assembly.meshes.push_back(element_mesh(element.primitives, fine));
+    assembly.primitives.push_back(element.primitives);
+    const int number = of_type[element.type]++;
+    assembly.mesh_names.push_back(number == 0 ? element.type
+                                              : fmt::format("{} {}", element.type, number + 1));
+  }
+  return mesh_of;
+}
+
+}  // namespace
+
+Fabric fabric_of(const SceneSpec& scene, const std::string& name, const std::string& unit)
+{
+  Fabric fabric;
+  fabric.name = name;
+  fabric.unit = unit;
+  fabric.state = "rest";
+  fabric.lattice = fabric.rest_lattice = scene.lattice;
+  for (const PlacedElement& element : scene.elements) {
+    const ElementType& type = scene.types[static_cast<std::size_t>(element.type)];
+    fabric.elements.push_back(
+        {type.name, type.shape->primitives(element.parameters), element.rest, element.rest});
+  }
+  return fabric;
+}
+
+Fabric fabric_in_results(const boost::json::value& results, const std::string& file, const SceneSpec& scene,
+                         const std::string& state)
+{
+  const JsonPlace document(results, file);
+  const JsonPlace experiment = document.at("experiment");
+  const auto design = document.find("design");
+  Fabric fabric;
+  fabric.name = experiment.at("name").text();
+  fabric.unit = experiment.at("length_unit").text();
+  fabric.state = state;
+  const bool is_limit = state.starts_with("limit:");
+  if (state != "rest" && state != "initial" && state != "final" && !is_limit)
+    throw InputError(fmt::format("--state {}: expected rest, initial, final or limit:K", state));
+  if ((state == "initial" || state == "final") && !design)
+    throw InputError(
+        fmt::format("--state {}: {} holds no design; its states are rest and limit:K", state, file));
+  const JsonPlace place = state == "initial" ? design->at("initial").at("scene") : document.at("scene");
+  read_scene(place, scene, fabric);
+  if (is_limit) {
+    const JsonPlace limit = limit_of(document, file, state);
+    move_to_limit(limit, fabric);
+  }
+  return fabric;
+}
+
+Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::optional<Outline>& outline,
+                  double chord)
+{
+  for (std::size_t v = fabric.lattice.size(); v < 3; ++v) {
+    if (repeat[v] != 1)
+      throw InputError(fabric.lattice.empty() ? "--repeat: a patch is no cell, and has no copies"
+                                              : "--repeat: the cell has two vectors; give two numbers");
+  }
+  double copies = static_cast<double>(fabric.elements.size());
+  for (const int n : repeat) copies *= n;
+  if (copies > static_cast<double>(most_copies))
+    throw InputError(
+        fmt::format("--repeat: {:.3g} elements, more than {}; repeat less", copies, most_copies));
+  Assembly assembly;
+  assembly.name = fabric.name;
+  assembly.unit = fabric.unit;
+  assembly.state = fabric.state;
+  const std::vector<int> mesh_of = add_meshes(fabric, chord, assembly);
+  const bool named = repeat[0] * repeat[1] * repeat[2] > 1;
+  for (int k = 0; k < repeat[2]; ++k)
+    for (int j = 0; j < repeat[1]; ++j)
+      for (int i = 0; i < repeat[0]; ++i) add_cell(fabric, mesh_of, {i, j, k}, named, assembly);
+  if (outline) keep_within(assembly, *outline);
+  return assembly;
+}
+
+std::optional<Nearest> nearest_copies(const Assembly& assembly, double enough)
+{
+  std::vector<std::vector<Body>> bodies;
+  std::vector<double> reach;
+  for (const auto& primitives : assembly.primitives) {
+    auto& of_mesh = bodies.emplace_back();
+    double most = 0.0;
+    for (std::size_t k = 0; k < primitives.size(); ++k) {
+      of_mesh.push_back(make_body(primitives[k], 0, static_cast<int>(k), 1.0));
+      most = std::max(most, of_mesh.back().reach);
+    }
+    reach.push_back(most);
+  }
+  std::optional<Nearest> out;
+  double least = enough;
+  const auto look = [&](const Assembly::Copy& a, const Assembly::Copy& b) {
+    for (const Body& A : bodies[a.mesh]) {
+      for (const Body& B : bodies[b.mesh]) {
+        if (A.surface || B.surface) continue;  // only their facets know how far apart they are
+        if (ball_gap(A, a.pose, B, b.pose, 0.0) >= least) continue;
+        // Rough for pairs that are farther apart than the nearest so far, then as exact as it is promised.
+        Separation s = separation(A, a.pose, B, b.pose, 0.0, least, 0.9);
+        if (s.lower >= least) continue;
+        s = separation(A, a.pose, B, b.pose, 0.0, least, certain);
+        if (s.upper >= least) continue;
+        least = s.upper;
+        out = Nearest{s.upper, {a.name, b.name}};
+      }
+    }
+  };
+  // Copies in the order of their places along x, so that only those within reach are compared.
+  std::vector<const Assembly::Copy*> order;
+  for (const auto& copy : assembly.copies) order.push_back(&copy);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->pose.position.x() < b->pose.position.x(); });
+  const double widest = reach.empty() ? 0.0 : *std::max_element(reach.begin(), reach.end());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const double apart = order[j]->pose.position.x() - order[i]->pose.position.x();
+      if (apart > 2.0 * widest + std::max(least, 0.0)) break;
+      look(*order[i], *order[j]);
+    }
+  }
+  return out;
+}
+
+}  // namespace hauberk::exporting

@@ -1,0 +1,76 @@
+#pragma once
+/// A fabric as it is to be shown or printed: which surfaces, and where their copies lie.
+
+#include "export/mesh.hpp"
+#include "geometry/pose.hpp"
+#include "model/scene.hpp"
+
+#include <boost/json/value.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk::exporting {
+
+/// Elements of one state of a fabric, in the unit of the experiment.
+struct Fabric {
+  struct Element {
+    std::string type;
+    std::vector<Primitive> primitives;  ///< in the element's frame
+    Pose pose;
+    Pose rest;
+  };
+  std::string name, unit;
+  std::string state;  ///< "rest", "limit 3: stretch at 0 degrees"
+  std::vector<Element> elements;
+  std::vector<Vec3> lattice, rest_lattice;  ///< none of a patch
+};
+
+/// The scene of an experiment at rest.
+Fabric fabric_of(const SceneSpec& scene, const std::string& name, const std::string& unit);
+
+/// A state of results: "rest", "initial" (of a design), "final" (of a design: its last rest state),
+/// "limit:K". `scene` is that of the experiment in them, which knows the shapes; parameters and poses are
+/// read. `file` is named in messages. Throws InputError naming the state and what there is.
+Fabric fabric_in_results(const boost::json::value& results, const std::string& file, const SceneSpec& scene,
+                         const std::string& state);
+
+/// Which part of a periodic fabric is kept: elements whose middle is within, about the middle of all.
+struct Outline {
+  double radius = 0.0;                 ///< of a disk; 0: a rectangle
+  std::array<double, 2> half_sides{};  ///< of a rectangle
+};
+
+/// Surfaces once, and their copies.
+struct Assembly {
+  struct Copy {
+    int mesh = 0;
+    int element = 0;   ///< of the cell or patch
+    std::string name;  ///< "ring 3", "ring 3 [1, 0]"
+    Pose pose, rest;
+  };
+  std::string name, unit, state;
+  std::vector<Mesh> meshes;
+  std::vector<std::string> mesh_names;             ///< the element's type, numbered where its sizes differ
+  std::vector<std::vector<Primitive>> primitives;  ///< of each mesh
+  std::vector<Copy> copies;
+};
+
+/// `repeat`: copies of the cell along its vectors; elements keep their order, cells the order of the last
+/// vector slowest. `chord`: see element_mesh; 0: a fortieth of the thinnest wire's radius. Throws InputError
+/// where an outline leaves nothing, where a patch is repeated, and beyond 100,000 copies.
+Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::optional<Outline>& outline,
+                  double chord);
+
+/// The nearest two copies: surface distance (certified to 1 part in 1,000 or 1e-9 of the wire, 0 or below
+/// where they overlap) and their names. None where there are not two, or where all pairs are farther apart
+/// than `enough`.
+struct Nearest {
+  double distance = 0.0;
+  std::array<std::string, 2> names;
+};
+std::optional<Nearest> nearest_copies(const Assembly& assembly, double enough);
+
+}  // namespace hauberk::exporting

@@ -1,0 +1,29 @@
+#pragma once
+/// Fields of primitives, and the surfaces where the least of several is zero.
+
+#include "export/mesh.hpp"
+
+namespace hauberk::exporting {
+
+/// A function of the element's frame that is negative inside of a primitive, zero on its surface and positive
+/// outside, and changes by at most the distance of two points.
+class Field {
+ public:
+  /// Throws InputError for a triangle mesh, which has none.
+  explicit Field(const Primitive& primitive);
+  double operator()(const Vec3& x) const;
+  /// A box that holds the surface, widened by `by`.
+  void extend(Vec3& low, Vec3& high, double by) const;
+
+ private:
+  double around_curve(const Vec3& x) const;
+
+  Primitive primitive_;
+  std::vector<Vec3> core_;  ///< of a curve tube: points of its core, evenly in the coordinate
+  double radius_ = 0.0;     ///< of a ball about the primitive's position that holds it
+};
+
+/// The surface of the union of primitives; see element_mesh.
+Mesh zero_set(std::span<const Primitive> primitives, double chord, double most_triangles);
+
+}  // namespace hauberk::exporting

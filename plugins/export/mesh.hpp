@@ -1,0 +1,41 @@
+#pragma once
+/// Closed triangle meshes of elements.
+
+#include <hauberk/shape.hpp>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace hauberk::exporting {
+
+/// Corners are counter-clockwise seen from outside. Lengths in the unit of the experiment.
+struct Mesh {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// Volume inside: a sixth of the sum of a . (b x c) over the triangles (divergence theorem).
+double volume(const Mesh& mesh);
+
+/// Appends `other`, turned and moved.
+void append(Mesh& mesh, const Mesh& other, const Mat3& rotation, const Vec3& position);
+
+/// Unit normals at the points: the mean of those of the triangles around, weighted by area.
+std::vector<Vec3> point_normals(const Mesh& mesh);
+
+/// The surface of a union of primitives in the element's frame: closed and oriented, every edge in two
+/// triangles, one closed surface for each group of primitives that overlap. Points lie on the surface; facets
+/// leave it by at most about `chord` (> 0), and the volume's error falls with it.
+///
+/// A primitive that overlaps no other is sampled by its chart. A group is the zero set of the least of its
+/// fields, drawn by marching tetrahedra (six to a cube, as Kuhn divides it), whose edges find the surface by
+/// bisection: ridges where primitives meet are cut by facets, in the order of the chord, too. Throws
+/// InputError where a triangle mesh overlaps other primitives, and where the chord would take more than
+/// 5,000,000 triangles of one element. Thread safe.
+Mesh element_mesh(std::span<const Primitive> primitives, double chord);
+
+/// The smallest radius of the wires, tubes or walls of primitives, which chords are measured by.
+double thinnest(std::span<const Primitive> primitives);
+
+}  // namespace hauberk::exporting

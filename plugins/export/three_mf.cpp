@@ -1,0 +1,155 @@
+#include "export/formats.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+#ifdef HAUBERK_LIBZIP
+#include <zip.h>
+#endif
+
+#include <iterator>
+#include <memory>
+
+namespace hauberk::exporting {
+
+#ifdef HAUBERK_LIBZIP
+namespace {
+
+/// Text between tags; what a document of XML cannot hold becomes "?".
+std::string escaped(const std::string& text)
+{
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  }
+  return out;
+}
+
+const char* unit_name(const std::string& unit)
+{
+  return unit == "m" ? "meter" : unit == "um" ? "micron" : "millimeter";
+}
+
+std::string object_xml(const Assembly& assembly, std::size_t k)
+{
+  const Mesh& mesh = assembly.meshes[k];
+  std::string out =
+      fmt::format("<object id=\"{}\" name=\"{}\" type=\"model\" pid=\"1\" pindex=\"{}\"><mesh><vertices>\n",
+                  k + 2, escaped(assembly.mesh_names[k]), k);
+  for (const Vec3& x : mesh.points)
+    fmt::format_to(std::back_inserter(out), "<vertex x=\"{:.9g}\" y=\"{:.9g}\" z=\"{:.9g}\"/>\n", x.x(),
+                   x.y(), x.z());
+  out += "</vertices><triangles>\n";
+  for (const auto& t : mesh.triangles)
+    fmt::format_to(std::back_inserter(out), "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", t[0], t[1], t[2]);
+  return out + "</triangles></mesh></object>\n";
+}
+
+/// 3MF multiplies rows by matrices: the rows of the transform are the columns of the rotation, then the
+/// place.
+std::string item_xml(const Assembly::Copy& copy)
+{
+  std::string transform;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) transform += fmt::format("{:.12g} ", copy.pose.rotation(row, column));
+  const Vec3& x = copy.pose.position;
+  transform += fmt::format("{:.9g} {:.9g} {:.9g}", x.x(), x.y(), x.z());
+  return fmt::format("<item objectid=\"{}\" partnumber=\"{}\" transform=\"{}\"/>\n", copy.mesh + 2,
+                     escaped(copy.name), transform);
+}
+
+std::string model_xml(const Assembly& assembly)
+{
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"{}\" xml:lang=\"en\" "
+      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+      "<metadata name=\"Title\">{}, {}</metadata>\n<resources>\n<basematerials id=\"1\">\n",
+      unit_name(assembly.unit), escaped(assembly.name), escaped(assembly.state));
+  for (std::size_t k = 0; k < assembly.meshes.size(); ++k) {
+    const auto c = colour_of(static_cast<int>(k));
+    out += fmt::format("<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n",
+                       escaped(assembly.mesh_names[k]), c[0], c[1], c[2]);
+  }
+  out += "</basematerials>\n";
+  for (std::size_t k = 0; k < assembly.meshes.size(); ++k) out += object_xml(assembly, k);
+  out += "</resources>\n<build>\n";
+  for (const auto& copy : assembly.copies) out += item_xml(copy);
+  return out + "</build>\n</model>\n";
+}
+
+constexpr const char* content_types =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Types "
+    "xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\"><Default Extension=\"rels\" "
+    "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/><Default Extension=\"model\" "
+    "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>\n";
+constexpr const char* relationships =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships "
+    "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship Target=\"/3D/3dmodel.model\" "
+    "Id=\"rel0\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
+
+[[noreturn]] void fail(const char* what)
+{
+  throw ComputationError(fmt::format("3MF: the archive cannot be {}", what));
+}
+
+/// Names and contents as an archive in memory. Times in it are constant.
+std::string archive(const std::vector<std::pair<std::string, std::string>>& files)
+{
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, &error);
+  if (target == nullptr) fail("made");
+  zip_source_keep(target);
+  const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> kept(target, zip_source_free);
+  zip_t* zip = zip_open_from_source(target, ZIP_TRUNCATE, &error);
+  if (zip == nullptr) {
+    zip_source_free(target);
+    fail("opened");
+  }
+  for (const auto& [name, content] : files) {
+    zip_source_t* source = zip_source_buffer(zip, content.data(), content.size(), 0);
+    const zip_int64_t index =
+        source == nullptr ? -1 : zip_file_add(zip, name.c_str(), source, ZIP_FL_ENC_UTF_8);
+    constexpr zip_uint16_t day = (40 << 9) | (1 << 5) | 1, hour = 0;  // 2020-01-01, in the format of MS-DOS
+    if (index < 0 || zip_file_set_dostime(zip, static_cast<zip_uint64_t>(index), hour, day, 0) != 0) {
+      zip_discard(zip);
+      fail("filled");
+    }
+  }
+  if (zip_close(zip) != 0) fail("written");
+  zip_stat_t size;
+  if (zip_source_open(target) != 0 || zip_source_stat(target, &size) != 0) fail("read");
+  std::string out(size.size, '\0');
+  const zip_int64_t read = zip_source_read(target, out.data(), out.size());
+  zip_source_close(target);
+  if (read != static_cast<zip_int64_t>(out.size())) fail("read");
+  return out;
+}
+
+}  // namespace
+
+std::string three_mf(const Assembly& assembly)
+{
+  return archive({{"[Content_Types].xml", content_types},
+                  {"_rels/.rels", relationships},
+                  {"3D/3dmodel.model", model_xml(assembly)}});
+}
+#else
+std::string three_mf(const Assembly&)
+{
+  throw InputError(
+      "this program was built without libzip, which 3MF needs; install libzip-dev and build again, or export STL, OBJ "
+      "or GLB");
+}
+#endif
+
+}  // namespace hauberk::exporting

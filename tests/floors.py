@@ -55,8 +55,9 @@ PLAN = {
     "plugins/tasks": ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/run",
                       "plugins/tasks/task.hpp", "plugins/tasks/limits", "plugins/tasks/design", "plugins/tasks/sweep",
                       "plugins/tasks/chart", "plugins/tasks/stability", "plugins/tasks/transition"],
+    "plugins/maker": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/run", "plugins/tasks"],
     "plugins/command": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
-                        "plugins/report", "plugins/export", "plugins/verify", "plugins/conformance", "plugins/run",
+                        "plugins/report", "plugins/export", "plugins/maker", "plugins/verify", "plugins/conformance", "plugins/run",
                         "plugins/tasks"],
 }
 

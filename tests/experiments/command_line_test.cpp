@@ -86,6 +86,8 @@ Usage:
       a table and a page of plots of many results
   hauberk export FILE.json -o OUT.{stl,obj,3mf,glb,vtu,png} [--state S]
       a fabric to print, to look at or to compute with
+  hauberk weave NAME --inner LENGTH --wire LENGTH
+      a maker's answers: room, stretch, weight of a weave
   hauberk plugins [list | describe ID | conform FILE.so | new NAME DIR]
       shapes, load cases and optimizers that are found
   hauberk completion bash|zsh|fish

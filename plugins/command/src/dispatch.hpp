@@ -41,6 +41,10 @@ int report_command(const std::vector<std::string>& words);
 Description export_description();
 int export_command(const std::vector<std::string>& words);
 
+/// A maker's answers. Throws ComputationError where the rings are too small for their wire.
+Description weave_description();
+int weave_command(const std::vector<std::string>& words);
+
 Description plugins_description();  ///< plugins, plugins list, plugins describe
 int plugins_command(const std::vector<std::string>& words);
 

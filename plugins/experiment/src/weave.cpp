@@ -38,6 +38,7 @@ Field weave_file_fields()
       {required(string("name", "Name.")), string("description", "What it is."),
        required(map("parameters", "Lengths by name.", std::move(parameter))),
        with_default(map("lengths", "Further lengths, sums of those before.", sum), "{}"),
+       map("ways", "Names of directions, in degrees from x.", number("direction", "Direction.", "degree")),
        list("links", "Links of every place with others.", integer("count", "Number of links.")),
        std::move(buildable), required(any("elements", "As in experiments.")), required(std::move(cell))});
 }

@@ -1,0 +1,100 @@
+#include "dispatch.hpp"
+#include "document/atomic_file.hpp"
+#include "document/json_text.hpp"
+#include "experiment_options.hpp"
+#include "maker/weave_sheet.hpp"
+#include "maker/wire_length.hpp"
+#include "run/interrupt.hpp"
+#include "run/machine.hpp"
+#include "run/weave_library.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+namespace hauberk::command {
+namespace {
+
+constexpr std::array<const char*, 2> sheet_files{"weave.txt", "weave.json"};
+
+double length_option(const Options& options, const char* name, const char* fallback)
+{
+  if (!options.has(name) && fallback == nullptr)
+    throw UsageError(fmt::format("--{}: expected a length, as 8mm, 5/16in or 18awg", name), options.usage());
+  return maker::millimetres(options.has(name) ? options.get<std::string>(name) : fallback,
+                            fmt::format("--{}", name));
+}
+
+}  // namespace
+
+Description weave_description()
+{
+  return {
+      .name = "weave",
+      .form = "NAME --inner LENGTH --wire LENGTH",
+      .line = "a maker's answers: room, stretch, weight of a weave",
+      .synopsis = "weave NAME --inner LENGTH --wire LENGTH [options]",
+      .summary =
+          "Says whether a weave can be made of rings of this inner diameter and wire, for which it could, how long it "
+          "is at rest, taut and pushed together, what it weighs, and what a printer's gap leaves of it. "
+          "Lengths as 8mm, 0.8cm, 5/16in, 18awg (American) or 18swg (British gauge).",
+      .more = "Exit code 1 where the rings are too small for their wire.",
+      .arguments = {{.name = "NAME"}},
+      .options = {
+          {.name = "inner", .takes = Takes::text, .value = "LENGTH", .help = "inner diameter of the rings"},
+          {.name = "wire", .takes = Takes::text, .value = "LENGTH", .help = "diameter of their wire"},
+          {.name = "gap",
+           .takes = Takes::text,
+           .value = "LENGTH",
+           .help = "that a printer needs between surfaces; default 0.4mm"},
+          {.name = "output",
+           .letter = 'o',
+           .takes = Takes::text,
+           .value = "DIR",
+           .help = "folder for the answers and the experiment that they come from",
+           .offer = Offer::folders},
+          {.name = "force", .help = "replace answers that the folder holds"},
+          json_option(),
+          plugin_path_option()}};
+}
+
+int weave_command(const std::vector<std::string>& words)
+{
+  catch_interrupts();
+  Options options(weave_description());
+  options.parse(words);
+  maker::Question question;
+  question.weave = options.positional();
+  question.inner = length_option(options, "inner", nullptr);
+  question.wire = length_option(options, "wire", nullptr);
+  question.gap = length_option(options, "gap", "0.4mm");
+  const WeaveLookup lookup = weave_lookup("weave.json");
+  const maker::Weave weave = maker::read_weave(question.weave, lookup);
+  if (!maker::can_be_woven(weave, question))
+    throw ComputationError(fmt::format(
+        "{}: rings of {:.4g} mm are too small for wire of {:.4g} mm (ratio {:.3f}, at least {:.3f} is needed); take "
+        "rings from {:.3f} mm on, or wire up to {:.3f} mm",
+        weave.name, question.inner, question.wire, question.inner / question.wire, weave.smallest_ratio,
+        weave.smallest_ratio * question.wire, question.inner / weave.smallest_ratio));
+  const bool kept = options.has("output");
+  const std::filesystem::path folder = kept ? options.get<std::string>("output") : "";
+  if (kept) prepare_output_directory(folder, options.has("force"), sheet_files);
+  Progress progress(Progress::detect(true));
+  const maker::Sheet sheet =
+      maker::answer(weave, question, lookup, open_registry(options), available_processors(), progress);
+  const std::string text = maker::sheet_text(sheet), json = write_json(maker::sheet_json(sheet));
+  fmt::print("{}", options.has("json") ? json : text);
+  if (!kept) return exit_done;
+  write_files_atomically(folder,
+                         {{"weave.txt", text},
+                          {"weave.json", json},
+                          {"experiment.json", maker::experiment_text(weave, question, 0.0)}},
+                         sheet_files);
+  if (!options.has("json")) fmt::print("\nwritten to {}; experiment.json runs again\n", folder.string());
+  return exit_done;
+}
+
+}  // namespace hauberk::command

@@ -1,0 +1,96 @@
+#include "maker/weave_sheet.hpp"
+#include "maker/wire_length.hpp"
+#include "run/weave_library.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <gtest/gtest.h>
+#include <boost/json/array.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+namespace hauberk::maker {
+namespace {
+
+TEST(WireLength, IsReadInEveryUnit)
+{
+  EXPECT_DOUBLE_EQ(millimetres("8mm", "--inner"), 8.0);
+  EXPECT_DOUBLE_EQ(millimetres(" 0.8 CM ", "--inner"), 8.0);
+  EXPECT_DOUBLE_EQ(millimetres("5/16in", "--inner"), 7.9375);
+  EXPECT_DOUBLE_EQ(millimetres("0.25\"", "--inner"), 6.35);
+  // Printed tables: 18 AWG is 1.024 mm, 36 AWG 5 mil, 4/0 AWG 0.46 in; 18 SWG is 48 mil, 7/0 SWG half an
+  // inch.
+  EXPECT_NEAR(millimetres("18awg", "--wire"), 1.024, 5e-4);
+  EXPECT_NEAR(millimetres("36awg", "--wire"), 0.127, 1e-12);
+  EXPECT_NEAR(millimetres("4/0awg", "--wire"), 11.684, 1e-9);
+  EXPECT_EQ(millimetres("0000awg", "--wire"), millimetres("4/0awg", "--wire"));
+  EXPECT_NEAR(millimetres("18swg", "--wire"), 1.2192, 1e-12);
+  EXPECT_NEAR(millimetres("7/0swg", "--wire"), 12.7, 1e-12);
+  EXPECT_NEAR(millimetres("0swg", "--wire"), 8.2296, 1e-12);
+}
+
+TEST(WireLength, RefusesWhatIsNone)
+{
+  for (const char* text : {"", "8", "mm", "8furlong", "-8mm", "0mm", "1/0mm", "nanmm", "infmm", "1e400mm",
+                           "18.5awg", "99swg", "8/0swg", "5/0awg"})
+    EXPECT_THROW(millimetres(text, "--inner"), InputError) << text;
+}
+
+class Answers : public ::testing::Test {
+ protected:
+  static Sheet of(const std::string& name, double inner, double wire, double gap = 0.4)
+  {
+    const std::filesystem::path build = HAUBERK_BINARY_DIR;
+    const WeaveLookup lookup = weave_lookup(".", std::filesystem::path(HAUBERK_SOURCE_DIR) / "share/weaves");
+    const auto registry =
+        std::make_shared<Registry>(std::vector<std::filesystem::path>{build / "lib/hauberk/plugins"});
+    Progress quiet(Progress::Mode::quiet);
+    return answer(read_weave(name, lookup), {name, inner, wire, gap}, lookup, registry, 2, quiet);
+  }
+};
+
+TEST_F(Answers, OfAChainAreThoseOfTheClosedForm)
+{
+  const Sheet sheet = of("chain", 8.0, 1.2);
+  ASSERT_EQ(sheet.ways.size(), 1U);
+  // Taut, every ring sits in the next ones: two rings take two inner diameters.
+  ASSERT_TRUE(sheet.ways[0].stretch);
+  EXPECT_NEAR(sheet.ways[0].pitch * (1.0 + *sheet.ways[0].stretch), 16.0, 1e-8);
+  // Surfaces that stay 0.4 mm apart take as much of each inner diameter.
+  ASSERT_TRUE(sheet.printable);
+  ASSERT_TRUE(sheet.with_gap[0].stretch);
+  EXPECT_NEAR(sheet.with_gap[0].pitch * (1.0 + *sheet.with_gap[0].stretch), 15.2, 1e-8);
+  // Two rings in every pitch of the rest, and the weight of their wire.
+  EXPECT_NEAR(sheet.rings, 2000.0 / sheet.ways[0].pitch, 1e-9);
+  EXPECT_NEAR(sheet.ring_volume, std::numbers::pi * 0.36 * std::numbers::pi * 9.2, 1e-12);
+}
+
+TEST_F(Answers, OfASquareWeaveHangAlongItsRowsLikeChains)
+{
+  const Sheet sheet = of("japanese_4in1", 8.0, 2.4, 0.9);
+  EXPECT_EQ(sheet.ways[0].name, "along the rows");
+  ASSERT_TRUE(sheet.ways[0].stretch);
+  EXPECT_NEAR(sheet.ways[0].pitch * (1.0 + *sheet.ways[0].stretch), 16.0, 1e-7);
+  // (8 - 0.9)/(2.4 + 0.9) is less than 1 + sqrt 2.
+  EXPECT_FALSE(sheet.printable);
+  EXPECT_TRUE(sheet.with_gap.empty());
+  EXPECT_NE(sheet_text(sheet).find("has no room"), std::string::npos);
+  const boost::json::object document = sheet_json(sheet);
+  EXPECT_EQ(document.at("printable"), false);
+  EXPECT_EQ(document.at("ways").as_array().size(), 2U);
+}
+
+TEST_F(Answers, CanBeWovenFromTheSmallestRatioOn)
+{
+  const WeaveLookup lookup = weave_lookup(".", std::filesystem::path(HAUBERK_SOURCE_DIR) / "share/weaves");
+  const Weave weave = read_weave("european_4in1", lookup);
+  EXPECT_TRUE(can_be_woven(weave, {"european_4in1", 2.9810, 1.0, 0.4}));
+  EXPECT_FALSE(can_be_woven(weave, {"european_4in1", 2.9809, 1.0, 0.4}));
+  EXPECT_THROW(read_weave("threefold", lookup), InputError);
+  EXPECT_THROW(read_weave("no_such_weave", lookup), InputError);
+}
+
+}  // namespace
+}  // namespace hauberk::maker

@@ -1,5 +1,7 @@
 #include "document/json_text.hpp"
 
+#include "document/read_file.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <boost/json/basic_parser_impl.hpp>
@@ -9,8 +11,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 namespace hauberk {
@@ -151,12 +151,9 @@ json::value parse_json(std::string_view text, std::string_view name)
 
 json::value read_json_file(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file) throw InputError(path + ": cannot be read");
+  const std::string text = read_whole_file(path, largest_results);
   try {
-    return parse_json(text.str(), path);
+    return parse_json(text, path);
   } catch (const InputError& error) {
     throw InputError(std::string(error.what()) + "; expected a file as `hauberk run` writes it");
   }

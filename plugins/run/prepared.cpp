@@ -67,9 +67,11 @@ WeaveLookup recording_lookup(WeaveLookup weaves, std::shared_ptr<WeaveTexts> use
 using Fingerprints = std::map<std::string, std::string>;
 
 /// Length and 64-bit FNV-1a hash of a file: to notice that it was changed, not that someone hid that. Empty
-/// where it cannot be read, which its plugin tells.
+/// where it cannot be read, or is no regular file, which its plugin tells.
 std::string fingerprint(const std::string& path)
 {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return {};
   std::ifstream file(path, std::ios::binary);
   std::uint64_t hash = 0xcbf29ce484222325U, length = 0;
   for (char c = 0; file.get(c); ++length) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;

@@ -153,12 +153,12 @@ TEST_F(Report, BadInputLeavesNothing)
   };
   const TemporaryFolder bad;
   refused({}, "RESULT is missing");
-  refused(
-      {path("mail"), bad / "none.json"},
-      bad / "none.json" + ": cannot be read; give the results.json that `hauberk run` wrote, or its folder");
+  refused({path("mail"), bad / "none.json"},
+          "cannot read '" + (bad / "none.json") +
+              "': No such file or directory; give the results.json that `hauberk run` wrote, or its folder");
   refused({path("mail"), bad.path().string()},
-          bad / "results.json" +
-              ": cannot be read; give the results.json that `hauberk run` wrote, or its folder");
+          "cannot read '" + (bad / "results.json") +
+              "': No such file or directory; give the results.json that `hauberk run` wrote, or its folder");
   const std::string experiment = bad.write("c.json", chain_text());
   refused(
       {experiment},

@@ -2,6 +2,7 @@
 #include "document/atomic_file.hpp"
 #include "document/json_place.hpp"
 #include "document/json_text.hpp"
+#include "document/read_file.hpp"
 #include "experiment_options.hpp"
 #include "export/formats.hpp"
 #include "export/picture.hpp"
@@ -98,7 +99,7 @@ Fabric open_fabric(const Options& options)
   std::error_code unknown;
   if (fs::is_directory(file, unknown)) file = (fs::path(file) / results_file).string();
   const std::string state = options.has("state") ? options.get<std::string>("state") : "rest";
-  const std::string text = read_text_file(file);
+  const std::string text = read_whole_file(file, largest_results);
   const bool is_results = text.find("\"hauberk-results/") != std::string::npos;
   if (!is_results) {
     if (state != "rest")

@@ -1,6 +1,7 @@
 #include "document/check.hpp"
 #include "document/jsonc.hpp"
 #include "document/node_access.hpp"
+#include "document/read_file.hpp"
 #include "scene_reader.hpp"
 #include "sections.hpp"
 #include "weave.hpp"
@@ -11,12 +12,7 @@
 #include <hauberk/experiment/overrides.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <system_error>
 
 namespace hauberk {
 
@@ -165,25 +161,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   return experiment;
 }
 
-std::string read_text_file(const std::string& path)
-{
-  constexpr std::streamsize largest = 64 << 20;
-  const auto refuse = [&](const std::string& why) { throw InputError("cannot read '" + path + "': " + why); };
-  std::error_code unknown;  // then opening tells
-  if (std::filesystem::is_directory(path, unknown)) refuse("it is a folder; give the experiment file in it");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(errno != 0 ? std::generic_category().message(errno) : "it cannot be opened");
-  std::string text;
-  std::string block(1 << 16, '\0');
-  while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-    if (static_cast<std::streamsize>(text.size()) > largest) refuse("it is larger than 64 MB");
-  }
-  if (file.bad()) refuse("reading failed");
-  return text;
-}
+std::string read_text_file(const std::string& path) { return read_whole_file(path, largest_text); }
 
 Experiment load_experiment(const std::string& path, const std::vector<std::string>& overrides,
                            const PluginLookup& plugins, TaskFormats formats)

@@ -160,6 +160,11 @@ class Reader {
 EvaluationLog::EvaluationLog(fs::path file, std::string_view identity, bool go_on, Warn warn)
     : file_(std::move(file)), warn_(std::move(warn))
 {
+  // A link or a pipe of that name is somebody else's: it is neither read nor written through, and makes way.
+  std::error_code unknown;
+  if (const fs::file_status there = fs::symlink_status(file_, unknown);
+      fs::exists(there) && !fs::is_regular_file(there))
+    fs::remove(file_, unknown);
   if (go_on && read(identity)) {
     out_.open(file_, std::ios::binary | std::ios::app);
   } else {

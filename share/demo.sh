@@ -11,9 +11,12 @@ if (($# > 0)) && [[ $1 != -* ]]; then
   shift
 fi
 
-"$here/setup.sh"
+viewer=()
+if command -v npm >/dev/null; then viewer=(--viewer); fi
+"$here/setup.sh" "${viewer[@]}"
+hauberk=$(dirname "$here")/build/release/bin/hauberk
 status=0
-"$(dirname "$here")/build/release/bin/hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force "$@" || status=$?
+"$hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force "$@" || status=$?
 
 out=$(cd "$out" 2>/dev/null && pwd) || exit "$status"
 echo
@@ -21,4 +24,8 @@ for plot in "$out"/*.svg; do
   [[ -e $plot ]] && echo "demo: limits before and after, as a polar plot: $plot"
 done
 [[ -e $out/results.json ]] && echo "demo: everything that was computed:             $out/results.json"
+if ((${#viewer[@]} > 0)) && [[ -e $out/results.json ]]; then
+  "$hauberk" export "$out" -o "$out/fabric.html" --force >/dev/null &&
+    echo "demo: the fabric, at rest and locked, to turn by hand: $out/fabric.html"
+fi
 exit "$status"

@@ -4,6 +4,7 @@
 #   share/setup.sh              packages, then the program and its plugins in build/release
 #   share/setup.sh --no-build   packages only
 #   share/setup.sh --optional   the libraries of optimizers/ipopt and optimizers/pagmo, too
+#   share/setup.sh --viewer     what `hauberk export` to HTML needs, too: with node and npm, from share/web's lock file
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -23,12 +24,13 @@ optional_packages=(
   coinor-libipopt-dev pkg-config    # optimizers/ipopt
 )
 
-usage() { sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
-build=yes optional=no
+usage() { sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+build=yes optional=no viewer=no
 for argument in "$@"; do
   case $argument in
     --no-build) build=no ;;
     --optional) optional=yes ;;
+    --viewer) viewer=yes ;;
     -h | --help) usage; exit 0 ;;
     *) echo "setup: unknown option '$argument'" >&2; usage >&2; exit 2 ;;
   esac
@@ -99,6 +101,17 @@ if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
 else
   echo "setup: no Debian package manager; these must be there already: ${packages[*]}"
 fi
+
+# The script of pages (share/web), into share/web/build. Nothing but pages needs it.
+build_viewer() {
+  if ! command -v npm >/dev/null; then
+    echo "setup: the viewer of pages needs node and npm (packages nodejs, npm); everything else works without it" >&2
+    return 1
+  fi
+  echo "setup: building the viewer of pages in share/web/build"
+  (cd share/web && npm ci --silent --no-audit --no-fund --ignore-scripts && npm run --silent build -- --log-level=warning)
+}
+if [[ $viewer == yes ]]; then build_viewer; fi
 
 if [[ $build == yes ]]; then
   echo "setup: building in build/release"

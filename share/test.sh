@@ -4,6 +4,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 share/setup.sh --no-build
+# Pages are tested where their viewer can be built and a browser is there.
+if command -v npm >/dev/null; then share/setup.sh --no-build --viewer || echo "test: the viewer of pages is not tested"; fi
 cmake --preset release --log-level=WARNING
 cmake --build --preset release --parallel "$(nproc)"
 ctest --test-dir build/release --output-on-failure --no-tests=error --parallel 2 "$@"

@@ -164,8 +164,8 @@ void add_cell(const Fabric& fabric, const std::vector<int>& mesh_of, const std::
   }
   for (std::size_t k = 0; k < fabric.elements.size(); ++k) {
     const Fabric::Element& element = fabric.elements[k];
-    Assembly::Copy copy{mesh_of[k], static_cast<int>(k), fmt::format("{} {}", element.type, k), element.pose,
-                        element.rest};
+    Assembly::Copy copy{mesh_of[k],   static_cast<int>(k), shift, fmt::format("{} {}", element.type, k),
+                        element.pose, element.rest};
     if (named) {
       copy.name += fmt::format(" [{}, {}", shift[0], shift[1]);
       copy.name += fabric.lattice.size() == 3 ? fmt::format(", {}]", shift[2]) : "]";

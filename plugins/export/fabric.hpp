@@ -47,8 +47,9 @@ struct Outline {
 struct Assembly {
   struct Copy {
     int mesh = 0;
-    int element = 0;   ///< of the cell or patch
-    std::string name;  ///< "ring 3", "ring 3 [1, 0]"
+    int element = 0;             ///< of the cell or patch
+    std::array<int, 3> image{};  ///< of the cell
+    std::string name;            ///< "ring 3", "ring 3 [1, 0]"
     Pose pose, rest;
   };
   std::string name, unit, state;

@@ -26,6 +26,8 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/hauberkConfig.cmake"
         DESTINATION "${package_folder}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/weaves/" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/weaves"
         FILES_MATCHING PATTERN "*.json")
+install(FILES "${PROJECT_SOURCE_DIR}/share/web/page.html" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/web")
+install(FILES "${PROJECT_SOURCE_DIR}/share/web/build/viewer.js" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/web" OPTIONAL)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/experiments/" DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/experiments"
         FILES_MATCHING PATTERN "*.json")
 install(FILES "${PROJECT_SOURCE_DIR}/share/schema/experiment.schema.json"

@@ -84,7 +84,7 @@ Usage:
       recheck a result from its file alone
   hauberk report RESULT... -o DIR [--force] [--recheck FOLDER]
       a table and a page of plots of many results
-  hauberk export FILE.json -o OUT.{stl,obj,3mf,glb,vtu,png} [--state S]
+  hauberk export FILE.json -o OUT.{stl,obj,3mf,glb,vtu,html,png} [--state S]
       a fabric to print, to look at or to compute with
   hauberk weave NAME --inner LENGTH --wire LENGTH
       a maker's answers: room, stretch, weight of a weave

@@ -5,10 +5,12 @@
 #include "document/read_file.hpp"
 #include "experiment_options.hpp"
 #include "export/formats.hpp"
+#include "export/page.hpp"
 #include "export/picture.hpp"
 #include "run/weave_library.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/host/search_path.hpp>
 
 #include <fmt/format.h>
 
@@ -24,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace exporting;
 
-constexpr const char* formats = "stl, obj, 3mf, glb, vtu or png";
+constexpr const char* formats = "stl, obj, 3mf, glb, vtu, html or png";
 
 /// Numbers between commas, all of the text.
 std::vector<double> numbers_in(const std::string& text)
@@ -69,6 +71,17 @@ std::array<int, 3> repeat_of(const Options& options)
   return repeat;
 }
 
+/// Cells that a page shows of a sheet where nobody asks for other: about two dozen elements, so that one sees
+/// how they hold each other.
+std::array<int, 3> shown_cells(const Fabric& fabric)
+{
+  constexpr double elements = 24.0;
+  if (fabric.lattice.size() != 2) return {1, 1, 1};
+  const double cells = elements / static_cast<double>(fabric.elements.size());
+  const int along = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
+  return {along, along, 1};
+}
+
 std::optional<Outline> outline_of(const Options& options)
 {
   if (!options.has("outline")) return std::nullopt;
@@ -92,8 +105,16 @@ double positive(const Options& options, const char* name)
   return value;
 }
 
-/// The fabric that the file speaks of: an experiment, results, or a folder of results.
-Fabric open_fabric(const Options& options)
+/// A file, and the fabric that it speaks of.
+struct Opened {
+  std::string file;
+  boost::json::value results;  ///< null of an experiment
+  Job job;                     ///< of the experiment, also of that in results
+  Fabric fabric;
+};
+
+/// Of an experiment, of results, or of a folder of results.
+Opened open_fabric(const Options& options)
 {
   std::string file = options.positional();
   std::error_code unknown;
@@ -105,21 +126,26 @@ Fabric open_fabric(const Options& options)
     if (state != "rest")
       throw InputError(fmt::format("--state {}: an experiment has only its rest; run it, and give its {}",
                                    state, results_file));
-    const Job job =
-        prepare_job(open_registry(options), {file, text, options.list("set"), weave_lookup(file)});
-    return fabric_of(job.prepared->scene, job.prepared->experiment.name,
-                     job.prepared->experiment.length_unit);
+    Job job = prepare_job(open_registry(options), {file, text, options.list("set"), weave_lookup(file)});
+    const Prepared& prepared = *job.prepared;
+    Fabric fabric = fabric_of(prepared.scene, prepared.experiment.name, prepared.experiment.length_unit);
+    return {file, nullptr, std::move(job), std::move(fabric)};
   }
   if (!options.list("set").empty()) throw InputError("--set: results are as they are; give an experiment");
-  const boost::json::value results = parse_json(text, file);
+  boost::json::value results = parse_json(text, file);
   const detail::JsonPlace document(results, file);
-  const Job job = prepare_job(open_registry(options),
-                              {file, write_json(document.at("experiment").value()), {}, weave_lookup(file)});
-  return fabric_in_results(results, file, job.prepared->scene, state);
+  Job job = prepare_job(open_registry(options),
+                        {file, write_json(document.at("experiment").value()), {}, weave_lookup(file)});
+  Fabric fabric = fabric_in_results(results, file, job.prepared->scene, state);
+  return {file, std::move(results), std::move(job), std::move(fabric)};
 }
 
-std::string content_of(const std::string& format, const Assembly& assembly, const Options& options)
+std::string content_of(const std::string& format, const Assembly& assembly, const Opened& opened,
+                       const Options& options)
 {
+  if (format == ".html")
+    return page(assembly, opened.results, opened.file, opened.job.prepared->scene,
+                read_page_parts((shared_data_folder() / "web").string()));
   if (format == ".stl") return stl(assembly);
   if (format == ".obj") return obj(assembly);
   if (format == ".3mf") return three_mf(assembly);
@@ -175,12 +201,13 @@ Description export_description()
 {
   return {
       .name = "export",
-      .form = "FILE.json -o OUT.{stl,obj,3mf,glb,vtu,png} [--state S]",
+      .form = "FILE.json -o OUT.{stl,obj,3mf,glb,vtu,html,png} [--state S]",
       .line = "a fabric to print, to look at or to compute with",
       .synopsis = "export FILE.json -o OUT [options]",
       .summary =
           "Writes the elements of an experiment or of results (or of a folder of results) as closed surfaces: "
-          "STL, OBJ, 3MF, GLB, VTU by the ending of the file's name, or a picture as PNG.",
+          "STL, OBJ, 3MF, GLB, VTU by the ending of the file's name, a picture as PNG, or as HTML a page that "
+          "shows all states, to be turned by hand.",
       .more =
           "Primitives of one element that overlap become one surface. What is said of gaps is certified, and "
           "is that of the exact surfaces, not of their triangles.",
@@ -200,7 +227,7 @@ Description export_description()
            {.name = "repeat",
             .takes = Takes::text,
             .value = "M,N",
-            .help = "copies of the cell along its vectors"},
+            .help = "copies of the cell along its vectors; default 1, of a page about two dozen elements"},
            {.name = "outline",
             .takes = Takes::text,
             .value = "SHAPE",
@@ -233,17 +260,22 @@ int export_command(const std::vector<std::string>& words)
   std::transform(format.begin(), format.end(), format.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   if (format != ".stl" && format != ".obj" && format != ".3mf" && format != ".glb" && format != ".vtu" &&
-      format != ".png")
+      format != ".html" && format != ".png")
     throw UsageError(fmt::format("--output {}: expected an ending of {}", file.string(), formats),
                      options.usage());
   const std::array<int, 3> repeat = repeat_of(options);
   const std::optional<Outline> outline = outline_of(options);
   const double chord = positive(options, "chord"), gap = positive(options, "require-gap");
   if (!options.has("force")) refuse_existing_file(file);
-  const Assembly assembly = assemble(open_fabric(options), repeat, outline, chord);
+  if (format == ".html" && options.has("state"))
+    throw UsageError("--state: a page has all states; leave it out", options.usage());
+  const Opened opened = open_fabric(options);
+  const Assembly assembly = assemble(
+      opened.fabric, format == ".html" && !options.has("repeat") ? shown_cells(opened.fabric) : repeat,
+      outline, chord);
   const auto nearest = nearest_copies(assembly, std::numeric_limits<double>::infinity());
   require_gap(assembly, nearest, gap);
-  const std::string content = content_of(format, assembly, options);
+  const std::string content = content_of(format, assembly, opened, options);
   if (options.has("force"))
     write_files_atomically(file.has_parent_path() ? file.parent_path() : ".",
                            {{file.filename().string(), content}}, {});

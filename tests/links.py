@@ -30,10 +30,12 @@ def anchors(text):
 
 
 def pages(root):
-    """All pages, but not those of build trees, of results, and of folders with a dot."""
+    """All pages, but not those of build trees, of results, of packages of node, and of folders with a dot."""
     for page in sorted(root.rglob("*.md")):
         parts = page.relative_to(root).parts
-        if parts[0] not in ("build", "out") and not any(part.startswith(".") for part in parts):
+        if parts[0] not in ("build", "out") and not any(
+            part.startswith(".") or part == "node_modules" for part in parts
+        ):
             yield page
 
 

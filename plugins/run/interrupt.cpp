@@ -40,4 +40,20 @@ void catch_interrupts()
 
 bool interrupted() { return asked.load(); }
 
+namespace {
+constexpr std::array<int, 5> caught{SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGPIPE};
+}
+
+InterruptScope::InterruptScope()
+{
+  for (std::size_t k = 0; k < caught.size(); ++k) sigaction(caught[k], nullptr, &former_[k]);
+  catch_interrupts();
+}
+
+InterruptScope::~InterruptScope()
+{
+  for (std::size_t k = 0; k < caught.size(); ++k) sigaction(caught[k], &former_[k], nullptr);
+  asked = false;
+}
+
 }  // namespace hauberk

@@ -2,6 +2,9 @@
 /// Ctrl-C, SIGTERM and a closed terminal: the first asks the computation to stop, the second kills the
 /// program.
 
+#include <array>
+#include <csignal>
+
 namespace hauberk {
 
 /// Catches SIGINT and SIGTERM from now on, and SIGHUP unless it is ignored (nohup). A file that grows beyond
@@ -11,5 +14,18 @@ void catch_interrupts();
 
 /// True after the first of them. Thread safe.
 bool interrupted();
+
+/// The same for as long as it lives, for programs that outlive a run: at its end signals do what they did
+/// before, and nothing is interrupted any more. One at a time.
+class InterruptScope {
+ public:
+  InterruptScope();
+  ~InterruptScope();
+  InterruptScope(const InterruptScope&) = delete;
+  InterruptScope& operator=(const InterruptScope&) = delete;
+
+ private:
+  std::array<struct sigaction, 5> former_{};
+};
 
 }  // namespace hauberk

@@ -1,0 +1,196 @@
+"""Deformation limits of discrete interlocking materials.
+
+    import hauberk
+    results = hauberk.Experiment("share/experiments/chain.json").run()
+    results.value(0, "stretch")            # 0.43333333...
+    results.limits                          # a numpy array with named columns
+
+Lengths are in the unit of the experiment, strains and curvatures as in results.json (share/doc/results.md). Numbers are
+those of the command, bit for bit.
+"""
+
+import json
+import os
+import pathlib
+
+import numpy
+
+from . import _hauberk
+from ._hauberk import ComputationError, InputError
+
+__all__ = ["ComputationError", "Experiment", "InputError", "Problem", "Results", "forces_for_tension", "load"]
+
+# <root>/lib/hauberk/python/hauberk: plugins and weaves are found from <root>, as the program finds its own.
+_root = pathlib.Path(__file__).resolve().parents[4]
+
+
+class Problem:
+    """A mistake in an experiment: `line` (0: none), JSON `pointer`, `message`."""
+
+    def __init__(self, line, pointer, message):
+        self.line, self.pointer, self.message = line, pointer, message
+
+    def __repr__(self):
+        place = f"line {self.line}: " if self.line else ""
+        return f"{place}{self.pointer or '/'}: {self.message}"
+
+
+class Experiment:
+    """An experiment: a dict, a path, or text of a file (JSON with comments).
+
+    `plugin_path`: folders that are searched for plugins first. Immutable: `set` gives another experiment.
+    """
+
+    def __init__(self, what, plugin_path=()):
+        if isinstance(what, dict):
+            self._text, self._file = json.dumps(what), "experiment"
+        elif isinstance(what, os.PathLike) or "{" not in what:
+            self._file = os.fspath(what)
+            try:
+                self._text = pathlib.Path(self._file).read_text(encoding="utf-8")
+            except (OSError, UnicodeDecodeError) as error:
+                raise InputError(f"cannot read '{self._file}': {error}") from None
+        else:
+            self._text, self._file = what, "experiment"
+        self._overrides = []
+        self._folders = [os.fspath(folder) for folder in plugin_path]
+
+    def set(self, pointer, value):
+        """The same experiment with `value` (anything JSON has) at a JSON pointer, as `hauberk run --set` puts it."""
+        other = Experiment.__new__(Experiment)
+        other._text, other._file, other._folders = self._text, self._file, self._folders
+        other._overrides = [*self._overrides, f"{pointer}={json.dumps(value)}"]
+        return other
+
+    def _source(self):
+        return _hauberk.Source(self._text, self._file, self._overrides, self._folders, str(_root))
+
+    def check(self):
+        """Every mistake in it, as a list of `Problem`; empty if there is none."""
+        return [Problem(*problem) for problem in _hauberk.problems(self._source())]
+
+    def plan(self):
+        """What will be modelled, as the dict that results hold. Raises InputError where `check` finds problems."""
+        return json.loads(_hauberk.plan(self._source())[1])
+
+    def run(self, threads=None, output=None, force=False, progress=False):
+        """Computes it and returns `Results`.
+
+        `output`: a folder that gets the files of `hauberk run`; `force` replaces results in it. `progress`: shown on
+        standard error. Ctrl-C raises KeyboardInterrupt, whose `results` are what was found; other Python threads run on
+        meanwhile. One run at a time in a process. Raises InputError and ComputationError with the program's texts;
+        limits without an answer do not raise: see `Results.failed`.
+        """
+        threads = len(os.sched_getaffinity(0)) if threads is None else int(threads)
+        if not 1 <= threads <= 4096:
+            raise InputError(f"threads: expected a number from 1 to 4096, found {threads}")
+        folder = "" if output is None else os.fspath(output)
+        outcome = _hauberk.run(self._source(), threads, folder, force, progress)
+        results = Results(json.loads(outcome.results), outcome.results, outcome.failed, outcome.summary, self._folders)
+        if outcome.interrupted:
+            stop = KeyboardInterrupt("interrupted; .results holds what was found")
+            stop.results = results
+            raise stop
+        return results
+
+
+def _number(value):
+    return numpy.nan if value is None else float(value)
+
+
+class Results:
+    """A results.json. `raw` is all of it; `failed` whether something asked for has no answer."""
+
+    def __init__(self, raw, text=None, failed=None, summary="", plugin_path=()):
+        self.raw, self.failed, self.summary = raw, failed, summary
+        self._text = json.dumps(raw) if text is None else text
+        self._folders = list(plugin_path)
+
+    @property
+    def limits(self):
+        """A structured array: direction_deg, sense, value, error_estimate, min_gap, status, confidence. NaN for null."""
+        kinds = [("direction_deg", float), ("sense", "U12"), ("value", float), ("error_estimate", float),
+                 ("min_gap", float), ("status", "U16"), ("confidence", "U16")]
+        rows = [(_number(limit.get("direction_deg")), limit["sense"], _number(limit["value"]),
+                 _number(limit["error_estimate"]), _number(limit["min_gap"]), limit["status"],
+                 (limit.get("confidence") or {}).get("word", "")) for limit in self.raw["limits"]]
+        return numpy.array(rows, dtype=kinds)
+
+    def to_pandas(self):
+        """`limits` as a DataFrame; needs pandas."""
+        import pandas  # pylint: disable=import-outside-toplevel
+        return pandas.DataFrame(self.limits)
+
+    def _limit(self, direction_deg, sense):
+        for limit in self.raw["limits"]:
+            if limit["sense"] == sense and limit.get("direction_deg") == direction_deg:
+                return limit
+        known = ", ".join(f"{limit['sense']} at {limit.get('direction_deg')}" for limit in self.raw["limits"])
+        raise KeyError(f"no limit {sense} at {direction_deg}; there are {known}")
+
+    def value(self, direction_deg, sense):
+        """The value of a limit; NaN where it has none."""
+        return _number(self._limit(direction_deg, sense)["value"])
+
+    def poses(self, limit=None):
+        """n x 7: position, then quaternion w x y z, of every element; of limit number `limit`, None: at rest."""
+        if limit is None:
+            poses = [element["rest"] for element in self.raw["scene"]["elements"]]
+        else:
+            poses = self.raw["limits"][limit]["poses"]
+        return numpy.array([[*pose["position"], *pose["quaternion"]] for pose in poses], dtype=float).reshape(-1, 7)
+
+    def contacts(self, limit):
+        """A structured array of the contacts of limit number `limit`: elements, image, points, normal, gap, force."""
+        kinds = [("elements", int, 2), ("image", int, 3), ("points", float, (2, 3)), ("normal", float, 3),
+                 ("gap", float), ("force", float)]
+        rows = []
+        for contact in self.raw["limits"][limit]["contacts"]:
+            points = (contact["points"] * 2)[:2] if contact["points"] else [[numpy.nan] * 3] * 2
+            rows.append((contact["elements"], (*contact["image"], 0)[:3], points, contact["normal"],
+                         _number(contact["gap"]), contact["force"]))
+        return numpy.array(rows, dtype=kinds)
+
+    def profile(self):
+        """A structured array: direction_deg, e_s, e_c, eta."""
+        kinds = [(name, float) for name in ("direction_deg", "e_s", "e_c", "eta")]
+        return numpy.array([tuple(_number(row[name]) for name, _ in kinds) for row in self.raw["profiles"]], dtype=kinds)
+
+    def verify(self):
+        """(passed, text): the independent check, as `hauberk verify` makes it."""
+        source = _hauberk.Source("", "", [], self._folders, str(_root))
+        return _hauberk.verify(self._text, "results", source)
+
+    def save(self, path):
+        """Writes results.json; refuses a file that is there."""
+        with open(path, "x", encoding="utf-8") as file:
+            file.write(self._text)
+
+
+def load(path):
+    """Results from a results.json, or from a folder with one."""
+    path = pathlib.Path(path)
+    if path.is_dir():
+        path /= "results.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+        raw = json.loads(text)
+    except (OSError, ValueError) as error:
+        raise InputError(f"cannot read '{path}': {error}") from None
+    if not str(raw.get("format", "")).startswith("hauberk-results/"):
+        raise InputError(f"'{path}' is no results.json of Hauberk")
+    return Results(raw, text)
+
+
+def forces_for_tension(results, limit, tension):
+    """Contact forces in newtons of an in-plane limit under a tension along its direction.
+
+    The program's load has no unit: contact forces balance a unit load on the reported value e, so that their virtual work
+    is sum f_k dg_k = de. A cell of area A under the tension T (N/m) does the work T A de: forces are T A times as large.
+    `tension` in N/m, positive also for compression; lengths in the experiment's unit.
+    """
+    unit = {"m": 1.0, "mm": 1e-3, "um": 1e-6}[results.raw["experiment"]["length_unit"]]
+    (ax, ay, *_), (bx, by, *_) = results.raw["scene"]["cell_vectors"]
+    area = abs(ax * by - ay * bx) * unit**2
+    # de has no unit and dg the experiment's: per metre of gap, forces are 1/unit as large.
+    return results.contacts(limit)["force"] * tension * area / unit

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""The package `hauberk` beside the command: the same numbers, errors with their places, Ctrl-C.
+
+Run with PYTHONPATH, HAUBERK (the command) and HAUBERK_EXPERIMENTS (a folder) set, as ctest does.
+"""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy
+
+import hauberk
+
+COMMAND = os.environ["HAUBERK"]
+EXPERIMENTS = pathlib.Path(os.environ["HAUBERK_EXPERIMENTS"])
+
+
+def without_times(value):
+    """A document without what no two runs have alike."""
+    if isinstance(value, dict):
+        return {key: without_times(v) for key, v in value.items()
+                if key not in ("seconds", "threads", "peak_memory_bytes", "files")}
+    return [without_times(v) for v in value] if isinstance(value, list) else value
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def command(self, *words):
+        return subprocess.run([COMMAND, *map(str, words)], capture_output=True, text=True, check=False)
+
+    def test_numbers_are_those_of_the_command(self):
+        for name in ("chain", "oval_links", "hook_and_eye", "roll"):
+            file = EXPERIMENTS / f"{name}.json"
+            out = pathlib.Path(self.folder.name) / name
+            self.assertEqual(self.command("run", file, "-o", out, "--quiet").returncode, 0)
+            theirs = hauberk.load(out)
+            ours = hauberk.Experiment(file).run()
+            self.assertEqual(without_times(ours.raw), without_times(theirs.raw))
+            self.assertFalse(ours.failed)
+            passed, text = ours.verify()
+            self.assertTrue(passed, text)
+
+    def test_a_chain_has_its_exact_value_and_poses(self):
+        results = hauberk.Experiment(EXPERIMENTS / "chain.json").run(threads=1)
+        self.assertAlmostEqual(results.value(0, "stretch"), 13 / 30, delta=1e-9)
+        self.assertEqual(results.limits.dtype.names[:3], ("direction_deg", "sense", "value"))
+        self.assertEqual(results.limits["status"][0], "locked")
+        poses = results.poses(0)
+        self.assertEqual(poses.shape, (2, 7))
+        self.assertAlmostEqual(numpy.linalg.norm(poses[1, :3] - poses[0, :3]), 8.6, delta=1e-8)
+        self.assertEqual(results.poses().shape, (2, 7))
+        contacts = results.contacts(0)
+        self.assertEqual(contacts["points"].shape[1:], (2, 3))
+        # Two contacts a cell of 12 mm by its width carry a tension T: each ring T times the width.
+        (ax, _), (_, by) = results.raw["scene"]["cell_vectors"]
+        forces = hauberk.forces_for_tension(results, 0, 100.0)
+        self.assertAlmostEqual(forces.max() / (100.0 * abs(by) * 1e-3), 1.0, delta=1e-4)
+        self.assertEqual(ax, 12)
+
+    def test_experiments_are_dicts_texts_or_files_with_values_set(self):
+        text = (EXPERIMENTS / "chain.json").read_text() + "\n// a comment {\n"
+        wider = hauberk.Experiment(text).set("/elements/link/parameters/ring.R", 5.1)
+        # Centres 2 (R - r) apart for 6 at rest.
+        self.assertAlmostEqual(wider.run().value(0, "stretch"), 2 * 4.4 / 6 - 1, delta=1e-9)
+        resolved = wider.run().raw["experiment"]
+        self.assertEqual(hauberk.Experiment(resolved).check(), [])
+        self.assertEqual(wider.plan()["task"], {})
+
+    def test_mistakes_have_their_places(self):
+        experiment = hauberk.Experiment(EXPERIMENTS / "chain.json").set("/solver/preset", "quick")
+        (problem,) = experiment.check()
+        self.assertEqual(problem.pointer, "/solver/preset")
+        self.assertIn("quick", problem.message)
+        with self.assertRaisesRegex(hauberk.InputError, "/solver/preset"):
+            experiment.run()
+        with self.assertRaises(hauberk.InputError):
+            hauberk.Experiment("no_such_file.json")
+        with self.assertRaises(hauberk.InputError):
+            hauberk.load(EXPERIMENTS / "chain.json")
+        with self.assertRaisesRegex(hauberk.InputError, "threads"):
+            hauberk.Experiment(EXPERIMENTS / "chain.json").run(threads=0)
+
+    def test_files_are_those_of_the_command_and_are_not_replaced_unasked(self):
+        out = pathlib.Path(self.folder.name) / "out"
+        experiment = hauberk.Experiment(EXPERIMENTS / "chain.json")
+        results = experiment.run(output=out)
+        self.assertEqual({"results.json", "limits.csv", "profile.svg"}, {file.name for file in out.iterdir()})
+        self.assertEqual(json.loads((out / "results.json").read_text()), results.raw)
+        with self.assertRaisesRegex(hauberk.InputError, "force"):
+            experiment.run(output=out)
+        experiment.run(output=out, force=True)
+        self.assertEqual(self.command("verify", out).returncode, 0)
+
+    def test_interrupts_keep_what_was_found_and_other_threads_run(self):
+        slow = hauberk.Experiment(EXPERIMENTS / "paper" / "chainmail_c.json")
+        ticks = []
+        done = threading.Event()
+
+        def others():
+            while not done.wait(0.02):
+                ticks.append(time.monotonic())
+                if len(ticks) == 40:
+                    os.kill(os.getpid(), signal.SIGINT)
+
+        before = signal.getsignal(signal.SIGINT)
+        other = threading.Thread(target=others)
+        other.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt) as stopped:
+                slow.run()
+        finally:
+            done.set()
+            other.join()
+        self.assertGreaterEqual(len(ticks), 40, "the interpreter was held while the program computed")
+        self.assertEqual(stopped.exception.results.raw["design"]["status"], "interrupted")
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+        # Nothing is left of it.
+        self.assertFalse(hauberk.Experiment(EXPERIMENTS / "chain.json").run().failed)
+
+
+if __name__ == "__main__":
+    unittest.main()

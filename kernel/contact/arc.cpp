@@ -273,6 +273,7 @@ class ArcIntegral {
     const FieldValue& f = p.f;
     const PanelBound b = panel_bound(probe_, s, q, f, settings_.g_hat + probe_.offset + settings_.clearance);
     if (++out_.evaluations > last_) too_flat(frame_, "integrals over contacts", most_evaluations);
+    poll(settings_.keep_going, out_.evaluations);
     const double g = b.value - probe_.offset - settings_.clearance;
     out_.min_gap = std::min(out_.min_gap, g);
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;

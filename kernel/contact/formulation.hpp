@@ -4,6 +4,9 @@
 #include "contact/side_terms.hpp"
 #include "geometry/panel_field.hpp"
 
+#include <exception>
+#include <functional>
+
 namespace hauberk {
 
 enum class Formulation { nearest, arc, published, mesh };
@@ -50,7 +53,23 @@ struct ContactSettings {
   Quadrature quadrature = Quadrature::fine;
   Sides sides = Sides::both;
   unsigned threads = 1;  ///< that evaluate pairs of a large scene; never changes a result
+  /// Asked now and then within a pair, which may take many evaluations; where it says no, Interrupted is
+  /// thrown. Null: never. Thread safe.
+  const std::function<bool()>* keep_going = nullptr;
 };
+
+/// The evaluation of a pair was given up because `ContactSettings::keep_going` said so: there is no result.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// To be called at every evaluation within a pair: throws Interrupted. Asks at one in 256 of them, which are
+/// well below a tenth of a second.
+inline void poll(const std::function<bool()>* keep_going, long evaluation)
+{
+  if (keep_going != nullptr && (evaluation & 255) == 0 && !(*keep_going)()) throw Interrupted();
+}
 
 /// Throws ComputationError: what is sought between two bodies takes more evaluations than any pair is worth.
 [[noreturn]] void too_flat(const PairFrame& frame, const char* what, long evaluations);
@@ -91,9 +110,11 @@ struct Minimum {
 /// A panel is dropped when its bound exceeds the threshold, or when the gradient at its centre exceeds what
 /// the bound of the second derivatives lets it change: then it holds no stationary point. What remains is
 /// split until the sign of the second derivative is certain (dimension 1), or until a Newton iteration from
-/// the centre decides (dimension 2). Throws ComputationError where that takes more than 2e7 evaluations.
+/// the centre decides (dimension 2). Throws ComputationError where that takes more than 2e7 evaluations, and
+/// Interrupted where `keep_going`, if not null, says no.
 template <int dim>
 std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations,
-                                  const NearPanels& near = {});
+                                  const NearPanels& near = {},
+                                  const std::function<bool()>* keep_going = nullptr);
 
 }  // namespace hauberk

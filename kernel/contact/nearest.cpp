@@ -107,8 +107,9 @@ template <int dim>
 class StationarySearch {
  public:
   StationarySearch(const PairFrame& frame, double threshold, const NearPanels& near,
-                   std::vector<Minimum>& out, int& evaluations)
+                   std::vector<Minimum>& out, int& evaluations, const std::function<bool()>* keep_going)
       : probe_(frame),
+        keep_going_(keep_going),
         near_(with_basins(near)),
         threshold_(threshold + probe_.offset),
         out_(out),
@@ -153,6 +154,7 @@ class StationarySearch {
   {
     const Panel& s = p.s;
     if (++evaluations_ > last_) too_flat(probe_.f, "closest points", most_evaluations);
+    poll(keep_going_, evaluations_);
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
     if (panel_bound(probe_, s, p.q, p.f, threshold_).bound > threshold_) return;
     const Local l = local_of(probe_, p.q, p.f);
@@ -295,6 +297,7 @@ class StationarySearch {
   }
 
   Probe<dim> probe_;
+  const std::function<bool()>* keep_going_;
   NearPanels near_;
   double threshold_;
   std::vector<Minimum>& out_;
@@ -316,10 +319,10 @@ void too_flat(const PairFrame& frame, const char* what, long evaluations)
 
 template <int dim>
 std::vector<Minimum> local_minima(const PairFrame& frame, double threshold, int& evaluations,
-                                  const NearPanels& near)
+                                  const NearPanels& near, const std::function<bool()>* keep_going)
 {
   std::vector<Minimum> minima;
-  StationarySearch<dim>(frame, threshold, near, minima, evaluations).run();
+  StationarySearch<dim>(frame, threshold, near, minima, evaluations, keep_going).run();
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
   return minima;
@@ -331,8 +334,8 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
 {
   const Probe<dim> probe(frame);
   double of_flat = -std::numeric_limits<double>::infinity();
-  for (const Minimum& m :
-       local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations, near)) {
+  for (const Minimum& m : local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations, near,
+                                            settings.keep_going)) {
     // Of a circle or a face one place stands for the others: their number is that of panels.
     if (m.flat && m.distance - of_flat < same_distance) continue;
     if (m.flat) of_flat = m.distance;
@@ -391,8 +394,10 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
   }
 }
 
-template std::vector<Minimum> local_minima<1>(const PairFrame&, double, int&, const NearPanels&);
-template std::vector<Minimum> local_minima<2>(const PairFrame&, double, int&, const NearPanels&);
+template std::vector<Minimum> local_minima<1>(const PairFrame&, double, int&, const NearPanels&,
+                                              const std::function<bool()>*);
+template std::vector<Minimum> local_minima<2>(const PairFrame&, double, int&, const NearPanels&,
+                                              const std::function<bool()>*);
 template void add_nearest<1>(const PairFrame&, const ContactSettings&, const Request&, const NearPanels&,
                              SideTerms&);
 template void add_nearest<2>(const PairFrame&, const ContactSettings&, const Request&, const NearPanels&,

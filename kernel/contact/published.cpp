@@ -232,8 +232,8 @@ void add_published(const PairFrame& frame, const ContactSettings& settings, cons
     return;
   }
   const TorusPair<double> pair = torus_pair(frame);
-  for (const Minimum& found :
-       local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations)) {
+  for (const Minimum& found : local_minima<dim>(frame, settings.g_hat + settings.clearance, out.evaluations,
+                                                {}, settings.keep_going)) {
     out.min_gap = std::min(out.min_gap, found.distance - settings.clearance);
     if (found.distance <= settings.clearance) continue;  // min_gap tells
     add(published::refine(pair, published::chart_start<dim>(frame, found), out.evaluations));

@@ -71,6 +71,9 @@ class Newton {
     load_norm_ = load_size(m, load);
   }
 
+  /// The end where contact was not evaluated to its end.
+  StageResult interrupted() { return finish({StageStatus::interrupted, "interrupted"}); }
+
   StageResult run()
   {
     if (!begin()) return finish({StageStatus::stalled, "the stage starts with a gap that is not positive"});
@@ -505,7 +508,14 @@ StageResult solve_stage(const Model& model, State& state, const Vector& load, co
                         const KeepGoing& keep_going, GapBounds* bounds)
 {
   GapBounds own;
-  return Newton(model, state, load, stage, keep_going, bounds != nullptr ? *bounds : own).run();
+  Stage polled = stage;
+  polled.contact.keep_going = &keep_going;
+  Newton newton(model, state, load, polled, keep_going, bounds != nullptr ? *bounds : own);
+  try {
+    return newton.run();
+  } catch (const Interrupted&) {  // within a step, which is then not taken
+    return newton.interrupted();
+  }
 }
 
 }  // namespace hauberk

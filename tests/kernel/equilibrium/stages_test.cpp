@@ -77,5 +77,27 @@ TEST(Stages, EndWiderWhereNoStepOfANarrowOneCanBeCertified)
   EXPECT_NEAR(*l.error_estimate, short_by, 0.01 * short_by);
 }
 
+/// One pair of flat rings takes thousands of evaluations: who wants to stop does not wait for its end, and
+/// gets the last state that was whole.
+TEST(Stages, AreInterruptedWithinOnePair)
+{
+  const Sheet load;
+  const Model m = make_model(chain({5.0, 0.7, 0.05}, {5.0, 0.7, 0.05}, 12.0), load, 0.0);
+  for (const Formulation formulation : {Formulation::arc, Formulation::nearest}) {
+    Stage stage;
+    stage.contact = {formulation, 1.0, 0.0};
+    stage.mu = 0.1;
+    State s = rest_state(m);
+    int asked = 0;
+    const StageResult r = solve_stage(m, s, load_vector(m, Direction(), Sense::positive), stage,
+                                      [&asked] { return ++asked < 4; });
+    EXPECT_EQ(r.status, StageStatus::interrupted);
+    EXPECT_EQ(r.iterations, 0) << "asked between steps alone";
+    EXPECT_EQ(asked, 4);
+    EXPECT_EQ(s.macro, rest_state(m).macro);
+    EXPECT_EQ(s.e, rest_state(m).e);
+  }
+}
+
 }  // namespace
 }  // namespace hauberk::test

@@ -28,7 +28,9 @@ constexpr int block = 8;
 /// surface.
 class Marching {
  public:
-  Marching(std::span<const Primitive> primitives, double cell) : cell_(cell)
+  /// `chord` is named where more than `most_triangles` would come of it.
+  Marching(std::span<const Primitive> primitives, double cell, double chord, double most_triangles)
+      : cell_(cell), chord_(chord), most_(most_triangles)
   {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (const Primitive& p : primitives) {
@@ -38,20 +40,34 @@ class Marching {
     origin_ = low;
     for (int k = 0; k < 3; ++k) {
       const double cubes = std::ceil((high[k] - low[k]) / (cell * block));
-      blocks_[k] = std::max(1, static_cast<int>(std::min(cubes, 1e5)));
+      constexpr double most_along = 6e4;  // so that places of nodes have their 19 bits
+      if (!(cubes <= most_along)) refuse();
+      blocks_[k] = std::max(1, static_cast<int>(cubes));
     }
+    constexpr double most_blocks = 5e7;
+    if (static_cast<double>(blocks_[0]) * blocks_[1] * blocks_[2] > most_blocks) refuse();
   }
 
   Mesh draw()
   {
     for (int k = 0; k < blocks_[2]; ++k)
       for (int j = 0; j < blocks_[1]; ++j)
-        for (int i = 0; i < blocks_[0]; ++i) draw_block({i * block, j * block, k * block});
+        for (int i = 0; i < blocks_[0]; ++i) {
+          draw_block({i * block, j * block, k * block});
+          if (static_cast<double>(mesh_.triangles.size()) > most_) refuse();
+        }
     return std::move(mesh_);
   }
 
  private:
   using Node = std::array<int, 3>;
+
+  [[noreturn]] void refuse() const
+  {
+    throw InputError(
+        fmt::format("--chord {:g}: one element would take more than {:.0g} triangles; give a larger chord",
+                    chord_, most_));
+  }
 
   double field(const Vec3& x) const
   {
@@ -160,21 +176,13 @@ class Marching {
     return entry->second;
   }
 
-  double cell_;
+  double cell_, chord_, most_;
   std::vector<Field> fields_;
   Vec3 origin_ = Vec3::Zero();
   std::array<int, 3> blocks_{};
   std::unordered_map<std::uint64_t, int> known_;
   Mesh mesh_;
 };
-
-/// Area of a primitive's surface, roughly: what the number of triangles follows from.
-double rough_area(const Primitive& p)
-{
-  const double r = thinnest({&p, 1});
-  if (p.solid) return 4.0 * std::numbers::pi * p.solid->radius() * p.solid->radius();
-  return 4.0 * std::numbers::pi * std::numbers::pi * std::max(p.R(), r) * std::max(p.r0(), p.r1());
-}
 
 }  // namespace
 
@@ -231,16 +239,9 @@ void Field::extend(Vec3& low, Vec3& high, double by) const
 
 Mesh zero_set(std::span<const Primitive> primitives, double chord, double most_triangles)
 {
-  double area = 0.0;
-  for (const Primitive& p : primitives) area += rough_area(p);
   // The longest edge of a tetrahedron, sqrt(3) cells, is to be a chord of the thinnest tube.
-  const double cell = std::sqrt(8.0 * thinnest(primitives) * chord / 3.0);
-  const double triangles = 8.0 * area / (cell * cell);
-  if (triangles > most_triangles)
-    throw InputError(fmt::format(
-        "--chord {:g}: one element would take {:.2g} triangles, more than {:.0g}; give a larger chord", chord,
-        triangles, most_triangles));
-  return Marching(primitives, cell).draw();
+  return Marching(primitives, std::sqrt(8.0 * thinnest(primitives) * chord / 3.0), chord, most_triangles)
+      .draw();
 }
 
 }  // namespace hauberk::exporting

@@ -235,6 +235,32 @@ TEST(WeaveFiles, ArePathsToo)
   EXPECT_NEAR(number_at(r, "/limits/0/value"), 2.0 * (10.0 - 1.4) / (8.0 / 3.0 * 5.0) - 1.0, 1e-9);
 }
 
+TEST(WeaveFiles, PatchesAreCutFromThem)
+{
+  const TemporaryFolder folder;
+  const std::string text = R"({ "name": "p", "length_unit": "mm",
+  "cell": { "weave": { "name": "european_4in1" }, "patch": { "outline": { "rectangle": [2, 3] } } },
+  "load_case": { "plugin": "cylinder_roll", "directions_deg": [0], "senses": ["up"],
+                 "hold": ["places", "twist", "transverse"] } })";
+  ASSERT_EQ(run_program({"run", folder.write("p.json", text), "-o", folder / "out"}).code, 0);
+  const json::value r = read_results(folder / "out");
+  EXPECT_EQ(r.at_pointer("/scene/elements").as_array().size(), 12U) << "two rings in each of 2 x 3 cells";
+  // What results hold is the patch written out, and comes to the same.
+  const json::object& cell = r.at_pointer("/experiment/cell").as_object();
+  EXPECT_FALSE(cell.contains("weave"));
+  EXPECT_FALSE(cell.contains("vectors"));
+  folder.write("again.json", write_json(r.at("experiment")));
+  ASSERT_EQ(run_program({"run", folder / "again.json", "-o", folder / "again"}).code, 0);
+  EXPECT_EQ(number_at(read_results(folder / "again"), "/limits/0/value"), number_at(r, "/limits/0/value"));
+  const Outcome own = run_program(
+      {"check",
+       folder.write("v.json", with(text, R"("patch": {)", R"("patch": { "vectors": [[9, 0], [0, 9]],)"))});
+  EXPECT_EQ(own.code, 2);
+  EXPECT_NE(own.err.find("/cell/patch/vectors: a patch of a weave is laid out with the weave's vectors"),
+            std::string::npos)
+      << own.err;
+}
+
 TEST(WeaveFiles, SweepsAreResumedOnlyFromTheSame)
 {
   const TemporaryFolder folder;

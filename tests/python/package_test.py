@@ -101,6 +101,16 @@ class Package(unittest.TestCase):
         experiment.run(output=out, force=True)
         self.assertEqual(self.command("verify", out).returncode, 0)
 
+    def test_exports_what_the_command_does(self):
+        target = pathlib.Path(self.folder.name) / "chain.stl"
+        said = hauberk.export(EXPERIMENTS / "chain.json", target, repeat=(2, 1), require_gap=0.5)
+        self.assertIn("smallest gap 0.6 mm", said)
+        self.assertGreater(target.stat().st_size, 84)
+        with self.assertRaisesRegex(hauberk.InputError, "exists already"):
+            hauberk.export(EXPERIMENTS / "chain.json", target)
+        with self.assertRaisesRegex(hauberk.ComputationError, "0.6 mm apart"):
+            hauberk.export(EXPERIMENTS / "chain.json", target.with_name("other.stl"), repeat=(2, 1), require_gap=0.7)
+
     def test_interrupts_keep_what_was_found_and_other_threads_run(self):
         slow = hauberk.Experiment(EXPERIMENTS / "paper" / "chainmail_c.json")
         ticks = []

@@ -53,7 +53,7 @@ Field patch_field()
       "patch",
       "A finite patch instead of vectors and repeat, laid out so that the mean of its elements is above the "
       "origin.",
-      {required(vectors_field("vectors", "The two vectors that the patch is laid out with.", 2)),
+      {vectors_field("vectors", "The two vectors that the patch is laid out with; of a weave its own.", 2),
        required(std::move(outline)),
        with_default(integers("tile", "Period, in cells, with which element parameters repeat.", 2, 1),
                     "[1, 1]")});

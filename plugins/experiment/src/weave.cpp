@@ -169,6 +169,7 @@ Field expanded_fields(TaskFormats formats)
   child(root, "elements").required = true;
   Field& cell = child(root, "cell");
   child(cell, "place").required = true;
+  child(child(cell, "patch"), "vectors").required = true;
   std::erase_if(cell.children, [](const Field& f) { return f.name == "weave"; });
   return root;
 }
@@ -181,10 +182,15 @@ bool expand_weave(Node& root, const WeaveLookup& weaves, Problems& problems)
   Node weave = *found;
   const std::size_t before = problems.list().size();
   check_fields(weave, weave_field(), problems);
-  for (const char* key : {"vectors", "place", "patch"}) {
+  for (const char* key : {"vectors", "place"}) {
     if (const Node* other = cell->find(key))
       problems.add(*other, std::string("a weave has its own places; remove '") + key + "', or the weave");
   }
+  Node* patch = find_mutable(*cell, "patch");
+  if (patch != nullptr && !patch->is(Node::Type::object)) return true;  // reported when it is checked
+  if (const Node* other = patch != nullptr ? patch->find("vectors") : nullptr)
+    problems.add(*other,
+                 "a patch of a weave is laid out with the weave's vectors; remove these, or the weave");
   if (problems.list().size() != before) return false;
   const std::optional<Node> file = read_weave_file(weave.at("name"), weaves, problems);
   if (!file) return false;
@@ -194,7 +200,9 @@ bool expand_weave(Node& root, const WeaveLookup& weaves, Problems& problems)
        place = file->at("cell").at("place");
   for (Node* part : {&elements, &vectors, &place}) replace_sums(*part, *lengths);
   std::erase_if(cell->members, [](const auto& member) { return member.first == "weave"; });
-  put(*cell, "vectors", std::move(vectors), weave.line);
+  // `cell` has changed: the patch is where it is now.
+  Node* laid_out = find_mutable(*cell, "patch");
+  put(laid_out != nullptr ? *laid_out : *cell, "vectors", std::move(vectors), weave.line);
   put(*cell, "place", std::move(place), weave.line);
   return put_elements(root, weave, std::move(elements), problems);
 }
@@ -207,6 +215,8 @@ void keep_weave(Node& expanded, const Node& written)
   Node& own = *find_mutable(expanded, "cell");
   std::erase_if(own.members,
                 [](const auto& member) { return member.first == "vectors" || member.first == "place"; });
+  if (Node* patch = find_mutable(own, "patch"))
+    std::erase_if(patch->members, [](const auto& member) { return member.first == "vectors"; });
   own.members.emplace_back("weave", *weave);
   // Of the elements only those that the experiment has itself.
   const Node* elements = written.find("elements");

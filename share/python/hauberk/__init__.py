@@ -12,13 +12,15 @@ those of the command, bit for bit.
 import json
 import os
 import pathlib
+import subprocess
 
 import numpy
 
 from . import _hauberk
 from ._hauberk import ComputationError, InputError
 
-__all__ = ["ComputationError", "Experiment", "InputError", "Problem", "Results", "forces_for_tension", "load"]
+__all__ = ["ComputationError", "Experiment", "InputError", "Problem", "Results", "export",
+           "forces_for_tension", "load"]
 
 # <root>/lib/hauberk/python/hauberk: plugins and weaves are found from <root>, as the program finds its own.
 _root = pathlib.Path(__file__).resolve().parents[4]
@@ -180,6 +182,25 @@ def load(path):
     if not str(raw.get("format", "")).startswith("hauberk-results/"):
         raise InputError(f"'{path}' is no results.json of Hauberk")
     return Results(raw, text)
+
+
+def export(source, target, state=None, repeat=None, outline=None, chord=None, require_gap=None, force=False):
+    """Writes a fabric as `hauberk export` does: the ending of `target` says in which format. Returns what it says of gaps
+    and volume.
+
+    `source`: a file of an experiment or of results, or a folder of results. `repeat`: copies along the cell's vectors.
+    Runs the command beside the package. Raises InputError, and ComputationError where a gap is smaller than required.
+    """
+    words = [str(_root / "bin" / "hauberk"), "export", os.fspath(source), "-o", os.fspath(target)]
+    repeated = None if repeat is None else ",".join(str(n) for n in repeat)
+    for name, value in (("state", state), ("repeat", repeated), ("outline", outline), ("chord", chord),
+                        ("require-gap", require_gap)):
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    done = subprocess.run(words + (["--force"] if force else []), capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return done.stdout
+    raise (InputError if done.returncode == 2 else ComputationError)(done.stderr.strip())
 
 
 def forces_for_tension(results, limit, tension):

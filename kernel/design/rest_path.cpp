@@ -10,7 +10,7 @@
 namespace hauberk {
 namespace {
 
-constexpr double smallest_share = 1e-3;
+constexpr double smallest_part = 1e-3;
 /// Rest states are followed in at most so many parts, each of this share of what is safe.
 constexpr int most_rest_parts = 24;
 constexpr double most_of_safe = 0.9;
@@ -48,7 +48,7 @@ RestPath::End RestPath::end_of_way(const DesignPoint& from, const DesignPoint& t
     std::optional<Model> next;
     Vector dy;
     for (double safe = 0.0; safe < 1.0;) {
-      if (part < smallest_share) return way;
+      if (part < smallest_part) return way;
       end = part < 1.0 - way.share ? way.share + part : 1.0;
       next = intermediate(from, to, variables, end);
       dy = response * (part * change);

@@ -25,7 +25,7 @@ void enter(const Locked& l, std::vector<WarmStart>& out)
 
 /// Part of a value that may depend on directions in which its state is free. What rounding and quadrature
 /// leave is below 1e-8; a gradient that lacks more than this leads nowhere.
-constexpr double free_part = 1e-2;
+constexpr double most_undetermined = 1e-2;
 
 /// A value along the load at the end of a stage, and its derivatives in the element parameters.
 struct Value {
@@ -51,7 +51,7 @@ Value value_of(const Model& model, const Locked& l, const MacroLoad& load, Desig
     } else {
       g = gradient_in(model, l.state, load.pull);
     }
-    if (!(g.residual <= free_part)) {
+    if (!(g.residual <= most_undetermined)) {
       throw ComputationError(
           fmt::format("{:.2g} of the value depends on motions that no contact resists: it has no gradient "
                       "there; design.value less_contact needs none of them",

@@ -12,7 +12,7 @@ namespace {
 /// Forces of the last stage that miss the load by more than this part of it are worth a second attempt.
 constexpr double unbalanced = 5e-5;
 /// Rounding of coordinates, L, and the smallest gap under load that a stage leaves, as part of g_hat.
-constexpr double rounding = 1e-15, smallest_gap_of_stage = 0.01;
+constexpr double rounding_of_x = 1e-15, smallest_gap_of_stage = 0.01;
 /// Ends that are wider than one that fails, by these factors: the first three where its forces do not
 /// balance, all where it stalls. A stage that is wider than widest_stalled (L) has no such end.
 constexpr std::array<double, 6> wider_ends = {3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};
@@ -148,7 +148,7 @@ class Path {
   /// balances the best of them stays, and its forces tell.
   void balance()
   {
-    const bool rounding_matters = rounding > 0.1 * unbalanced * smallest_gap_of_stage * schedule_.last;
+    const bool rounding_matters = rounding_of_x > 0.1 * unbalanced * smallest_gap_of_stage * schedule_.last;
     if (!rounding_matters || !(out_.stages.back().residual > unbalanced)) return;
     const Locked narrowest = out_;
     Locked best = out_;

@@ -20,7 +20,7 @@ constexpr double longest_step = 0.1, longest_step_of_tube = 0.5;
 constexpr double range_of_step = 3.0;
 /// At the end: forces miss the load by this part of it, gaps the margin by this part of it or by rounding
 /// (L).
-constexpr double balanced = 1e-7, kept = 1e-3, rounding = 1e-14;
+constexpr double enough_balance = 1e-7, kept = 1e-3, rounding = 1e-14;
 constexpr double penalty_of_force = 1.5;  ///< penalty of a violation over the largest multiplier
 constexpr double enough = 1e-4;           ///< part of the predicted improvement that a step must bring
 constexpr std::size_t remembered = 5;  ///< values of the penalty function; curved gaps make it rise at times
@@ -100,7 +100,7 @@ class ConstrainedSearch {
       residual_ = (now_.gradient - now_.normals().transpose() * forces_).norm();
       const double to_gain =
           std::abs(now_.gradient.dot(step.x));  // by gaps that press and are wider than the margin
-      if (residual_ < balanced && std::max(now_.worst, to_gain) < std::max(kept * margin_, rounding)) {
+      if (residual_ < enough_balance && std::max(now_.worst, to_gain) < std::max(kept * margin_, rounding)) {
         if (!leaves_saddle(fresh)) {
           return keep_going_() ? finish(LockStatus::locked, untested_)
                                : finish(LockStatus::interrupted, "interrupted");

@@ -11,11 +11,11 @@ namespace hauberk {
 namespace {
 
 /// Conditions missed by less than this (strain, or curvature times L) are rounding.
-constexpr double kept = 1e-15;
+constexpr double rounding_of_conditions = 1e-15;
 /// Stiffness of a tether over the size of the load: what is left of the conditions is the reaction over it.
 constexpr double first_tether = 1e2, most_tether = 1e8, stiffer = 1e2;
 /// Part of any gap that the last step into the conditions leaves.
-constexpr double keep_gap = 0.1;
+constexpr double kept_gap = 0.1;
 
 /// Brings a state to where its conditions are kept, on a certified path: a tether draws the macroscopic
 /// unknowns there while the load pulls and contact resists; what the tether leaves, the reaction over its
@@ -57,7 +57,7 @@ class Approach {
     dy.head(m_.macro_count) = within(load_.held, out_.state.macro) - out_.state.macro;
     const State there = advanced(m_, out_.state, dy, 1.0);
     if (!m_.load->admissible(there.macro_values())) return false;
-    const SafeStep safe = checked_step(m_, out_.state, dy, keep_gap, stage_, &bounds_);
+    const SafeStep safe = checked_step(m_, out_.state, dy, kept_gap, stage_, &bounds_);
     out_.evaluations += safe.evaluations;
     if (safe.alpha < 1.0) return false;
     out_.state = there;
@@ -96,7 +96,7 @@ Locked lock(const Model& model, const State& start, const MacroLoad& load, Conta
   if (load.held.cols() == 0) return lock_freely(model, start, load.pull, choice, schedule, keep_going);
   Locked approach;
   approach.state = start;
-  if (missed(load.held, start.macro) > kept) {
+  if (missed(load.held, start.macro) > rounding_of_conditions) {
     approach = Approach(model, start, load, choice, schedule, keep_going).run();
     if (approach.status != LockStatus::locked) return approach;
   }

@@ -17,7 +17,7 @@ constexpr double active = 100.0;
 /// that is off the limit by about the last activation distance.
 constexpr double dependent = 1e-6;
 /// Multipliers that miss the load by more than this part of it are none; what programs count as zero.
-constexpr double balanced = 1e-4, zero = 1e-9;
+constexpr double most_missed = 1e-4, zero = 1e-9;
 /// Sides that differ by less than this part of the larger are equal.
 constexpr double same = 1e-5;
 
@@ -78,7 +78,7 @@ std::optional<Balance> independent_rows(const Matrix& normals, const Vector& loa
   const Eigen::Index rank = qr.rank(), count = normals.cols();
   if (rank == count) return std::nullopt;
   const Vector turned = qr.householderQ().transpose() * load;
-  if (turned.tail(turned.size() - rank).norm() > balanced) return std::nullopt;
+  if (turned.tail(turned.size() - rank).norm() > most_missed) return std::nullopt;
   // R^T = Z T, hence Z^T (P^T f) = -T^-T (Q^T load).
   const Matrix R = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
   const Eigen::HouseholderQR<Matrix> second(R.transpose());

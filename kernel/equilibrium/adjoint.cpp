@@ -17,7 +17,7 @@ namespace {
 constexpr double step_of_gap = 3e-3;
 /// Curvatures below this part of the largest are rounding, and below this part of the load (L = 1)
 /// quadrature: contact forces have the load's size, and bend with curvatures of order 1.
-constexpr double rounding = 1e-13;
+constexpr double rounding_of_curvature = 1e-13;
 constexpr double quadrature = 1e-7;
 
 /// Least-squares solution of H a = b in the step norm, and |H a - b| / |b| in its dual.
@@ -26,7 +26,7 @@ Vector solve(const Matrix& H, const Vector& b, const Vector& metric, double load
   const Vector root = metric.cwiseSqrt().cwiseInverse();
   const Matrix scaled = root.asDiagonal() * H * root.asDiagonal();
   const auto [values, vectors, converged] = symmetric_eigen(0.5 * (scaled + scaled.transpose()));
-  const double least = std::max(rounding * values.cwiseAbs().maxCoeff(), quadrature * load);
+  const double least = std::max(rounding_of_curvature * values.cwiseAbs().maxCoeff(), quadrature * load);
   const Vector right = root.cwiseProduct(b);
   Vector part = vectors.transpose() * right;
   for (Eigen::Index i = 0; i < part.size(); ++i)

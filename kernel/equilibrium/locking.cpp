@@ -14,8 +14,6 @@ namespace {
 constexpr double rounding_of_conditions = 1e-15;
 /// Stiffness of a tether over the size of the load: what is left of the conditions is the reaction over it.
 constexpr double first_tether = 1e2, most_tether = 1e8, stiffer = 1e2;
-/// Part of any gap that the last step into the conditions leaves.
-constexpr double kept_gap = 0.1;
 
 /// Brings a state to where its conditions are kept, on a certified path: a tether draws the macroscopic
 /// unknowns there while the load pulls and contact resists; what the tether leaves, the reaction over its
@@ -57,7 +55,7 @@ class Approach {
     dy.head(m_.macro_count) = within(load_.held, out_.state.macro) - out_.state.macro;
     const State there = advanced(m_, out_.state, dy, 1.0);
     if (!m_.load->admissible(there.macro_values())) return false;
-    const SafeStep safe = checked_step(m_, out_.state, dy, kept_gap, stage_, &bounds_);
+    const SafeStep safe = checked_step(m_, out_.state, dy, keep_gap, stage_, &bounds_);
     out_.evaluations += safe.evaluations;
     if (safe.alpha < 1.0) return false;
     out_.state = there;

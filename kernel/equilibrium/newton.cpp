@@ -25,7 +25,6 @@ constexpr double largest_radius = 0.5;  ///< L, of few elements
 constexpr double few_elements = 32.0;
 constexpr double smallest_radius = 1e-13;  ///< L: a hundred times the rounding of coordinates
 constexpr double smallest_escape = 1e-6;   ///< L: shorter steps along negative curvature are not tried
-constexpr double keep_gap = 0.1;           ///< a step may use up this much less than all of any gap
 constexpr int most_slides = 50;            ///< times `most_iterations`: the most steps of a stage
 /// The published fade makes valleys along which rings roll on towards ever smaller eigenvalues, downhill by
 /// next to nothing: so many escapes without a noticeable decrease are enough there.

@@ -7,13 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 namespace hauberk {
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double touching = 1e-9;  ///< L: surfaces no farther apart touch
 /// Squared distances of circles are polynomials of degree 1 in the sines and cosines of each angle, those of
 /// curves of the degree of their harmonics: this many points a degree separate their minima.

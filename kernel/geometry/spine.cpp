@@ -18,7 +18,6 @@
 namespace hauberk {
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
 /// Where the coordinate of cores begins for the order of joins: at an angle that designs have no reason for,
 /// so that a small change of sizes does not reorder them.
 constexpr double cut = 1.0372;

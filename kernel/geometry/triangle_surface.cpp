@@ -20,7 +20,7 @@ using Corners = std::array<Vec3, 3>;
 /// Of lengths over the mean distance: triangles lower than this have no area,
 constexpr double lowest_triangle = 1e-9;
 /// and those nearer to each other than this meet.
-constexpr double touching = 1e-12;
+constexpr double meeting = 1e-12;
 /// Larger coordinates overflow in products of three, smaller ones underflow.
 constexpr double largest_coordinate = 1e75;
 constexpr double smallest_size = 1e-75;
@@ -173,7 +173,7 @@ class Meeting {
   bool same() const { return has(b_, a_[0]) && has(b_, a_[1]) && has(b_, a_[2]); }
   static bool near(const FeaturePair& pair, const Corners& a, const Corners& b)
   {
-    return nearest_features(pair, a, b).distance <= touching;
+    return nearest_features(pair, a, b).distance <= meeting;
   }
 
   const Triangle &a_, &b_;
@@ -187,7 +187,7 @@ void check_meetings(const std::vector<Vec3>& points, const std::vector<Triangle>
   for (const Triangle& t : triangles) boxes.push_back(box_around(corners_of(points, t)));
   const Facets::Tree tree(boxes);
   std::array<int, 2> met{-1, -1};
-  visit_near(tree, tree, Mat3::Identity(), Vec3::Zero(), touching, [&](int i, int j) {
+  visit_near(tree, tree, Mat3::Identity(), Vec3::Zero(), meeting, [&](int i, int j) {
     if (i >= j || (met[0] >= 0 && std::array{i, j} > met)) return;
     const auto &a = triangles[i], &b = triangles[j];
     if (Meeting(points, a, b).found()) met = {i, j};

@@ -19,7 +19,7 @@ constexpr double dependent = 1e-6;
 /// Multipliers that miss the load by more than this part of it are none; what programs count as zero.
 constexpr double most_missed = 1e-4, zero = 1e-9;
 /// Sides that differ by less than this part of the larger are equal.
-constexpr double same = 1e-5;
+constexpr double same_sides = 1e-5;
 
 /// Closed gaps and walls: derivatives in unknowns, scaled to steps of unit norm, and in parameters.
 struct Closed {
@@ -99,7 +99,7 @@ std::optional<std::array<double, 2>> sides(LinearProgram& multipliers, const Vec
 
 bool differ(const std::array<double, 2>& s)
 {
-  return !(std::abs(s[1] - s[0]) <= same * std::max(std::abs(s[0]), std::abs(s[1])));
+  return !(std::abs(s[1] - s[0]) <= same_sides * std::max(std::abs(s[0]), std::abs(s[1])));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettin
 {
   const MacroLoad load = macro_load(m, task.direction, task.sense);
   Schedule schedule = without_widest(settings.schedule);
-  Locked out = lock(m, from, load, settings.contact, schedule, keep_going);
+  Locked out = hauberk::lock(m, from, load, settings.contact, schedule, keep_going);
   if (!keeps(load.held, from.macro)) return out;
   // Wide stages may let a fold go that the state is in. It is further then than where they lead, and narrower
   // ones hold it.
@@ -95,7 +95,7 @@ Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettin
         out.status == LockStatus::locked && reached(out.state) < reached(from) - further_than(settings);
     if (!shorter || first <= schedule.last) break;
     schedule.first = first;
-    Locked narrow = lock(m, from, load, settings.contact, schedule, keep_going);
+    Locked narrow = hauberk::lock(m, from, load, settings.contact, schedule, keep_going);
     if (narrow.status == LockStatus::interrupted) return narrow;
     const int iterations = out.iterations + narrow.iterations;
     const long evaluations = out.evaluations + narrow.evaluations;
@@ -130,10 +130,10 @@ Locked limit_from_start(const Model& m, const LimitTask& task, const LimitSettin
     Schedule certified = schedule;
     certified.target = std::numeric_limits<double>::infinity();
     certified.ccd = CollisionCheck::certified;
-    out = lock(m, from, load, ContactChoice::automatic, certified, keep_going);
+    out = hauberk::lock(m, from, load, ContactChoice::automatic, certified, keep_going);
   }
   if (out.status != LockStatus::unbounded && out.status != LockStatus::interrupted)
-    out = lock(m, from, load, settings.contact, schedule, keep_going);
+    out = hauberk::lock(m, from, load, settings.contact, schedule, keep_going);
   if (out.status != LockStatus::unbounded) out.path.clear();
   // A perturbed start lies straight ahead of rest.
   if (!out.path.empty()) out.path.insert(out.path.begin(), rest_state(m));

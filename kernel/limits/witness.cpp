@@ -9,8 +9,6 @@
 namespace hauberk {
 namespace {
 
-/// Part of every gap that a straight way must leave.
-constexpr double keep_gap = 0.1;
 /// Pieces that become one at most, while stretches grow by no more than this: longer ones take many images to
 /// certify.
 constexpr std::size_t most_joined = 32;

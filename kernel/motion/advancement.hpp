@@ -15,6 +15,9 @@ struct SafeStep {
   int tight_pairs = 0;  ///< pairs that needed more than the first look
 };
 
+/// Part of every gap that a step of a search leaves, and a straight way of a witness.
+inline constexpr double keep_gap = 0.1;
+
 /// A certified alpha, nearly the largest: for every pair of bodies the gap stays above `keep` times the one
 /// at the start. Gaps are surface distances minus clearance.
 ///

@@ -56,9 +56,21 @@ endfunction()
 # which are made once for all six. Names in unnamed namespaces must differ within a target then; a file that cannot be
 # joined has the property SKIP_UNITY_BUILD_INCLUSION. Off with a compiler cache, for the same reasons as above, and for
 # work on a few files: -DHAUBERK_JOIN=OFF.
-option(HAUBERK_JOIN "Compile sources six at a time" ${HAUBERK_PRECOMPILE_DEFAULT})
+option(HAUBERK_JOIN "Compile several sources at a time" ${HAUBERK_PRECOMPILE_DEFAULT})
 function(hauberk_join target)
   if(HAUBERK_JOIN)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
+endfunction()
+
+# hauberk_join_folders(<target> <source>...): joins the sources of each folder instead, so that names in unnamed
+# namespaces must differ within a folder only, whatever files others have.
+function(hauberk_join_folders target)
+  if(HAUBERK_JOIN)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    foreach(source IN LISTS ARGN)
+      cmake_path(GET source PARENT_PATH folder)
+      set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+    endforeach()
   endif()
 endfunction()

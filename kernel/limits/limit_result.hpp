@@ -1,5 +1,5 @@
 #pragma once
-/// What is told of a limit, as written to results.json (format "hauberk-results/1"). Lengths, curvatures and
+/// What is told of a limit, as written to results.json (format "hauberk-results/2"). Lengths, curvatures and
 /// forces are in file units; conversion from scaled quantities happens where these are filled.
 
 #include "model/scene.hpp"

@@ -51,8 +51,9 @@ struct ReportDesign {
   std::vector<ReportTarget> targets;
   std::optional<PublishedDesign> published;
   std::int64_t iterations = 0, evaluations = 0;
-  double seconds = 0.0;  ///< of all searches
-  /// Time of the search that gave the design, divided by its iterations; null where it made none.
+  std::optional<double> seconds;  ///< of all searches; null where times are not told
+  /// Time of the search that gave the design, divided by its iterations; null where it made none, or
+  /// times are not told.
   std::optional<double> seconds_per_iteration;
   bool rechecked = false;  ///< limits computed apart were entered
 };

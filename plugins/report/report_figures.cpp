@@ -98,13 +98,13 @@ ReportTotals totals(std::span<const ReportEntry> entries)
     out.met += targets_met(design);
     out.iterations += design.iterations;
     out.evaluations += design.evaluations;
-    out.seconds += design.seconds;
+    if (design.seconds) out.seconds = out.seconds.value_or(0.0) + *design.seconds;
     raise(out.peak_memory, entry.peak_memory);
     const std::optional<double> theirs = published_seconds(design);
-    if (!theirs) continue;
+    if (!theirs || !design.seconds) continue;
     ++out.published;
     out.published_seconds += *theirs;
-    out.seconds_of_published += design.seconds;
+    out.seconds_of_published += *design.seconds;
   }
   return out;
 }

@@ -38,7 +38,7 @@ std::size_t targets_met(const ReportDesign& design);
 struct ReportTotals {
   std::size_t designs = 0, targets = 0, met = 0;
   std::int64_t iterations = 0, evaluations = 0;
-  double seconds = 0.0;
+  std::optional<double> seconds;      ///< of those that tell it
   std::optional<double> peak_memory;  ///< the largest
   /// Of those designs of which the publication says it.
   std::size_t published = 0;

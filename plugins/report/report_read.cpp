@@ -113,10 +113,12 @@ ReportDesign read_design(const JsonPlace& design, const JsonPlace& asked)
   out.status = design.at("status").text();
   out.iterations = design.at("iterations").integer();
   out.evaluations = design.at("evaluations").integer();
-  out.seconds = design.at("seconds").number();
+  out.seconds = design.optional_number("seconds");
   const std::vector<JsonPlace> history = design.at("history").items();
-  if (!history.empty() && out.iterations > 0)
-    out.seconds_per_iteration = history.back().at("seconds").number() / static_cast<double>(out.iterations);
+  const std::optional<double> searched =
+      history.empty() ? std::nullopt : history.back().optional_number("seconds");
+  if (searched && out.iterations > 0)
+    out.seconds_per_iteration = *searched / static_cast<double>(out.iterations);
   out.published = read_published(asked);
   for (const JsonPlace& item : design.at("targets").items()) {
     ReportTarget target;

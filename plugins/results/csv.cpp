@@ -44,9 +44,8 @@ std::string limits_csv(std::span<const LimitResult> limits, const std::vector<st
   header.insert(header.end(), {"sense", "measure", "value"});
   for (const auto* names : {&companions, &macros})
     for (const std::string& name : *names) header.push_back(text_cell(name));
-  for (const char* name :
-       {"status", "iterations", "evaluations", "seconds", "min_gap", "error_estimate", "links_kept",
-        "z_range", "better_state", "confidence", "force_balance", "starts", "contacts"})
+  for (const char* name : {"status", "iterations", "evaluations", "min_gap", "error_estimate", "links_kept",
+                           "z_range", "better_state", "confidence", "force_balance", "starts", "contacts"})
     header.emplace_back(name);
 
   std::string out = csv_line(header);
@@ -60,13 +59,12 @@ std::string limits_csv(std::span<const LimitResult> limits, const std::vector<st
     row.insert(row.end(), {text_cell(limit.sense), text_cell(limit.measure), number_cell(limit.value)});
     for (const std::string& name : companions) row.push_back(named_cell(limit.companions, name));
     for (const std::string& name : macros) row.push_back(named_cell(limit.macro, name));
-    row.insert(row.end(),
-               {to_string(limit.status), std::to_string(limit.iterations), std::to_string(limit.evaluations),
-                number_cell(limit.seconds), number_cell(limit.min_gap), number_cell(limit.error_estimate),
-                limit.links_kept ? "true" : "false", number_cell(limit.z_range),
-                limit.better_state ? "true" : "false", text_cell(limit.confidence.word),
-                number_cell(limit.force_balance), std::to_string(limit.starts.size()),
-                std::to_string(limit.contacts.size())});
+    row.insert(row.end(), {to_string(limit.status), std::to_string(limit.iterations),
+                           std::to_string(limit.evaluations), number_cell(limit.min_gap),
+                           number_cell(limit.error_estimate), limit.links_kept ? "true" : "false",
+                           number_cell(limit.z_range), limit.better_state ? "true" : "false",
+                           text_cell(limit.confidence.word), number_cell(limit.force_balance),
+                           std::to_string(limit.starts.size()), std::to_string(limit.contacts.size())});
     out += csv_line(row);
   }
   return out;

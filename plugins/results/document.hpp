@@ -1,5 +1,5 @@
 #pragma once
-/// The document of results.json, format "hauberk-results/1"; share/doc/results.md explains every field.
+/// The document of results.json, format "hauberk-results/2"; share/doc/results.md explains every field.
 
 #include "design/run_result.hpp"
 
@@ -13,7 +13,7 @@
 
 namespace hauberk {
 
-inline constexpr const char* results_format = "hauberk-results/1";
+inline constexpr const char* results_format = "hauberk-results/2";
 /// Its name in a folder of results.
 inline constexpr const char* results_file = "results.json";
 

@@ -2,6 +2,7 @@
 
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
+#include "results/timings.hpp"
 #include "run/plan_text.hpp"
 #include "tasks/table.hpp"
 
@@ -48,6 +49,9 @@ std::vector<NamedContent> result_content(const Job& job, const std::filesystem::
     names[file.what] = file.name;
     out.push_back({std::move(file.name), std::move(file.content)});
   }
+  const boost::json::object timings = take_timings(document);
+  names["timings"] = timings_file;
+  out.push_back({timings_file, write_json(timings)});
   out.push_back({results_file, write_json(document)});
   return out;
 }

@@ -24,8 +24,8 @@ boost::json::object plan_document(const Job& job);
 /// The document of results.json without results: what does not change while the task runs.
 boost::json::object blank_document(const Job& job, const Provenance& provenance);
 
-/// Enters the job's results into a blank document, and returns it with the files beside it, results.json
-/// last.
+/// Enters the job's results into a blank document, takes out what the run itself took (results/timings.hpp),
+/// and returns it with the files beside it, results.json last.
 std::vector<NamedContent> result_content(const Job& job, const std::filesystem::path& folder,
                                          boost::json::object& document);
 

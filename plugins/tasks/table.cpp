@@ -1,6 +1,7 @@
 #include "tasks/table.hpp"
 
 #include "results/document.hpp"
+#include "results/timings.hpp"
 #include "tasks/chart/chart_section.hpp"
 #include "tasks/chart/chart_task.hpp"
 #include "tasks/design/design_section.hpp"
@@ -52,7 +53,7 @@ const Task& task_named(std::string_view name)
 
 std::vector<const char*> result_names()
 {
-  std::vector<const char*> out{results_file};
+  std::vector<const char*> out{results_file, timings_file};
   for (const Task& task : table) out.insert(out.end(), task.file_names.begin(), task.file_names.end());
   return out;
 }

@@ -105,8 +105,8 @@ TEST(Kills, WhileFilesAreWritten)
     expect_whole(left, "while writing");
     EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0);
     const Contents resumed = contents(out);
-    EXPECT_EQ(resumed.size(), 3U);
-    EXPECT_EQ(without_temporaries(resumed).size(), 3U);
+    EXPECT_EQ(resumed.size(), 4U);
+    EXPECT_EQ(without_temporaries(resumed).size(), 4U);
   }
   if (hit == 0) GTEST_SKIP() << "the disk is too fast to be caught at that moment";
 }
@@ -118,7 +118,7 @@ TEST(Kills, FormerResultsStayUntilTheRunIsDone)
   const std::string out = folder / "out", mail = folder.write("m.json", chainmail_text());
   ASSERT_EQ(run_program({"run", folder.write("c.json", map_text()), "-o", out}).code, 0);
   const Contents before = contents(out);
-  ASSERT_EQ(before.size(), 3U);
+  ASSERT_EQ(before.size(), 4U);
   // Twice: what is kept is the finished run, not the partial one in between.
   for (int k = 0; k < 2; ++k) {
     Process process({"run", folder.write("e.json", endless_text()), "-o", out, "--threads", "2", "--force"},
@@ -135,7 +135,7 @@ TEST(Kills, FormerResultsStayUntilTheRunIsDone)
   ASSERT_EQ(run_program({"run", mail, "-o", out, "--force"}).code, 0);
   EXPECT_FALSE(fs::exists(out + "/.hauberk-previous"));
   const Contents after = contents(out);
-  EXPECT_EQ(after.size(), 3U);
+  EXPECT_EQ(after.size(), 4U);
   EXPECT_FALSE(after.contains("stability.csv")) << "of the former run";
 }
 

@@ -92,6 +92,11 @@ json::value read_results(const fs::path& folder)
   return read_json_file((folder / "results.json").string());
 }
 
+json::value read_timings(const fs::path& folder)
+{
+  return read_json_file((folder / "timings.json").string());
+}
+
 double number_at(const json::value& document, const std::string& pointer)
 {
   const json::value& v = document.at_pointer(pointer);

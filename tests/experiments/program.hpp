@@ -54,6 +54,9 @@ boost::json::value read_results(const std::filesystem::path& folder);
 /// The number at a JSON pointer.
 double number_at(const boost::json::value& document, const std::string& pointer);
 
+/// The timings of a folder of results.
+boost::json::value read_timings(const std::filesystem::path& folder);
+
 /// The document without `seconds`, `threads`, `peak_memory_bytes`, `pareto` and `machine` at any depth: what
 /// must not depend on how it was computed.
 boost::json::value timeless(const boost::json::value& document);

@@ -86,7 +86,7 @@ TEST(SweepRun, TableAndPicture)
   std::istringstream table(read_text(folder.path() / "out" / "sweep.csv"));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "R,r,status,stretch 0,evaluations,seconds,message");
+  EXPECT_EQ(line, "R,r,status,stretch 0,evaluations,message");
   std::getline(table, line);
   EXPECT_TRUE(line.starts_with("4.8,0.5,done,0.4")) << line;
   const std::string picture = read_text(folder.path() / "out" / "sweep.svg");

@@ -94,7 +94,7 @@ class Package(unittest.TestCase):
         out = pathlib.Path(self.folder.name) / "out"
         experiment = hauberk.Experiment(EXPERIMENTS / "chain.json")
         results = experiment.run(output=out)
-        self.assertEqual({"results.json", "limits.csv", "profile.svg"}, {file.name for file in out.iterdir()})
+        self.assertEqual({"results.json", "timings.json", "limits.csv", "profile.svg"}, {file.name for file in out.iterdir()})
         self.assertEqual(json.loads((out / "results.json").read_text()), results.raw)
         with self.assertRaisesRegex(hauberk.InputError, "force"):
             experiment.run(output=out)

@@ -1,9 +1,9 @@
 #include "dispatch.hpp"
-#include "document/json_text.hpp"
 #include "options.hpp"
 #include "report/report.hpp"
 #include "results/designed_experiment.hpp"
 #include "results/document.hpp"
+#include "results/timings.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ fs::path file_of(const std::string& result)
 /// Reads a file; where that fails, also says what would do.
 boost::json::value read_result(const fs::path& file)
 try {
-  return read_json_file(file.string());
+  return read_timed_results(file);
 } catch (const InputError& error) {
   throw InputError(
       fmt::format("{}; give the {} that `hauberk run` wrote, or its folder", error.what(), results_file));

@@ -1,6 +1,6 @@
 #include "dispatch.hpp"
-#include "document/json_text.hpp"
 #include "experiment_options.hpp"
+#include "results/timings.hpp"
 #include "run/folder_lock.hpp"
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
@@ -85,7 +85,7 @@ Former resume(const std::filesystem::path& folder, Job& job, Provenance& provena
   const std::filesystem::path file = folder / results_file;
   if (!std::filesystem::exists(file)) return former;
   try {
-    former.document = read_json_file(file.string());
+    former.document = read_timed_results(file);
     check_origin(former.document, *job.prepared);
     former.left = job.task->resume(former.document) ? Left::nothing : Left::something;
     keep_former(former.document, provenance);

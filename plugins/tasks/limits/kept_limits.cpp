@@ -49,7 +49,7 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
   }
   r.iterations = static_cast<int>(number_or_zero(entry.at("iterations")));
   r.evaluations = static_cast<long>(number_or_zero(entry.at("evaluations")));
-  r.seconds = number_or_zero(entry.at("seconds"));
+  if (const json::value* seconds = entry.if_contains("seconds")) r.seconds = number_or_zero(*seconds);
   r.min_gap = number_or_none(entry.at("min_gap"));
   r.error_estimate = number_or_none(entry.at("error_estimate"));
   r.links_kept = entry.at("links_kept").as_bool();

@@ -129,7 +129,7 @@ std::string stability_csv(const StabilityMap& map)
   std::string out =
       detail::csv_line({"family", "member", "method", "direction_deg", "sense", "outcome", "reason", "status",
                         "value", "best_known", "exact", "slack", "contact", "min_gap", "error_estimate",
-                        "force_balance", "iterations", "evaluations", "seconds"});
+                        "force_balance", "iterations", "evaluations"});
   for (const StabilityCase& c : map.cases) {
     const StabilityFamilyResult& family = map.families[c.family];
     out += detail::csv_line(
@@ -137,8 +137,7 @@ std::string stability_csv(const StabilityMap& map)
          c.sense.empty() ? "" : detail::direction_cell(c.direction), c.sense, to_string(c.outcome),
          text_cell(c.reason), c.status, number_cell(c.value), number_cell(c.best_known), number_cell(c.exact),
          number_cell(c.slack), c.contact, number_cell(c.min_gap), number_cell(c.error_estimate),
-         number_cell(c.force_balance), std::to_string(c.iterations), std::to_string(c.evaluations),
-         number_cell(c.seconds)});
+         number_cell(c.force_balance), std::to_string(c.iterations), std::to_string(c.evaluations)});
   }
   return out;
 }

@@ -45,7 +45,7 @@ void take_case(const json::object& entry, StabilityCase& c)
   c.force_balance = number_or_none(entry.at("force_balance"));
   c.iterations = static_cast<int>(number_or_zero(entry.at("iterations")));
   c.evaluations = static_cast<long>(number_or_zero(entry.at("evaluations")));
-  c.seconds = number_or_zero(entry.at("seconds"));
+  if (const json::value* seconds = entry.if_contains("seconds")) c.seconds = number_or_zero(*seconds);
 }
 
 class StabilityTask final : public TaskRun {

@@ -114,7 +114,7 @@ std::string sweep_csv(const SweepTable& table)
   for (const SweepTable::Axis& axis : table.axes) header.push_back(text_cell(axis.name));
   header.emplace_back("status");
   for (const SweepTable::Measure& m : table.measures) header.push_back(text_cell(m.name));
-  header.insert(header.end(), {"evaluations", "seconds", "message"});
+  header.insert(header.end(), {"evaluations", "message"});
   std::string out = detail::csv_line(header);
   for (const SweepRow& row : table.rows) {
     std::vector<std::string> cells;
@@ -123,7 +123,6 @@ std::string sweep_csv(const SweepTable& table)
     for (std::size_t k = 0; k < table.measures.size(); ++k)
       cells.push_back(k < row.measured.size() ? number_cell(row.measured[k]) : "");
     cells.push_back(std::to_string(static_cast<std::int64_t>(sum_of(row, "evaluations"))));
-    cells.push_back(number_cell(sum_of(row, "seconds")));
     cells.push_back(text_cell(row.message));
     out += detail::csv_line(cells);
   }

@@ -50,7 +50,7 @@ boost::json::object sweep_json(const SweepTable& table);
 /// is of other values. Throws what boost::json throws for an entry that lacks something.
 bool take_row(const boost::json::value& entry, const SweepTable& table, SweepRow& row);
 
-/// One row per row, a header first: values, status, measured, evaluations and seconds (sums over the limits),
+/// One row per row, a header first: values, status, measured, evaluations (the sum over the limits),
 /// message. As limits.csv.
 std::string sweep_csv(const SweepTable& table);
 

@@ -117,7 +117,6 @@ constexpr std::array rules{
     VerifyRule{"/limits/*/infimum", {values}, "null unless `not_attained`"},
     VerifyRule{"/limits/*/iterations", {}, cost},
     VerifyRule{"/limits/*/evaluations", {}, cost},
-    VerifyRule{"/limits/*/seconds", {}, cost},
     VerifyRule{
         "/limits/*/min_gap",
         {gap},
@@ -182,7 +181,6 @@ constexpr std::array rules{
     VerifyRule{"/design/objective", {design}, "from the targets and the final limits"},
     VerifyRule{"/design/iterations", {}, cost},
     VerifyRule{"/design/evaluations", {}, cost},
-    VerifyRule{"/design/seconds", {}, cost},
     VerifyRule{"/design/variables/**",
                {design},
                "names, bounds and elements as the experiment has them; values those of both scenes"},
@@ -233,7 +231,6 @@ constexpr std::array rules{
     VerifyRule{"/stability/cases/*/slack", {}, stated},
     VerifyRule{"/stability/cases/*/iterations", {}, cost},
     VerifyRule{"/stability/cases/*/evaluations", {}, cost},
-    VerifyRule{"/stability/cases/*/seconds", {}, cost},
     VerifyRule{"/stability/families/*/why", {stability}, "the experiment's"},
     VerifyRule{
         "/stability/**",

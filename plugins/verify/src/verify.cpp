@@ -16,7 +16,7 @@ namespace {
 namespace json = boost::json;
 using namespace verification;
 
-constexpr const char* known_format = "hauberk-results/1";
+constexpr const char* known_format = "hauberk-results/2";
 
 /// What all checks of a document share.
 struct Work {

@@ -28,7 +28,7 @@ using Row = std::map<std::string, std::string>;
 json::value made_up()
 {
   json::value out = parse_json(R"({
-  "format": "hauberk-results/1",
+  "format": "hauberk-results/2",
   "experiment": { "name": "bent|sheet", "task": "design", "length_unit": "mm",
     "load_case": { "plugin": "paraboloid_bending", "directions_deg": [0] }, "solver": { "clearance": 0.1 },
     "design": {
@@ -287,7 +287,7 @@ TEST(Report, WhatIsNoResultIsRefusedWithItsPlace)
   EXPECT_EQ(message_of([] { read_report_entry(json::array{1}, "f"); }),
             "f: these are no results; give the results.json that `hauberk run` wrote, or its folder");
   EXPECT_EQ(refused("/format", "hauberk-results/9"),
-            "f: /format: expected hauberk-results/1, found hauberk-results/9; give the results.json that "
+            "f: /format: expected hauberk-results/2, found hauberk-results/9; give the results.json that "
             "`hauberk run` wrote, or its folder");
   EXPECT_EQ(refused("/experiment/task", "sweep"),
             "f: a report shows designs and limits, and these are results of task sweep; leave them out: "

@@ -29,7 +29,7 @@ TEST(Document, HasTheKeysOfTheContractInOrder)
   std::string keys;
   for (const auto& [key, value] : document.as_object()) keys += std::string(key) + ' ';
   EXPECT_EQ(keys, "format experiment provenance plan scene limits profiles design files ");
-  EXPECT_EQ(document.at("format").as_string(), "hauberk-results/1");
+  EXPECT_EQ(document.at("format").as_string(), "hauberk-results/2");
   keys.clear();
   for (const auto& [key, value] : document.at_pointer("/limits/0").as_object())
     keys += std::string(key) + ' ';
@@ -116,10 +116,10 @@ TEST(Csv, OneRowPerLimitWithExactNumbers)
   EXPECT_EQ(
       limits_csv(run.limits, {"exx", "eyy", "exy"}),
       "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
-      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,"
+      "min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,"
       "contacts\n"
-      "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,0,1e-09,,true,0,false,none,,1,1\n"
-      "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,0,1e-09,,true,0,false,none,,1,"
+      "in_plane_periodic,0,stretch,tensor,0.16,0.16,0.16,0.1,0,locked,0,0,1e-09,,true,0,false,none,,1,1\n"
+      "\"a,\"\"b\"\"\",0,compress,tensor,,,0.3333333333333333,0.1,0,locked,0,0,1e-09,,true,0,false,none,,1,"
       "1\n");
 }
 
@@ -135,9 +135,9 @@ TEST(Csv, HasAllColumnsWhereNoLimitHasAState)
   EXPECT_EQ(
       limits_csv(run.limits, {"exx", "eyy", "exy"}),
       "load_case,direction_deg,sense,measure,value,line_stretch,exx,eyy,exy,status,iterations,evaluations,"
-      "seconds,min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,"
+      "min_gap,error_estimate,links_kept,z_range,better_state,confidence,force_balance,starts,"
       "contacts\n"
-      "in_plane_periodic,0,,,,,,,,unbounded,0,0,0,,,false,0,false,none,,0,0\n");
+      "in_plane_periodic,0,,,,,,,,unbounded,0,0,,,false,0,false,none,,0,0\n");
 }
 
 TEST(DesignedExperiment, DescribesTheFinalSceneAlone)

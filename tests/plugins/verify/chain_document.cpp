@@ -112,7 +112,7 @@ json::value chain_document(const Chain& chain)
                         {"rest", pose(0.5 * v1, upright)},
                         {"primitives", json::array{ring(chain.R_b, chain.r_b, r1(chain.r_b))}}}}}};
 
-  return {{"format", "hauberk-results/1"},
+  return {{"format", "hauberk-results/2"},
           {"experiment",
            {{"elements",
              {{"a", torus_element(chain.R_a, chain.r_a, r1(chain.r_a))},

@@ -64,7 +64,7 @@ json::value column_document()
   json::object scene{{"cell_vectors", {{column_rest_period, 0}, {0, 40}}},
                      {"length", R},
                      {"elements", {element(0.0), element(0.5 * column_rest_period)}}};
-  return {{"format", "hauberk-results/1"},
+  return {{"format", "hauberk-results/2"},
           {"experiment",
            {{"elements", {{"ring", torus_element(R, r, r)}}},
             {"cell",

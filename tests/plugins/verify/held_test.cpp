@@ -217,7 +217,7 @@ json::value places_document()
       {"poses", poses},
       {"contacts", contacts},
       {"force_balance", 0.0}};
-  return {{"format", "hauberk-results/1"},
+  return {{"format", "hauberk-results/2"},
           {"experiment",
            {{"elements", {{"a", test::torus_element(R, r, r)}}},
             {"cell",

@@ -162,7 +162,7 @@ TEST(Tamper, HeightsBeyondWhatIsAllowed)
 TEST(Malformed, EverythingMissingIsAFailingLine)
 {
   expect_caught(json::value(nullptr), "/format: missing");
-  expect_caught(json::value{{"format", "other"}}, "/format: hauberk-results/1 expected, found other");
+  expect_caught(json::value{{"format", "other"}}, "/format: hauberk-results/2 expected, found other");
   for (const char* key : {"experiment", "scene", "limits", "profiles", "design"}) {
     json::value document = chain_document();
     document.as_object().erase(key);

@@ -87,7 +87,7 @@ using VerifyShapes = std::function<std::optional<std::vector<Primitive>>(
     const std::string& type, const boost::json::value& section,
     const std::map<std::string, double>& parameters, std::string& why)>;
 
-/// Checks a document of format "hauberk-results/1": a line per limit (also those of a design's initial
+/// Checks a document of format "hauberk-results/2": a line per limit (also those of a design's initial
 /// scene), one for the profiles, one for the scene, one for the design. What is done about which field, and
 /// why not, say the rules of fields.hpp.
 ///

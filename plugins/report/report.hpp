@@ -32,12 +32,12 @@ struct ReportTarget {
   bool better_state = false, met = false;
 };
 
-/// What a publication says of a design as a whole.
 /// A range of values measured in one direction.
 struct MeasuredRange {
   double direction_deg = 0.0, lowest = 0.0, highest = 0.0;
 };
 
+/// What a publication says of a design as a whole.
 struct PublishedDesign {
   std::string source;
   std::optional<double> lowest, highest;  ///< range of the values reached

@@ -1,6 +1,7 @@
 #include "results/timings.hpp"
 
 #include "document/json_text.hpp"
+#include "document/jsonc.hpp"
 #include "results/document.hpp"
 
 #include <hauberk/error.hpp>
@@ -21,21 +22,6 @@ constexpr std::array<json::string_view, 4> timeless{"experiment", "provenance", 
 /// Members of the provenance that depend on the run.
 constexpr std::array<const char*, 2> of_the_run{"threads", "peak_memory_bytes"};
 
-/// A token of a JSON pointer (RFC 6901, section 3).
-std::string token(json::string_view key)
-{
-  std::string out;
-  for (const char c : key) {
-    if (c == '~')
-      out += "~0";
-    else if (c == '/')
-      out += "~1";
-    else
-      out += c;
-  }
-  return out;
-}
-
 void take(json::value& from, const std::string& place, json::object& seconds)
 {
   if (json::array* const items = from.if_array()) {
@@ -50,7 +36,7 @@ void take(json::value& from, const std::string& place, json::object& seconds)
     members->stable_erase(time);
   }
   for (auto& [key, value] : *members) {
-    if (value.is_structured()) take(value, place + '/' + token(key), seconds);
+    if (value.is_structured()) take(value, place + '/' + pointer_token(key), seconds);
   }
 }
 
@@ -74,7 +60,7 @@ json::object take_timings(json::object& results)
   json::object& seconds = out["seconds"].emplace_object();
   for (auto& [key, value] : results) {
     if (std::find(timeless.begin(), timeless.end(), key) == timeless.end())
-      take(value, '/' + token(key), seconds);
+      take(value, '/' + pointer_token(key), seconds);
   }
   return out;
 }

@@ -85,6 +85,10 @@ std::string identity(const Prepared& prepared, const Provenance& provenance)
 
 void check_origin(const json::value& document, const Prepared& prepared)
 {
+  if (const json::string_view format = document.at("format").as_string(); format != results_format)
+    throw InputError(
+        fmt::format("it has the format {}, and this program goes on from {} alone; start anew with --force",
+                    format, results_format));
   const Provenance now = provenance(prepared, 1, false);
   const json::value experiment = parse_json(write_json(prepared.experiment.resolved), "experiment");
   if (document.at("experiment") != experiment)

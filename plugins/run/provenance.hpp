@@ -14,8 +14,9 @@ Provenance provenance(const Prepared& prepared, unsigned threads, bool machine);
 /// On one line: results of one identity are the same.
 std::string identity(const Prepared& prepared, const Provenance& provenance);
 
-/// Throws InputError where `document` (a results file) was computed from another experiment or by another
-/// version of the program: results of both in one file would not say where they come from.
+/// Throws InputError where `document` (a results file) has another format, or was computed from another
+/// experiment or by another version of the program: results of both in one file would not say where they come
+/// from.
 void check_origin(const boost::json::value& document, const Prepared& prepared);
 
 }  // namespace hauberk

@@ -103,23 +103,31 @@ double number_at(const json::value& document, const std::string& pointer)
   return v.is_null() ? std::numeric_limits<double>::quiet_NaN() : v.to_number<double>();
 }
 
-json::value timeless(const json::value& document)
+namespace {
+
+json::value without_chart_times(const json::value& document)
 {
-  constexpr std::array<json::string_view, 5> timed{"seconds", "threads", "peak_memory_bytes", "pareto",
-                                                   "machine"};
+  constexpr std::array<json::string_view, 4> timed{"seconds", "peak_memory_bytes", "pareto", "machine"};
   if (const json::object* o = document.if_object()) {
     json::object out;
     for (const auto& [key, value] : *o) {
-      if (std::find(timed.begin(), timed.end(), key) == timed.end()) out[key] = timeless(value);
+      if (std::find(timed.begin(), timed.end(), key) == timed.end()) out[key] = without_chart_times(value);
     }
     return out;
   }
   if (const json::array* a = document.if_array()) {
     json::array out;
-    for (const json::value& v : *a) out.push_back(timeless(v));
+    for (const json::value& v : *a) out.push_back(without_chart_times(v));
     return out;
   }
   return document;
+}
+
+}  // namespace
+
+json::value timeless(const json::value& document)
+{
+  return document.as_object().contains("chart") ? without_chart_times(document) : document;
 }
 
 std::string with(std::string text, const std::string& from, const std::string& to)

@@ -57,8 +57,8 @@ double number_at(const boost::json::value& document, const std::string& pointer)
 /// The timings of a folder of results.
 boost::json::value read_timings(const std::filesystem::path& folder);
 
-/// The document without `seconds`, `threads`, `peak_memory_bytes`, `pareto` and `machine` at any depth: what
-/// must not depend on how it was computed.
+/// What must not depend on how it was computed: the document itself, and of a chart, whose results are times,
+/// all but `seconds`, `peak_memory_bytes`, `pareto` and `machine`.
 boost::json::value timeless(const boost::json::value& document);
 
 /// `text` with the only occurrence of `from` replaced.

@@ -175,6 +175,23 @@ TEST(Resuming, RefusesOtherExperiments)
   EXPECT_EQ(read_text(results), before);
 }
 
+TEST(Resuming, RefusesOtherFormats)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text());
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
+  const std::string results = folder / "out/results.json";
+  const std::string other = with(read_text(results), "\"hauberk-results/2\"", "\"hauberk-results/1\"");
+  std::ofstream(results) << other;
+  const Outcome o = run_program({"run", file, "-o", folder / "out", "--resume"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err,
+            "hauberk: " + results +
+                ": cannot be resumed: it has the format hauberk-results/1, and this program goes on from "
+                "hauberk-results/2 alone; start anew with --force\n");
+  EXPECT_EQ(read_text(results), other);
+}
+
 TEST(Resuming, RefusesFilesThatAreNoResults)
 {
   const TemporaryFolder folder;

@@ -1,7 +1,6 @@
 #include "tasks/stability/independent_check.hpp"
 
 #include "results/document.hpp"
-#include "results/timings.hpp"
 
 #include <boost/json/value.hpp>
 
@@ -34,8 +33,7 @@ VerifyShapes shapes_of(const SceneSpec& scene)
 std::vector<VerifyLine> independent_check(const RunResult& run, const std::string& experiment_json,
                                           const std::vector<std::string>& macro_names)
 {
-  boost::json::object document = results_document(run, experiment_json, macro_names);
-  (void)take_timings(document);
+  const boost::json::value document = results_document(run, experiment_json, macro_names);
   std::vector<VerifyLine> lines = verify(document, {}, shapes_of(run.scene)).lines;
   // A document that cannot be read at all gives a single line, which then is about every limit; the line
   // about the profiles, which comes last, is nobody's.

@@ -212,6 +212,8 @@ std::shared_ptr<const TaskSection> read_sweep(Node& section, SectionContext& con
       if (!out.measure.back().pointer.starts_with('/'))
         problems.add(item, "expected a JSON pointer such as /limits/0/value, found " +
                                quote_json(out.measure.back().pointer));
+      else if (out.measure.back().pointer.ends_with("/seconds"))
+        problems.add(item, "times differ from run to run and are no measure of a row; timings.json has them");
     }
     check_names(*measure, out.measure, "the name", problems);
   } else {

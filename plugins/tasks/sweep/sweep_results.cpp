@@ -23,11 +23,12 @@ std::optional<double> measured_at(const json::value& document, const std::string
   return v->to_number<double>();
 }
 
-double sum_of(const SweepRow& row, const char* key)
+std::int64_t evaluations(const SweepRow& row)
 {
-  double sum = 0.0;
+  std::int64_t sum = 0;
   if (const json::object* result = row.result.if_object()) {
-    for (const json::value& limit : result->at("limits").as_array()) sum += limit.at(key).to_number<double>();
+    for (const json::value& limit : result->at("limits").as_array())
+      sum += limit.at("evaluations").to_number<std::int64_t>();
   }
   return sum;
 }
@@ -122,7 +123,7 @@ std::string sweep_csv(const SweepTable& table)
     cells.push_back(to_string(row.status));
     for (std::size_t k = 0; k < table.measures.size(); ++k)
       cells.push_back(k < row.measured.size() ? number_cell(row.measured[k]) : "");
-    cells.push_back(std::to_string(static_cast<std::int64_t>(sum_of(row, "evaluations"))));
+    cells.push_back(std::to_string(evaluations(row)));
     cells.push_back(text_cell(row.message));
     out += detail::csv_line(cells);
   }

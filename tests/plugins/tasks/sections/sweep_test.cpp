@@ -98,6 +98,10 @@ TEST(Sweep, ReportsWhatMakesNoSense)
   EXPECT_EQ(after("\"/solver/clearance\"", "\"solver\""),
             "t.json:2: /sweep/vary/0/pointers/0: expected a JSON pointer such as /solver/clearance, found "
             "\"solver\"");
+  EXPECT_EQ(
+      after("\"sweep\": {", R"("sweep": { "measure": [{ "name": "time", "pointer": "/limits/0/seconds" }],)"),
+      "t.json:2: /sweep/measure/0: times differ from run to run and are no measure of a row; timings.json "
+      "has them");
   for (const char* section_name : {"name", "task", "design", "sweep/vary"}) {
     const std::string pointer = std::string("\"/") + section_name + "\"";
     EXPECT_EQ(after("\"/solver/clearance\"", pointer),

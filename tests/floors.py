@@ -39,6 +39,7 @@ PLAN = {
     "plugins/report": ["kernel", "plugins/document", "plugins/results", "plugins/pictures"],
     "plugins/verify": ["kernel/api"],  # independent: it reads results by itself; the interface of primitives alone
     "plugins/conformance": ["kernel", "plugins/host", "plugins/document"],
+    "plugins/parts": ["kernel", "plugins/document"],
     "plugins/run": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
                     "plugins/pictures"],
     "plugins/tasks/task.hpp": ["kernel", "plugins/run"],
@@ -46,7 +47,7 @@ PLAN = {
     "plugins/tasks/limits": ["kernel", "plugins/document", "plugins/results", "plugins/pictures", "plugins/experiment",
                              "plugins/run", "plugins/tasks/task.hpp"],
     "plugins/tasks/design": ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/run",
-                             "plugins/tasks/task.hpp", "plugins/tasks/limits"],
+                             "plugins/parts", "plugins/tasks/task.hpp", "plugins/tasks/limits"],
     "plugins/tasks/sweep": TASK + ["plugins/tasks/variants"],
     "plugins/tasks/chart": TASK + ["plugins/tasks/variants"],
     "plugins/tasks/stability": TASK + ["plugins/tasks/variants", "plugins/verify"],
@@ -58,7 +59,7 @@ PLAN = {
     "plugins/maker": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/run", "plugins/tasks"],
     "plugins/command": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
                         "plugins/report", "plugins/export", "plugins/maker", "plugins/verify", "plugins/conformance", "plugins/run",
-                        "plugins/tasks"],
+                        "plugins/parts", "plugins/tasks"],
 }
 
 

@@ -208,33 +208,58 @@ void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, 
   }
 }
 
+/// A search from one start, and the problem that it leaves at its best design.
+struct StartSearch {
+  std::unique_ptr<DesignProblem> problem;
+  SceneSpec initial_scene;  ///< as the search found it
+  SearchOutcome outcome;
+};
+
+StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double clearance,
+                        const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
+                        unsigned threads, int start, const DesignObserver& observer, EvaluationMemory* memory)
+{
+  SceneSpec frozen = scene;
+  frozen.length = characteristic_length(scene);
+  Schedule coarse = design.schedule;
+  coarse.last = std::max(coarse.last, design.coarse_last);
+  const KeepGoing always = [] { return true; };  // searches are interrupted between iterates
+  StartSearch out;
+  out.problem =
+      std::make_unique<DesignProblem>(DesignScene{frozen, load, clearance, limits, design, threads, always},
+                                      static_cast<std::uint64_t>(start));
+  out.initial_scene = scene_of(out.problem->current());
+  out.problem->set_memory(memory);
+  out.problem->set_schedule(coarse);
+  const std::vector<double> x0 = out.problem->feasible_towards(random_move(design, start));
+  out.outcome = search(*out.problem, design, optimizer, x0, start, observer);
+  return out;
+}
+
 }  // namespace
+
+bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
+                  const DesignSpec& design, const Optimizer& optimizer, unsigned threads, int start,
+                  const DesignObserver& observer, EvaluationMemory& memory)
+{
+  return !search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, &memory)
+              .outcome.interrupted;
+}
 
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                     unsigned threads, const DesignObserver& observer, EvaluationMemory* memory)
 {
   const auto t0 = std::chrono::steady_clock::now();
-  SceneSpec frozen = scene;
-  frozen.length = characteristic_length(scene);
-  const KeepGoing always = [] { return true; };  // searches are interrupted between iterates
-  Schedule coarse = design.schedule;
-  coarse.last = std::max(coarse.last, design.coarse_last);
-
   Designed out;
   std::unique_ptr<DesignProblem> best_problem;
   SearchOutcome best;
   std::string failure;
   bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
-    auto problem =
-        std::make_unique<DesignProblem>(DesignScene{frozen, load, clearance, limits, design, threads, always},
-                                        static_cast<std::uint64_t>(start));
-    if (start == 0) out.result.initial_scene = scene_of(problem->current());
-    problem->set_memory(memory);
-    problem->set_schedule(coarse);
-    const std::vector<double> x0 = problem->feasible_towards(random_move(design, start));
-    SearchOutcome s = search(*problem, design, optimizer, x0, start, observer);
+    auto [problem, initial_scene, s] =
+        search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, memory);
+    if (start == 0) out.result.initial_scene = std::move(initial_scene);
     out.result.evaluations += problem->evaluations();
     interrupted = s.interrupted;
     if (s.history.empty()) {

@@ -76,6 +76,12 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                     unsigned threads, const DesignObserver& observer, EvaluationMemory* memory = nullptr);
 
+/// Of a run that is divided: the search from one of its starts with coarse stages, for `memory` alone. Throws
+/// InputError when the initial design is infeasible at rest. False: the observer interrupted it.
+bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
+                  const DesignSpec& design, const Optimizer& optimizer, unsigned threads, int start,
+                  const DesignObserver& observer, EvaluationMemory& memory);
+
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);
 

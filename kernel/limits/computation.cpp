@@ -44,9 +44,26 @@ struct TaskState {
   bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
 };
 
+bool is_of(const Model& model, const State& state)
+{
+  return state.macro.size() == model.macro_count &&
+         state.e.size() == static_cast<Eigen::Index>(model.element_count()) * model.coordinate_count &&
+         state.rotation.size() == static_cast<std::size_t>(model.element_count());
+}
+
+/// Whether states are of a model: what is remembered may come from a file.
+bool is_of(const Model& model, const Locked& locked)
+{
+  const auto fits = [&model](const State& state) { return is_of(model, state); };
+  return fits(locked.state) && std::all_of(locked.trail.begin(), locked.trail.end(), fits) &&
+         std::all_of(locked.path.begin(), locked.path.end(), fits) &&
+         locked.trail.size() <= locked.stages.size();
+}
+
 /// A scene that another one contains, with what its limits came to.
 struct Solved {
   Model model;
+  LimitSettings settings;
   std::vector<LimitTask> tasks;
   std::vector<std::optional<State>> states;  ///< per task
 };
@@ -135,6 +152,54 @@ class Computation {
     return so_far();
   }
 
+  /// A share of the searches that stand alone, for the memory. Returns how many all of them are; null:
+  /// interrupted.
+  std::optional<std::size_t> search(unsigned threads, const Share& share)
+  {
+    std::vector<std::function<void()>> items;
+    std::size_t count = 0;
+    const auto add = [&](auto item) {
+      if (share.has(count++)) items.emplace_back(std::move(item));
+    };
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) add([this, k, s] { attempt(k, s); });
+      for (int t = 0; k < asked_ && t < settings_.tilts; ++t)
+        add([this, k, t] {
+          double seconds = 0.0;
+          try {
+            tilted_search(k, t, seconds);
+          } catch (const std::exception&) {  // it throws again where it is asked for
+          }
+        });
+    }
+    threads = thread_count(threads);
+    settings_.schedule.threads =
+        static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items.size())));
+    total_ = items.size();
+    if (observer_.on_start) observer_.on_start(0, total_);
+    parallel_for(items.size(), threads, [&](std::size_t i) {
+      if (!going()) return;
+      items[i]();
+      const std::lock_guard lock(mutex_);
+      ++done_;
+      if (observer_.on_start) observer_.on_start(done_, total_);
+    });
+    if (!settings_.lessons || !any_may_fold()) return going() ? std::optional(count) : std::nullopt;
+    for (const Relative& relative : relatives(model_, spec_)) {
+      const Solved s = unsolved(relative);
+      if (s.tasks.empty() || !going()) continue;
+      std::optional<MemoryWithin> memory = memory_of(relative);
+      LimitsObserver observer;
+      observer.keep_going = observer_.keep_going;
+      observer.on_start = observer_.on_start;
+      observer.memory = &*memory;
+      count += Computation(s.model, relative.scene, s.tasks, s.settings, observer)
+                   .search(threads, share.after(count))
+                   .value_or(0);
+    }
+    return going() ? std::optional(count) : std::nullopt;
+  }
+
  private:
   /// Starts of a limit that may fold: fewer in large cells, where each is expensive.
   std::size_t fold_starts() const
@@ -160,25 +225,72 @@ class Computation {
     if (observer_.on_limit) observer_.on_limit(so_far());
   }
 
+  /// What the search of this name finds, or is remembered to have found. `seconds` grows by what it took.
+  template <class Search>
+  Locked searched(const std::string& name, double& seconds, const Search& search) const
+  {
+    SearchMemory* const memory = observer_.memory;
+    if (memory != nullptr) {
+      if (std::optional<KnownSearch> known = memory->recall(name); known && is_of(model_, known->locked)) {
+        seconds += known->seconds;
+        return std::move(known->locked);
+      }
+    }
+    const auto t0 = std::chrono::steady_clock::now();
+    const auto taken = [&t0] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    };
+    Locked found;
+    try {
+      found = search();
+    } catch (...) {
+      seconds += taken();
+      throw;
+    }
+    const double took = taken();
+    seconds += took;
+    if (memory != nullptr && found.status != LockStatus::interrupted) memory->record(name, found, took);
+    return found;
+  }
+
   Attempt attempt(std::size_t task, std::size_t start) const
   {
     Attempt out;
-    const auto t0 = std::chrono::steady_clock::now();
     const KeepGoing keep_going = [this] { return going(); };
     try {
-      out.locked =
-          !states_[task].is_narrow(start)
-              ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
-              : limit_from_state(model_, tasks_[task], settings_,
-                                 perturbed(model_, start_state(model_, settings_), settings_.perturbation,
-                                           settings_.seed, Copies::alike),
-                                 keep_going);
+      out.locked = searched(fmt::format("limit {} start {}", task, start), out.seconds, [&] {
+        return !states_[task].is_narrow(start)
+                   ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
+                   : limit_from_state(model_, tasks_[task], settings_,
+                                      perturbed(model_, start_state(model_, settings_),
+                                                settings_.perturbation, settings_.seed, Copies::alike),
+                                      keep_going);
+      });
     } catch (const std::exception& error) {
       out.error = error.what();
     }
-    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     if (out.locked && out.locked->status == LockStatus::interrupted) out.locked.reset();
     return out;
+  }
+
+  /// Where a task locks under the k-th of its tilted loads.
+  Locked tilted_search(std::size_t task, int k, double& seconds) const
+  {
+    return searched(fmt::format("limit {} tilt {}", task, k), seconds, [&] {
+      const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
+      const State from =
+          perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
+      const MacroLoad load = macro_load(model_, tasks_[task].direction, tasks_[task].sense);
+      return lock(model_, from, tilted(model_, load.pull, settings_, seed), settings_.contact,
+                  settings_.schedule, [this] { return going(); });
+    });
+  }
+
+  Locked search_from_state(std::size_t task, const State& from, double& seconds) const
+  {
+    return searched(fmt::format("limit {} from {}", task, name_of_state(from)), seconds, [&] {
+      return limit_from_state(model_, tasks_[task], settings_, from, [this] { return going(); });
+    });
   }
 
   /// The first start of a task went past every bound, with a witness: others would say no more.
@@ -227,16 +339,11 @@ class Computation {
     if (task >= asked_ || settings_.tilts == 0) return true;
     TaskState& t = states_[task];
     const LimitTask& limit = tasks_[task];
-    const auto t0 = std::chrono::steady_clock::now();
-    const KeepGoing keep_going = [this] { return going(); };
     const MacroLoad load = macro_load(model_, limit.direction, limit.sense);
     try {
       for (int k = 0; k < settings_.tilts; ++k) {
         const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
-        const State from =
-            perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
-        Locked found = lock(model_, from, tilted(model_, load.pull, settings_, seed), settings_.contact,
-                            settings_.schedule, keep_going);
+        const Locked found = tilted_search(task, k, t.seconds);
         if (found.status == LockStatus::interrupted) return false;
         const std::vector<FoundState> known = found_of(task);
         const std::optional<std::size_t> best = furthest(model_, limit, settings_, known);
@@ -248,7 +355,7 @@ class Computation {
           t.evaluations += found.evaluations;
           continue;
         }
-        Locked own = limit_from_state(model_, limit, settings_, found.state, keep_going);
+        Locked own = search_from_state(task, found.state, t.seconds);
         if (own.status == LockStatus::interrupted) return false;
         own.iterations += found.iterations;
         own.evaluations += found.evaluations;
@@ -257,7 +364,6 @@ class Computation {
     } catch (const std::exception& error) {
       t.error = error.what();
     }
-    t.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     return true;
   }
 
@@ -335,16 +441,14 @@ class Computation {
   std::optional<FoundState> begun_from(std::size_t task, const State& from, const std::string& place,
                                        std::uint64_t seed)
   {
-    const auto t0 = std::chrono::steady_clock::now();
     std::optional<FoundState> out;
     std::string problem;
+    double seconds = 0.0;
     try {
-      out = FoundState{limit_from_state(model_, tasks_[task], settings_, from, [this] { return going(); }),
-                       learnt_origin + place, seed};
+      out = FoundState{search_from_state(task, from, seconds), learnt_origin + place, seed};
     } catch (const std::exception& failure) {
       problem = fmt::format("from the state of {}: {}", place, failure.what());
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     const std::lock_guard lock(mutex_);  // a task may have two lessons at a time
     if (!problem.empty()) states_[task].remark = std::move(problem);
     states_[task].seconds += seconds;
@@ -391,8 +495,8 @@ class Computation {
     for (const std::size_t k : unknown) states_[k].known = false;
   }
 
-  /// The states that the limits of a relative end in when each stands alone; no tasks: it has no use for any.
-  Solved solved(const Relative& relative, unsigned threads)
+  /// A relative to be solved, each of its limits standing alone; no tasks: this scene has no use for any.
+  Solved unsolved(const Relative& relative) const
   {
     Solved s;
     const LoadCase& load = relative.load ? *relative.load : *model_.load;
@@ -404,32 +508,52 @@ class Computation {
           (other_elements || load.conditions(along).size() != model_.load->conditions(along).size()))
         s.tasks.push_back(tasks_[k]);
     }
-    LimitSettings settings = settings_;
-    settings.lessons = false;  // its states begin a search, they are no answers
+    s.settings = settings_;
+    s.settings.lessons = false;  // its states begin a search, they are no answers
     // A cell's own start is one of its multiple's, which moves copies alike; the others are new.
     const bool cell = relative.scene.elements.size() != spec_.elements.size();
-    settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
-    settings.given.clear();
+    s.settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
+    s.settings.given.clear();
     if (settings_.start && !s.tasks.empty()) {
-      if (!cell) settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
-      if (cell || !settings.start) s.tasks.clear();
+      if (!cell) s.settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
+      if (cell || !s.settings.start) s.tasks.clear();
     }
+    return s;
+  }
+
+  /// The memory's part that is a relative's.
+  std::optional<MemoryWithin> memory_of(const Relative& relative) const
+  {
+    if (observer_.memory == nullptr) return std::nullopt;
+    return MemoryWithin(*observer_.memory, relative.name + ": ");
+  }
+
+  /// The states that the limits of a relative end in when each stands alone.
+  Solved solved(const Relative& relative, unsigned threads)
+  {
+    Solved s = unsolved(relative);
     if (s.tasks.empty()) return s;
+    std::optional<MemoryWithin> memory = memory_of(relative);
     LimitsObserver observer;
     observer.keep_going = observer_.keep_going;
     observer.on_states = [&s](const auto& states) { s.states = states; };
+    observer.memory = memory ? &*memory : nullptr;
     std::vector<LimitResult> limits =
-        compute_limits(s.model, relative.scene, s.tasks, settings, threads, observer);
+        compute_limits(s.model, relative.scene, s.tasks, s.settings, threads, observer);
     std::move(limits.begin(), limits.end(), std::back_inserter(unreported_));
     return s;
+  }
+
+  bool any_may_fold() const
+  {
+    return std::any_of(states_.begin(), states_.end(), [](const auto& state) { return state.narrow; });
   }
 
   /// States of scenes that this one contains, carried over.
   std::vector<GivenState> inherited(unsigned threads)
   {
     std::vector<GivenState> out = settings_.given;
-    if (std::none_of(states_.begin(), states_.end(), [](const auto& state) { return state.narrow; }))
-      return out;
+    if (!any_may_fold()) return out;
     for (const Relative& relative : relatives(model_, spec_)) {
       const Solved s = solved(relative, threads);
       if (s.tasks.empty() || !going()) continue;
@@ -591,6 +715,13 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
                                         const std::vector<std::optional<LimitResult>>& known)
 {
   return Computation(model, spec, tasks, settings, observer).run(threads, known);
+}
+
+bool compute_searches(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
+                      const LimitSettings& settings, unsigned threads, const LimitsObserver& observer,
+                      const Share& share)
+{
+  return Computation(model, spec, tasks, settings, observer).search(threads, share).has_value();
 }
 
 }  // namespace hauberk

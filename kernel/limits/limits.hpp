@@ -3,6 +3,7 @@
 
 #include "equilibrium/locking.hpp"
 #include "limits/limit_result.hpp"
+#include "limits/search_memory.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -113,6 +114,8 @@ struct LimitsObserver {
   /// At the end: limits that were solved for their states alone and are not reported (neighbours, scenes
   /// that this one contains).
   std::function<void(const std::vector<LimitResult>&)> on_unreported;
+  /// Searches that are known, and that are to be remembered, by names within this computation; null: none.
+  SearchMemory* memory = nullptr;
 };
 
 /// By how much one state must be further than another, as scaled value, to count as further: more than the
@@ -143,6 +146,15 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,
                                         unsigned threads, const LimitsObserver& observer = {},
                                         const std::vector<std::optional<LimitResult>>& known = {});
+
+/// Of a computation that is divided: does a share of the searches that stand alone, for `observer.memory`,
+/// which must not be null. These are all starts and tilts of the tasks and the starts of the scenes that this
+/// one contains; what limits learn from each other needs all of them and is left to compute_limits. Searches
+/// that throw are left to it, too. Of the observer only `keep_going` and `on_start` are called. False:
+/// interrupted.
+bool compute_searches(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
+                      const LimitSettings& settings, unsigned threads, const LimitsObserver& observer,
+                      const Share& share);
 
 /// Both senses of equal directions joined: e_s, e_c, and for strains eta = (e_s - e_c)/(1 + e_c).
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load);

@@ -36,6 +36,8 @@ json::object provenance_json(const Provenance& provenance)
   out["seed"] = provenance.seed;
   out["threads"] = provenance.threads;
   out["peak_memory_bytes"] = provenance.peak_memory_bytes;
+  if (!provenance.processors.empty())
+    out["processors"] = json::array(provenance.processors.begin(), provenance.processors.end());
   if (const std::optional<Machine>& machine = provenance.machine) {
     out["machine"] = {{"processor", machine->processor},
                       {"processors", machine->processors},

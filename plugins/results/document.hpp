@@ -44,6 +44,8 @@ struct Provenance {
   std::optional<Machine> machine = {};  ///< where times are the result
   /// Path as written in the experiment and fingerprint of files that plugins have read.
   std::vector<std::pair<std::string, std::string>> files = {};
+  /// Of a run whose parts were computed on processors of several kinds: their names.
+  std::vector<std::string> processors = {};
 };
 
 /// As in the document. Thread safe.

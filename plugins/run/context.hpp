@@ -1,6 +1,7 @@
 #pragma once
 /// What a running task has beside its own: threads, the progress display, and the folder it saves into.
 
+#include "limits/search_memory.hpp"
 #include "run/progress.hpp"
 
 #include <filesystem>
@@ -23,6 +24,8 @@ struct RunContext {
   std::function<void()> save;
   /// Notes the largest resident size so far, as it is to be forgotten.
   std::function<void()> note_peak_memory;
+  /// Searches that are known by name, and that are to be remembered; null: none. Of a part never null.
+  SearchMemory* memory = nullptr;
 };
 
 }  // namespace hauberk

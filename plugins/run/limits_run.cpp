@@ -25,9 +25,19 @@ std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, co
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   observer.on_start = [&](std::size_t done, std::size_t total) { progress.limits(job.label, done, total); };
+  observer.memory = job.memory;
   observer.on_limit = [&](const std::vector<LimitResult>& limits) { sink(named(limits)); };
   return named(
       compute_limits(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, job.known));
+}
+
+void run_searches(const LimitsJob& job, Progress& progress, const Share& share)
+{
+  LimitsObserver observer;
+  observer.keep_going = [] { return !interrupted(); };
+  observer.on_start = [&](std::size_t done, std::size_t total) { progress.limits(job.label, done, total); };
+  observer.memory = job.memory;
+  compute_searches(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, share);
 }
 
 }  // namespace hauberk

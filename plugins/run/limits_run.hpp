@@ -24,6 +24,7 @@ struct LimitsJob {
   std::string label;  ///< for the progress display
   /// Results that are known already, by task; empty: none.
   std::vector<std::optional<LimitResult>> known;
+  SearchMemory* memory = nullptr;  ///< as LimitsObserver::memory
 };
 
 /// The surface of an experiment's limits along components; null when it has none. `length` is L.
@@ -36,5 +37,8 @@ using LimitsSink = std::function<void(const std::vector<LimitResult>&)>;
 /// Computes all tasks until done or interrupted by a signal, under the progress display. `sink` is called
 /// after every finished limit, one call at a time.
 std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink);
+
+/// A share of the searches that stand alone, for the job's memory, which must not be null.
+void run_searches(const LimitsJob& job, Progress& progress, const Share& share);
 
 }  // namespace hauberk

@@ -77,7 +77,7 @@ Provenance provenance(const Prepared& prepared, unsigned threads, bool machine)
 std::string identity(const Prepared& prepared, const Provenance& provenance)
 {
   json::object origin = provenance_json(provenance);
-  for (const char* varies : {"threads", "peak_memory_bytes"}) origin.erase(varies);
+  for (const char* varies : {"threads", "peak_memory_bytes", "processors"}) origin.erase(varies);
   return json::serialize(
       json::object{{"experiment", parse_json(write_json(prepared.experiment.resolved), "experiment")},
                    {"provenance", origin}});

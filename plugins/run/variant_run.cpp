@@ -23,12 +23,13 @@ PreparedVariant prepare_variant(const Experiment& experiment)
   return out;
 }
 
-VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads)
+VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads, SearchMemory* memory)
 {
   VariantLimits out;
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   observer.on_unreported = [&out](const std::vector<LimitResult>& limits) { out.unreported = limits; };
+  observer.memory = memory;
   observer.on_states = [&out](const auto& states) { out.states = states; };
   out.limits =
       compute_limits(prepared.model, prepared.scene, prepared.tasks, prepared.settings, threads, observer);
@@ -49,10 +50,10 @@ RunResult variant_result(const Experiment& experiment, PreparedVariant prepared,
   return run;
 }
 
-RunResult run_variant(const Experiment& experiment)
+RunResult run_variant(const Experiment& experiment, SearchMemory* memory)
 {
   PreparedVariant prepared = prepare_variant(experiment);
-  VariantLimits solved = solve_variant(prepared, 1);
+  VariantLimits solved = solve_variant(prepared, 1, memory);
   return variant_result(experiment, std::move(prepared), std::move(solved));
 }
 

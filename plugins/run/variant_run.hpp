@@ -26,14 +26,16 @@ struct VariantLimits {
   std::vector<std::optional<State>> states;  ///< furthest locked state, by task
 };
 
-/// The solve. Its result depends on the variant alone, whatever `threads` (0: all processors).
-VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads);
+/// The solve. Its result depends on the variant alone, whatever `threads` (0: all processors). `memory`: as
+/// LimitsObserver::memory.
+VariantLimits solve_variant(const PreparedVariant& prepared, unsigned threads,
+                            SearchMemory* memory = nullptr);
 
 /// What follows from limits.
 RunResult variant_result(const Experiment& experiment, PreparedVariant prepared, VariantLimits solved);
 
 /// All of it. Uses one thread: variants are what is done in parallel. Throws InputError where there is no
 /// such scene.
-RunResult run_variant(const Experiment& experiment);
+RunResult run_variant(const Experiment& experiment, SearchMemory* memory = nullptr);
 
 }  // namespace hauberk

@@ -37,6 +37,10 @@ struct ResultFile {
 /// computes in several threads holds one lock while it changes what these two read, and while it saves. They
 /// are also called after a `run` that threw ComputationError or InputError, and give what was finished. Where
 /// `resume` returns true, only `failed` is called after it.
+///
+/// Of a run that is divided, each part is prepared like any run, and calls `run_part` instead of `run` and of
+/// what follows it; who gathers the parts calls `join_parts` before `run`, whose context has a memory of what
+/// the parts have found.
 class TaskRun {
  public:
   explicit TaskRun(const Prepared& prepared) : prepared_(prepared) {}
@@ -64,6 +68,14 @@ class TaskRun {
 
   /// Computes until done or interrupted. Throws ComputationError or InputError where it cannot go on.
   virtual void run(RunContext& context) = 0;
+
+  /// Why it cannot be divided into parts, a clause; empty: it can.
+  virtual std::string why_whole() const { return "where it looks depends on what it has found"; }
+  /// Does a share of what stands alone: limits for the context's memory, whatever else in files of its
+  /// folder, which is the part's own. Nothing of it is entered into results. Throws as `run`.
+  virtual void run_part(RunContext& /*context*/, const Share& /*share*/) {}
+  /// Takes over what parts have left in their folders beside searches.
+  virtual void join_parts(RunContext& /*context*/, const std::vector<std::filesystem::path>& /*folders*/) {}
 
   /// Enters what there is into results that hold the scene and no limits.
   virtual void enter(boost::json::object& results) const = 0;

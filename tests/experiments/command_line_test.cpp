@@ -54,7 +54,7 @@ TEST(CommandLine, WrongOptions)
 TEST(CommandLine, HelpAndVersion)
 {
   for (const char* command :
-       {"run", "check", "plan", "room", "verify", "report", "plugins", "completion", "man"}) {
+       {"run", "check", "plan", "room", "gather", "submit", "verify", "report", "plugins", "completion", "man"}) {
     const Outcome o = run_program({command, "--help"});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.out.find(std::string("Usage: hauberk ") + command), 0U) << o.out;
@@ -80,6 +80,10 @@ Usage:
       what will be modelled, and why; the rest state
   hauberk room EXPERIMENT.json [--starts N] [-o FILE]
       the thickest rings that leave a rest state
+  hauberk gather DIR [--missing] [--force] [--threads N]
+      join the parts of a divided run
+  hauberk submit EXPERIMENT.json --engine slurm --array N [-o DIR] [--dry-run]
+      compute an experiment in parts on a cluster
   hauberk verify RESULTS.json
       recheck a result from its file alone
   hauberk report RESULT... -o DIR [--force] [--recheck FOLDER]

@@ -87,6 +87,14 @@ std::string read_text(const fs::path& file)
   return text.str();
 }
 
+std::vector<std::string> lines_of(const fs::path& file)
+{
+  std::vector<std::string> lines;
+  std::ifstream in(file, std::ios::binary);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
 json::value read_results(const fs::path& folder)
 {
   return read_json_file((folder / "results.json").string());

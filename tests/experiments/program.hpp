@@ -49,6 +49,8 @@ class Process {
 Outcome run_program(const std::vector<std::string>& arguments);
 
 std::string read_text(const std::filesystem::path& file);
+/// Lines of a file, without their breaks.
+std::vector<std::string> lines_of(const std::filesystem::path& file);
 boost::json::value read_results(const std::filesystem::path& folder);
 
 /// The number at a JSON pointer.

@@ -21,14 +21,6 @@ namespace json = boost::json;
 
 constexpr const char* log_name = ".hauberk-evaluations";
 
-std::vector<std::string> lines_of(const fs::path& file)
-{
-  std::vector<std::string> lines;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 /// A run and the evaluations it made.
 struct Whole {
   json::value results;

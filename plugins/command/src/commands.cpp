@@ -29,6 +29,7 @@ const std::vector<Command>& commands()
   static const std::vector<Command> table{
       {run_description(), run_command},         {check_description(), check_command},
       {plan_description(), plan_command},       {room_description(), room_command},
+      {gather_description(), gather_command},   {submit_description(), submit_command},
       {verify_description(), verify_command},   {report_description(), report_command},
       {export_description(), export_command},   {weave_description(), weave_command},
       {plugins_description(), plugins_command}, {conform_description(), conform_command},
@@ -76,7 +77,7 @@ std::vector<ExitCode> exit_codes()
            "`not_a_sheet` before they lock, are answers"},
           {exit_failed, "the computation failed, what was computed is on disk",
            "the computation failed, or an `expect` of the experiment is missed, or `verify` or `plugins "
-           "conform` found something wrong; what was computed is on disk"},
+           "conform` found something wrong, or `gather` lacks parts; what was computed is on disk"},
           {exit_bad_input, "bad input, nothing written",
            "bad input or a wrong command line; nothing was written"},
           {exit_interrupted, "interrupted, partial results are on disk",
@@ -106,6 +107,7 @@ std::vector<Entry> files()
           {"out/NAME/results.json", "what `run` computed of NAME.json, with the other files of its task"},
           {".hauberk-previous", "in the folder of results: those of a former run, until the new one is done"},
           {".hauberk-evaluations", "in the folder of a design's results: what `--resume` goes on from"},
+          {"parts", "in the folder of results: what the parts of a divided run have found, for `gather`"},
           {".hauberk-lock", "in the folder of results: the run that writes into it"}};
 }
 

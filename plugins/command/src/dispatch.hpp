@@ -23,6 +23,12 @@ int dispatch(const std::vector<std::string>& words) noexcept;
 Description run_description();
 int run_command(const std::vector<std::string>& words);
 
+Description gather_description();
+int gather_command(const std::vector<std::string>& words);
+
+Description submit_description();
+int submit_command(const std::vector<std::string>& words);
+
 Description check_description();
 int check_command(const std::vector<std::string>& words);
 

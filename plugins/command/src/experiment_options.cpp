@@ -15,6 +15,11 @@ std::shared_ptr<const Registry> open_registry(const Options& options)
 {
   std::vector<std::filesystem::path> folders;
   for (const std::string& folder : options.list("plugin-path")) folders.emplace_back(folder);
+  return registry_of(folders);
+}
+
+std::shared_ptr<const Registry> registry_of(const std::vector<std::filesystem::path>& folders)
+{
   return std::make_shared<Registry>(plugin_search_path(folders));
 }
 

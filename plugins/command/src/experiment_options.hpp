@@ -8,6 +8,8 @@ namespace hauberk::command {
 
 /// The registry for --plugin-path, HAUBERK_PLUGIN_PATH and this program's place.
 std::shared_ptr<const Registry> open_registry(const Options& options);
+/// The same for folders that come before HAUBERK_PLUGIN_PATH.
+std::shared_ptr<const Registry> registry_of(const std::vector<std::filesystem::path>& folders);
 
 /// "of the plugin 'ID' the file 'A' is used, and 'B' is not".
 std::string shadow_text(const std::string& id, const std::filesystem::path& used,

@@ -68,6 +68,8 @@ class ChartTask final : public TaskRun {
 
   std::string resume_note() const override { return "resuming: finished runs are kept"; }
 
+  std::string why_whole() const override { return "it measures times, which other work would change"; }
+
   void run(RunContext& context) override { run_chart(loaded_, context, chart_); }
 
   void enter(json::object& results) const override { results["chart"] = chart_json(chart_); }

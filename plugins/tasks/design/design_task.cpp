@@ -4,6 +4,7 @@
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
 #include "equilibrium/rest.hpp"
+#include "parts/part_folder.hpp"
 #include "results/designed_experiment.hpp"
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
@@ -132,7 +133,7 @@ class DesignTask final : public TaskRun {
     DesignResult& design = *run_.design;
     // The profile's directions too, so that plots compare before and after everywhere.
     design.initial_limits =
-        limits("limits before", initial_scene_, [&](const std::vector<LimitResult>& so_far) {
+        limits(limits_before, initial_scene_, [&](const std::vector<LimitResult>& so_far) {
           design.initial_limits = so_far;
           context.save_sometimes();
         });
@@ -142,6 +143,60 @@ class DesignTask final : public TaskRun {
     search();
     if (interrupted()) return;
     finish();
+  }
+
+  std::string why_whole() const override { return {}; }
+
+  /// Limits of the initial design, and searches from starts, each with a log of its own.
+  void run_part(RunContext& context, const Share& share) override
+  {
+    context_ = &context;
+    const Model model = make_model(initial_scene_, *experiment_.load_case, experiment_.solver.clearance);
+    std::optional<MemoryWithin> memory = memory_for(limits_before);
+    const LimitSettings settings =
+        limit_settings(experiment_.solver, initial_scene_, experiment_.length_unit);
+    run_searches({&model,
+                  &initial_scene_,
+                  tasks_,
+                  settings,
+                  experiment_.load_case_plugin,
+                  context.threads,
+                  limits_before,
+                  {},
+                  memory ? &*memory : nullptr},
+                 context.progress, share);
+    const auto& section = *experiment_.section<ExperimentDesign>();
+    const TappedOptimizer optimizer(*section.optimizer, section.max_iterations, [](const DesignPoint&) {});
+    for (int start = 0; start < spec_.starts && !interrupted(); ++start) {
+      if (!share.has(static_cast<std::size_t>(start))) continue;
+      EvaluationLog log(next_log(context.folder, start), context.identity(), true,
+                        [&](const std::string& warning) { context.progress.warn(warning); });
+      search_start(
+          prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
+          optimizer, context.threads, start,
+          [&](const DesignProgress& p) {
+            context.progress.design(p, spec_, false);
+            return !interrupted();
+          },
+          log);
+    }
+    context.progress.clear();
+  }
+
+  void join_parts(RunContext& context, const std::vector<std::filesystem::path>& folders) override
+  {
+    std::vector<std::filesystem::path> logs;
+    for (int start = 0; start < spec_.starts; ++start) {
+      std::vector<std::filesystem::path> of_start;
+      for (const std::filesystem::path& folder : folders) {
+        const std::vector<std::filesystem::path> there = logs_in(folder, log_name(start));
+        of_start.insert(of_start.end(), there.begin(), there.end());
+      }
+      if (of_start.empty()) break;  // searched now, as all that follow
+      logs.push_back(longest_of(of_start));
+    }
+    join_evaluations(logs, context.identity(), context.folder / journal_file);
+    context.resumed = true;
   }
 
   void enter(boost::json::object& results) const override
@@ -173,14 +228,44 @@ class DesignTask final : public TaskRun {
   }
 
  private:
+  static constexpr const char *limits_before = "limits before", *limits_after = "limits after";
+
+  static std::string log_name(int start) { return fmt::format("start-{}", start); }
+
+  /// A log of a start that no other run writes, with what others have found of it.
+  static std::filesystem::path next_log(const std::filesystem::path& folder, int start)
+  {
+    const std::vector<std::filesystem::path> there = logs_in(folder, log_name(start));
+    std::filesystem::path next;
+    for (std::size_t k = there.size() + 1; next.empty() || std::filesystem::exists(next); ++k)
+      next = folder / fmt::format("{}-{}.log", log_name(start), k);
+    if (!there.empty()) std::filesystem::copy_file(longest_of(there), next);
+    return next;
+  }
+
+  /// What the run remembers of one of its computations of limits.
+  std::optional<MemoryWithin> memory_for(const std::string& label) const
+  {
+    if (context_->memory == nullptr) return std::nullopt;
+    return MemoryWithin(*context_->memory, label + ": ");
+  }
+
   std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene, const LimitsSink& sink)
   {
     const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
     // Of this scene: a design may have made tubes thinner.
     LimitSettings settings = limit_settings(experiment_.solver, scene, experiment_.length_unit);
     settings.start = strained_start_;
-    const LimitsJob job{&model, &scene, tasks_, settings, experiment_.load_case_plugin, context_->threads,
-                        label,  {}};
+    std::optional<MemoryWithin> memory = memory_for(label);
+    const LimitsJob job{&model,
+                        &scene,
+                        tasks_,
+                        settings,
+                        experiment_.load_case_plugin,
+                        context_->threads,
+                        label,
+                        {},
+                        memory ? &*memory : nullptr};
     std::vector<LimitResult> out = run_limits(job, context_->progress, sink);
     context_->progress.clear();
     return out;
@@ -315,7 +400,7 @@ class DesignTask final : public TaskRun {
         run_.scene, make_model(run_.scene, *experiment_.load_case, experiment_.solver.clearance));
     run_.scene = std::move(prepared.scene);
     strained_start_ = std::move(prepared.start);
-    run_.limits = limits("limits after", run_.scene, [&](const std::vector<LimitResult>& so_far) {
+    run_.limits = limits(limits_after, run_.scene, [&](const std::vector<LimitResult>& so_far) {
       run_.limits = so_far;
       context_->save_sometimes();
     });

@@ -1,15 +1,19 @@
 #include "tasks/design/evaluation_log.hpp"
 
+#include "document/atomic_file.hpp"
+#include "document/read_file.hpp"
+#include "document/record_line.hpp"
+
+#include <hauberk/error.hpp>
+
 #include <fmt/format.h>
-#include <boost/crc.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -19,28 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view format_name = "hauberk-evaluations/4 ";
-constexpr std::string_view end_of_line = " .";  ///< of a whole one
 constexpr char evaluation_mark = 'E';
 constexpr char states_mark = 'S';
-
-/// CRC-32 of a line up to here, as the line has it.
-std::string checksum(std::string_view text)
-{
-  boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
-  return fmt::format(" {:08x}", crc.checksum());
-}
-
-/// What a whole line says, without its checksum and its end; null where it is not what was written.
-std::optional<std::string> undamaged(std::string_view line)
-{
-  constexpr std::size_t sum_length = 9;
-  line.remove_suffix(end_of_line.size());
-  if (line.size() < sum_length) return std::nullopt;
-  const std::string_view text = line.substr(0, line.size() - sum_length);
-  if (text.empty() || checksum(text) != line.substr(text.size())) return std::nullopt;
-  return std::string(text);
-}
 
 /// Same bits: 0 and -0 are different designs, and nothing is nearly the same.
 bool same(const std::vector<double>& a, const std::vector<double>& b)
@@ -50,110 +34,12 @@ bool same(const std::vector<double>& a, const std::vector<double>& b)
   });
 }
 
-class Writer {
- public:
-  explicit Writer(char mark) : text_(1, mark) {}
+std::span<const double> all_of(const Vector& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
 
-  template <class Number>
-  void number(Number x)
-  {
-    std::array<char, 32> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
-    text_ += ' ';
-    text_.append(buffer.data(), end);
-  }
-  void numbers(const double* x, std::size_t n)
-  {
-    number(n);
-    for (std::size_t i = 0; i < n; ++i) number(x[i]);
-  }
-  void numbers(const std::vector<double>& x) { numbers(x.data(), x.size()); }
-  void numbers(const Vector& x) { numbers(x.data(), static_cast<std::size_t>(x.size())); }
-  /// Characters that end a word are written as numbers.
-  void words(const std::string& s)
-  {
-    text_ += " '";
-    for (const char c : s) {
-      if (c <= ' ' || c == '%')
-        text_ += fmt::format("%{:02x}", static_cast<unsigned char>(c));
-      else
-        text_ += c;
-    }
-  }
-  std::string line() &&
-  {
-    text_ += checksum(text_);
-    return std::move(text_.append(end_of_line));
-  }
-
- private:
-  std::string text_;
-};
-
-/// Reads what a Writer wrote; `good` turns false where it did not.
-class Reader {
- public:
-  explicit Reader(std::string_view text) : text_(text) {}
-
-  template <class Number>
-  Number number()
-  {
-    Number x{};
-    const std::string_view word = next();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-    good = good && error == std::errc{} && end == word.data() + word.size();
-    return good ? x : Number{};
-  }
-  std::vector<double> numbers()
-  {
-    const auto n = number<std::size_t>();
-    good = good && n <= text_.size();  // a number takes more than one character
-    std::vector<double> x(good ? n : 0);
-    for (double& v : x) v = number<double>();
-    return x;
-  }
-  Vector vector()
-  {
-    const std::vector<double> x = numbers();
-    return Eigen::Map<const Vector>(x.data(), static_cast<Eigen::Index>(x.size()));
-  }
-  std::string words()
-  {
-    std::string_view word = next();
-    good = good && word.starts_with('\'');
-    std::string s;
-    for (std::size_t i = 1; good && i < word.size(); ++i) {
-      if (word[i] != '%') {
-        s += word[i];
-        continue;
-      }
-      unsigned code = 0;
-      good = i + 2 < word.size() &&
-             std::from_chars(word.data() + i + 1, word.data() + i + 3, code, 16).ec == std::errc{};
-      s += static_cast<char>(code);
-      i += 2;
-    }
-    return s;
-  }
-
-  bool good = true;
-
- private:
-  std::string_view next()
-  {
-    const std::size_t begin = text_.find_first_not_of(' ');
-    if (begin == std::string_view::npos) {
-      good = false;
-      return {};
-    }
-    text_.remove_prefix(begin);
-    const std::string_view word = text_.substr(0, text_.find(' '));
-    text_.remove_prefix(word.size());
-    return word;
-  }
-
-  std::string_view text_;
-};
+Vector vector(const std::vector<double>& x)
+{
+  return Eigen::Map<const Vector>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
 
 }  // namespace
 
@@ -184,15 +70,15 @@ bool EvaluationLog::read(std::string_view identity)
   if (!std::getline(in, line) || in.eof() || line != std::string(format_name) + std::string(identity))
     return false;
   position += line.size() + 1;
-  while (std::getline(in, line) && !in.eof() && line.ends_with(end_of_line)) {
-    std::optional<std::string> text = undamaged(line);
+  while (std::getline(in, line) && !in.eof() && line.ends_with(end_of_record)) {
+    const std::optional<std::string_view> text = undamaged_record(line);
     if (!text) {
       warn_(fmt::format("warning: {}: line {} is damaged; it and what follows are computed again",
                         file_.string(), lines_.size() + 2));
       break;
     }
     known_ += text->front() == evaluation_mark ? 1 : 0;
-    lines_.push_back({position, std::move(*text)});
+    lines_.push_back({position, std::string(*text)});
     position += line.size() + 1;
   }
   in.close();
@@ -230,7 +116,7 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
     forget();
     return false;
   }
-  Reader in(std::string_view(lines_[next_].text).substr(1));
+  RecordReader in(std::string_view(lines_[next_].text).substr(1));
   DesignPoint found;
   found.x = in.numbers();
   evaluations = in.number<long>();
@@ -240,7 +126,7 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
   for (const double k : in.numbers()) found.changed.push_back(static_cast<int>(k));
   found.values = in.numbers();
   found.objective = in.number<double>();
-  found.gradient = in.vector();
+  found.gradient = vector(in.numbers());
   const std::vector<double> gradients = in.numbers();
   if (!in.good || !same(found.x, p.x) || gradients.size() != found.values.size() * p.x.size()) {
     forget();
@@ -265,7 +151,7 @@ void EvaluationLog::record(const DesignPoint& p, long evaluations)
 {
   forget();
   closest_points_ += evaluations;
-  Writer out(evaluation_mark);
+  RecordWriter out(evaluation_mark);
   out.numbers(p.x);
   out.number(evaluations);
   out.number(p.evaluated ? 1 : 0);
@@ -274,9 +160,9 @@ void EvaluationLog::record(const DesignPoint& p, long evaluations)
   out.numbers(std::vector<double>(p.changed.begin(), p.changed.end()));
   out.numbers(p.values);
   out.number(p.objective);
-  out.numbers(p.gradient);
+  out.numbers(all_of(p.gradient));
   if (p.evaluated)
-    out.numbers(p.value_gradients.data(), static_cast<std::size_t>(p.value_gradients.size()));
+    out.numbers({p.value_gradients.data(), static_cast<std::size_t>(p.value_gradients.size())});
   else
     out.numbers(std::vector<double>(p.values.size() * p.x.size(), 0.0));
   write(std::move(out).line());
@@ -285,7 +171,7 @@ void EvaluationLog::record(const DesignPoint& p, long evaluations)
 bool EvaluationLog::recall_states(DesignPoint& p)
 {
   if (next_ >= lines_.size() || lines_[next_].text.front() != states_mark) return false;
-  Reader in(std::string_view(lines_[next_].text).substr(1));
+  RecordReader in(std::string_view(lines_[next_].text).substr(1));
   const std::vector<double> x = in.numbers();
   const auto tasks = in.number<std::size_t>();
   std::vector<std::vector<WarmStart>> warm(tasks <= lines_[next_].text.size() ? tasks : 0);
@@ -294,8 +180,8 @@ bool EvaluationLog::recall_states(DesignPoint& p)
     for (std::size_t k = 0; k < count && in.good; ++k) {
       WarmStart w;
       w.g_hat = in.number<double>();
-      w.state.macro = in.vector();
-      w.state.e = in.vector();
+      w.state.macro = vector(in.numbers());
+      w.state.e = vector(in.numbers());
       const std::vector<double> rotations = in.numbers();
       for (std::size_t r = 0; r + 9 <= rotations.size(); r += 9)
         w.state.rotation.emplace_back(Eigen::Map<const Mat3>(rotations.data() + r));
@@ -317,21 +203,58 @@ bool EvaluationLog::recall_states(DesignPoint& p)
 void EvaluationLog::record_states(const DesignPoint& p)
 {
   forget();
-  Writer out(states_mark);
+  RecordWriter out(states_mark);
   out.numbers(p.x);
   out.number(p.warm.size());
   for (const std::vector<WarmStart>& stages : p.warm) {
     out.number(stages.size());
     for (const WarmStart& w : stages) {
       out.number(w.g_hat);
-      out.numbers(w.state.macro);
-      out.numbers(w.state.e);
+      out.numbers(all_of(w.state.macro));
+      out.numbers(all_of(w.state.e));
       std::vector<double> rotations;
       for (const Mat3& Q : w.state.rotation) rotations.insert(rotations.end(), Q.data(), Q.data() + 9);
       out.numbers(rotations);
     }
   }
   write(std::move(out).line());
+}
+
+void join_evaluations(const std::vector<fs::path>& logs, std::string_view identity, const fs::path& file)
+{
+  const std::string first = std::string(format_name) + std::string(identity) + "\n";
+  std::string joined = first;
+  for (const fs::path& log : logs) {
+    const std::string text = read_whole_file(log.string(), largest_results);
+    if (!text.starts_with(first))
+      throw InputError(fmt::format(
+          "{}: is of another experiment or build; remove it and compute its part again", log.string()));
+    joined += std::string_view(text).substr(first.size());
+  }
+  std::error_code unknown;
+  if (fs::symlink_status(file, unknown).type() == fs::file_type::regular &&
+      read_whole_file(file.string(), largest_results).starts_with(joined))
+    return;
+  write_files_atomically(file.parent_path(), {{file.filename().string(), joined}}, {});
+}
+
+fs::path longest_of(const std::vector<fs::path>& logs)
+{
+  fs::path best;
+  std::string longest;
+  for (const fs::path& log : logs) {
+    std::string text = read_whole_file(log.string(), largest_results);
+    text.resize(text.rfind('\n') + 1);  // what a kill cut off
+    const std::string_view common = std::string_view(longest).substr(0, text.size());
+    if (!best.empty() && !text.starts_with(common))
+      throw InputError(fmt::format(
+          "{} and {}: are of one search and differ; remove one of them, or both and compute their part again",
+          best.string(), log.string()));
+    if (!best.empty() && text.size() <= longest.size()) continue;
+    best = log;
+    longest = std::move(text);
+  }
+  return best;
 }
 
 }  // namespace hauberk

@@ -56,4 +56,15 @@ class EvaluationLog final : public EvaluationMemory {
   std::ofstream out_;
 };
 
+/// Writes `file` as the log of one search from several starts out of logs of each of them, in this order, all
+/// of one identity. A file that begins with just that stays: it holds what a search went on to. Throws
+/// InputError where one cannot be read or is of another identity, ComputationError
+/// where `file` cannot be written.
+void join_evaluations(const std::vector<std::filesystem::path>& logs, std::string_view identity,
+                      const std::filesystem::path& file);
+
+/// Where of several logs of one search all that have a line have the same, the one with the most; it is a log
+/// of the same search that was done twice. Throws InputError where two of them differ, naming both.
+std::filesystem::path longest_of(const std::vector<std::filesystem::path>& logs);
+
 }  // namespace hauberk

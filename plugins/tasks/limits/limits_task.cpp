@@ -38,12 +38,17 @@ class LimitsTask final : public TaskRun {
 
   void run(RunContext& context) override
   {
-    const LimitsJob job{&prepared_.model, &prepared_.scene, tasks_,   prepared_.settings,
-                        load_case(),      context.threads,  "limits", kept_.limits};
-    take(run_limits(job, context.progress, [&](const std::vector<LimitResult>& so_far) {
+    take(run_limits(job(context), context.progress, [&](const std::vector<LimitResult>& so_far) {
       take(so_far);
       context.save_sometimes();
     }));
+  }
+
+  std::string why_whole() const override { return {}; }
+
+  void run_part(RunContext& context, const Share& share) override
+  {
+    run_searches(job(context), context.progress, share);
   }
 
   void enter(boost::json::object& results) const override
@@ -72,6 +77,12 @@ class LimitsTask final : public TaskRun {
   bool failed() const override { return !all_answered(run_.limits); }
 
  private:
+  LimitsJob job(const RunContext& context) const
+  {
+    return {&prepared_.model, &prepared_.scene, tasks_,       prepared_.settings, load_case(),
+            context.threads,  "limits",         kept_.limits, context.memory};
+  }
+
   const std::string& load_case() const { return prepared_.experiment.load_case_plugin; }
 
   void take(std::vector<LimitResult> limits)

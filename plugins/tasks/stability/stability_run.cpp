@@ -16,7 +16,8 @@ namespace {
 /// The items of a map, each a row of one case or several that follow each other in it.
 class StabilityRows final : public GridRows {
  public:
-  StabilityRows(const std::vector<StabilityItem>& items, StabilityMap& map) : items_(items), map_(map)
+  StabilityRows(const std::vector<StabilityItem>& items, StabilityMap& map, const RunContext& context)
+      : items_(items), map_(map), context_(context)
   {
     begin_.push_back(0);
     for (const StabilityItem& item : items) {
@@ -42,7 +43,8 @@ class StabilityRows final : public GridRows {
 
   EnterRow solve(std::size_t row, const Experiment& e) override
   {
-    const RunResult run = run_variant(e);
+    RowMemory memory(context_, row);
+    const RunResult run = run_variant(e, memory.get());
     if (std::all_of(run.limits.begin(), run.limits.end(),
                     [](const LimitResult& limit) { return limit.status == LimitStatus::interrupted; }))
       return {};
@@ -83,6 +85,7 @@ class StabilityRows final : public GridRows {
 
   const std::vector<StabilityItem>& items_;
   StabilityMap& map_;
+  const RunContext& context_;
   std::vector<std::size_t> begin_;                 ///< of each item's cases, and one past the end
   std::vector<std::vector<StabilityCase>> asked_;  ///< by item, as they were at first
 };
@@ -120,7 +123,7 @@ StabilityMap empty_map(const ExperimentStability& from, const std::vector<Stabil
 
 void run_stability(const std::vector<StabilityItem>& items, RunContext& context, StabilityMap& map)
 {
-  StabilityRows rows(items, map);
+  StabilityRows rows(items, map, context);
   const std::vector<std::size_t> left = rows.left();
   Grid(context, "stability", left.size()).run(rows, left, context.threads);
   classify(map);

@@ -88,6 +88,16 @@ class StabilityTask final : public TaskRun {
 
   void run(RunContext& context) override { run_stability(items_, context, map_); }
 
+  std::string why_whole() const override { return {}; }
+
+  void run_part(RunContext& context, const Share& share) override
+  {
+    std::vector<VariantReading> readings;
+    readings.reserve(items_.size());
+    for (const StabilityItem& item : items_) readings.push_back(item.reading);
+    run_rows_of_part(context, "stability", readings, share);
+  }
+
   void enter(json::object& results) const override { results["stability"] = stability_json(map_); }
 
   std::vector<ResultFile> files(const std::filesystem::path& /*folder*/) const override

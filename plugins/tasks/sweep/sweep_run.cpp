@@ -88,8 +88,12 @@ class SweepScenes : public GridRows {
 class SweepLimits final : public GridRows {
  public:
   SweepLimits(SweepScenes& rows, const std::vector<std::vector<std::size_t>>& donors,
-              std::vector<std::string> macro_names)
-      : rows_(rows), donors_(donors), macro_names_(std::move(macro_names)), states_(rows.scenes.size())
+              std::vector<std::string> macro_names, const RunContext& context)
+      : rows_(rows),
+        donors_(donors),
+        macro_names_(std::move(macro_names)),
+        context_(context),
+        states_(rows.scenes.size())
   {
   }
 
@@ -103,7 +107,8 @@ class SweepLimits final : public GridRows {
           given_by(*rows_.scenes[donor], states_[donor], *rows_.scenes[row], donor);
       std::move(given.begin(), given.end(), std::back_inserter(variant.settings.given));
     }
-    VariantLimits solved = solve_variant(variant, 1);
+    RowMemory memory(context_, row);
+    VariantLimits solved = solve_variant(variant, 1, memory.get());
     states_[row] = solved.states;
     RunResult run = variant_result(e, std::move(variant), std::move(solved));
     for (LimitResult& limit : run.limits) limit.load_case = e.load_case_plugin;
@@ -122,6 +127,7 @@ class SweepLimits final : public GridRows {
   SweepScenes& rows_;
   const std::vector<std::vector<std::size_t>>& donors_;
   std::vector<std::string> macro_names_;
+  const RunContext& context_;
   std::vector<std::vector<std::optional<State>>> states_;  ///< furthest locked, by row and task
 };
 
@@ -179,7 +185,7 @@ void run_sweep(const LoadCase& load_case, const std::vector<VariantReading>& rea
   if (interrupted()) return;
   const std::vector<std::vector<std::size_t>> donors = row_donors(scenes.scenes), rounds = row_rounds(donors);
   const std::vector<bool> needed = needed_rows(left, donors, rounds);
-  SweepLimits limits(scenes, donors, macro_names(load_case));
+  SweepLimits limits(scenes, donors, macro_names(load_case), context);
   for (const std::vector<std::size_t>& round : rounds) {
     std::vector<std::size_t> order;
     std::copy_if(round.begin(), round.end(), std::back_inserter(order),

@@ -62,6 +62,13 @@ class SweepTask final : public TaskRun {
     run_sweep(*prepared_.experiment.load_case, readings_, context, table_);
   }
 
+  std::string why_whole() const override { return {}; }
+
+  void run_part(RunContext& context, const Share& share) override
+  {
+    run_rows_of_part(context, "sweep", readings_, share);
+  }
+
   void enter(boost::json::object& results) const override { results["sweep"] = sweep_json(table_); }
 
   std::vector<ResultFile> files(const std::filesystem::path& /*folder*/) const override

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +54,21 @@ class Grid {
   std::string name_;
   std::size_t done_ = 0, total_;
 };
+
+/// The memory of a run for one of its rows; of a run that has none, none.
+class RowMemory {
+ public:
+  RowMemory(const RunContext& context, std::size_t row);
+  SearchMemory* get() { return memory_ ? &*memory_ : nullptr; }
+
+ private:
+  std::optional<MemoryWithin> memory_;
+};
+
+/// Solves a share of variants, each as if it were alone, for the context's memory. The display calls them
+/// `name`.
+void run_rows_of_part(RunContext& context, const std::string& name, std::span<const VariantReading> readings,
+                      const Share& share);
 
 /// Takes over what partial results of the same experiment hold: `take(entry, row)` enters an entry, or says
 /// false when it is of another row. Throws InputError ("its rows are not complete") when they are not the

@@ -1,0 +1,230 @@
+#include "parts/search_log.hpp"
+
+#include "parts/locked_record.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace hauberk {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char origin_mark = 'H', search_mark = 'S', end_mark = 'E';
+
+/// FNV-1a, 64 bits.
+std::uint64_t hash_of(std::string_view text)
+{
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+/// The outcome of a search's record: all of it but the time, which comes last.
+std::uint64_t outcome_of(std::string_view record) { return hash_of(record.substr(0, record.rfind(' '))); }
+
+std::string origin_line(const LogOrigin& origin)
+{
+  RecordWriter out(origin_mark);
+  out.words(search_log_format);
+  out.words(origin.identity);
+  out.words(origin.part);
+  out.words(origin.processor);
+  out.words(origin.run);
+  return std::move(out).line();
+}
+
+std::optional<LogOrigin> read_origin(std::string_view record)
+{
+  if (!record.starts_with(origin_mark)) return std::nullopt;
+  RecordReader in(record.substr(1));
+  LogOrigin origin;
+  if (in.words() != search_log_format) return std::nullopt;
+  origin.identity = in.words();
+  origin.part = in.words();
+  origin.processor = in.words();
+  origin.run = in.words();
+  return in.good && in.ended() ? std::optional(origin) : std::nullopt;
+}
+
+/// The name of a search's record; null where it is none.
+std::optional<std::string> name_of_record(std::string_view record)
+{
+  if (!record.starts_with(search_mark)) return std::nullopt;
+  RecordReader in(record.substr(1));
+  std::string name = in.words();
+  return in.good ? std::optional(std::move(name)) : std::nullopt;
+}
+
+std::optional<KnownSearch> read_search(std::string_view record)
+{
+  RecordReader in(record.substr(1));
+  in.words();
+  KnownSearch out;
+  out.locked = read_locked(in);
+  out.seconds = in.number<double>();
+  return in.good && in.ended() ? std::optional(std::move(out)) : std::nullopt;
+}
+
+}  // namespace
+
+SearchLogs::SearchLogs(std::string identity, Warn warn)
+    : identity_(std::move(identity)), warn_(std::move(warn))
+{
+}
+
+std::optional<SearchLogs::Contents> SearchLogs::read(const fs::path& file)
+{
+  std::error_code unknown;
+  std::ifstream in;
+  if (fs::symlink_status(file, unknown).type() == fs::file_type::regular) in.open(file, std::ios::binary);
+  const auto refuse = [&](const char* what) -> std::optional<Contents> {
+    warn_(fmt::format("warning: {}: {}; nothing of it is believed", file.string(), what));
+    return std::nullopt;
+  };
+  if (!in.is_open()) return refuse("cannot be read as a file");
+  std::string line;
+  if (!std::getline(in, line) || in.eof()) return refuse("has no first line");
+  const std::optional<std::string_view> first = undamaged_record(line);
+  const std::optional<LogOrigin> origin = first ? read_origin(*first) : std::nullopt;
+  if (!origin) return refuse(fmt::format("is no log of searches ({})", search_log_format).c_str());
+  if (origin->identity != identity_)
+    throw InputError(fmt::format(
+        "{}: was computed from another experiment, or by another build of the program or of a plugin; remove "
+        "it, or use another folder",
+        file.string()));
+  Contents contents{*origin, 0, false};
+  files_.push_back({file, *origin, false});
+  auto begin = static_cast<std::streamoff>(line.size() + 1);
+  for (std::size_t number = 2; std::getline(in, line) && !in.eof(); ++number) {
+    const std::optional<std::string_view> record = undamaged_record(line);
+    if (!record) {
+      warn_(fmt::format("warning: {}: line {} is damaged; it and what follows are computed again",
+                        file.string(), number));
+      break;
+    }
+    if (const std::optional<std::string> name = name_of_record(*record)) {
+      enter(*name, {files_.size() - 1, begin, record->size(), outcome_of(*record)});
+      ++contents.searches;
+    }
+    contents.complete = contents.complete || record->starts_with(end_mark);
+    begin += static_cast<std::streamoff>(line.size() + 1);
+  }
+  return contents;
+}
+
+void SearchLogs::enter(const std::string& name, const Entry& entry)
+{
+  const auto [known, is_new] = entries_.emplace(name, entry);
+  if (is_new || known->second.outcome == entry.outcome) return;
+  const LogOrigin &a = files_[known->second.file].origin, &b = files_[entry.file].origin;
+  conflicts_.push_back({name, where(known->second.file), where(entry.file), a.processor == b.processor});
+}
+
+std::string SearchLogs::where(std::size_t file) const
+{
+  const auto& [path, origin, checked] = files_[file];
+  return fmt::format("{} ({}{}{})", path.string(), origin.run, origin.processor.empty() ? "" : ", ",
+                     origin.processor);
+}
+
+void SearchLogs::write_to(const fs::path& folder, const std::string& name, const LogOrigin& origin)
+{
+  own_ = origin;
+  own_.identity = identity_;
+  for (int k = 1;; ++k) {
+    own_file_ = folder / fmt::format("{}-{}.log", name, k);
+    const int made = ::open(own_file_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (made < 0 && errno == EEXIST) continue;
+    if (made < 0)
+      throw ComputationError(
+          fmt::format("{}: cannot be written: {}", own_file_.string(), std::strerror(errno)));
+    ::close(made);
+    break;
+  }
+  out_.open(own_file_, std::ios::binary | std::ios::app);
+  out_ << origin_line(own_) << '\n' << std::flush;
+  if (!out_.good())
+    throw ComputationError(fmt::format("{}: cannot be written: is the disk full?", own_file_.string()));
+}
+
+bool SearchLogs::complete()
+{
+  const std::lock_guard lock(mutex_);
+  out_ << RecordWriter(end_mark).line() << '\n' << std::flush;
+  return out_.good();
+}
+
+std::optional<KnownSearch> SearchLogs::recall(const std::string& name)
+{
+  const auto known = entries_.find(name);
+  if (known == entries_.end()) return std::nullopt;
+  {
+    const std::lock_guard lock(mutex_);
+    if (File& file = files_[known->second.file]; checking_ && !file.checked) {
+      file.checked = true;
+      withheld_.emplace(name, known->second);
+      return std::nullopt;
+    }
+    if (withheld_.contains(name)) return std::nullopt;
+  }
+  return read_entry(known->second);
+}
+
+std::optional<KnownSearch> SearchLogs::read_entry(const Entry& entry) const
+{
+  std::ifstream in(files_[entry.file].path, std::ios::binary);
+  std::string record(entry.length, ' ');
+  in.seekg(entry.begin);
+  in.read(record.data(), static_cast<std::streamsize>(record.size()));
+  if (!in.good() || outcome_of(record) != entry.outcome) return std::nullopt;  // somebody changed it
+  return read_search(record);
+}
+
+void SearchLogs::record(const std::string& name, const Locked& locked, double seconds)
+{
+  if (!is_recordable(locked)) return;
+  RecordWriter out(search_mark);
+  out.words(name);
+  write_locked(locked, out);
+  out.number(seconds);
+  const std::uint64_t outcome = outcome_of(out.text());
+  const std::string line = std::move(out).line();
+  const std::lock_guard lock(mutex_);
+  if (const auto other = withheld_.find(name); other != withheld_.end()) {
+    const Entry& entry = other->second;
+    if (entry.outcome != outcome)
+      conflicts_.push_back(
+          {name, where(entry.file), "", files_[entry.file].origin.processor == own_.processor});
+    return;
+  }
+  if (!out_.is_open()) return;
+  out_ << line << '\n' << std::flush;
+  if (out_.good()) return;
+  out_.close();
+  warn_(fmt::format("warning: {}: cannot be written; going on, but what is computed from here on is not kept",
+                    own_file_.string()));
+}
+
+std::vector<SearchLogs::Conflict> SearchLogs::conflicts() const
+{
+  const std::lock_guard lock(mutex_);
+  return conflicts_;
+}
+
+std::pair<std::size_t, std::size_t> SearchLogs::checked() const
+{
+  const std::lock_guard lock(mutex_);
+  std::size_t checked = 0;
+  for (const File& file : files_) checked += file.checked ? 1 : 0;
+  return {checked, files_.size()};
+}
+
+}  // namespace hauberk

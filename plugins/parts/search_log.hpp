@@ -1,0 +1,101 @@
+#pragma once
+/// Searches in files: what a part of a divided run leaves, and what gathering it recalls.
+
+#include "limits/search_memory.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace hauberk {
+
+inline constexpr const char* search_log_format = "hauberk-searches/1";
+
+/// Who wrote a log, its first record.
+struct LogOrigin {
+  std::string identity;   ///< digest of what is computed and by which program
+  std::string part;       ///< "2-of-8"
+  std::string processor;  ///< model name; empty where the system does not tell
+  std::string run;        ///< HOST:PID
+};
+
+/// The memory of a run whose searches are kept in files: one that it writes, and any number that others
+/// wrote, which may still be writing. Lines are written whole; in a file of others one that is damaged ends
+/// what is believed of it. Thread safe, but for `read` and `write_to`, which come first.
+class SearchLogs final : public SearchMemory {
+ public:
+  using Warn = std::function<void(const std::string&)>;
+
+  SearchLogs(std::string identity, Warn warn);
+
+  /// What a log holds beside its searches.
+  struct Contents {
+    LogOrigin origin;
+    std::size_t searches = 0;
+    bool complete = false;  ///< its part has nothing left to do
+  };
+  /// Takes over a log. Null, with a warning, where it is no log or damaged from its first line on. Throws
+  /// InputError where it was written for another experiment or by another build: naming it.
+  std::optional<Contents> read(const std::filesystem::path& file);
+
+  /// Begins a log of its own: the first of NAME-1.log, NAME-2.log, ... in `folder` that does not exist, so
+  /// that two runs never share one. Throws ComputationError where none can be made.
+  void write_to(const std::filesystem::path& folder, const std::string& name, const LogOrigin& origin);
+  /// Its part has nothing left to do. False: that could not be written.
+  bool complete();
+
+  /// Does one search of every log that was read once more, the first that is asked for, and compares.
+  void check_one_of_each() { checking_ = true; }
+
+  std::optional<KnownSearch> recall(const std::string& name) override;
+  void record(const std::string& name, const Locked& locked, double seconds) override;
+
+  /// Two outcomes of one search: differ, which must not be.
+  struct Conflict {
+    std::string search;
+    std::string file, other;     ///< `other` empty: what this run found
+    bool one_processor = false;  ///< both of one kind: no difference is to be expected
+  };
+  std::vector<Conflict> conflicts() const;
+  /// Logs of which a search was done once more, and how many were read.
+  std::pair<std::size_t, std::size_t> checked() const;
+  std::size_t known() const { return entries_.size(); }
+
+ private:
+  struct File {
+    std::filesystem::path path;
+    LogOrigin origin;
+    bool checked = false;
+  };
+  struct Entry {
+    std::size_t file = 0;
+    std::streamoff begin = 0;
+    std::size_t length = 0;
+    std::uint64_t outcome = 0;  ///< hash of all but the time
+  };
+
+  void enter(const std::string& name, const Entry& entry);
+  std::string where(std::size_t file) const;
+  std::optional<KnownSearch> read_entry(const Entry& entry) const;
+
+  std::string identity_;
+  Warn warn_;
+  std::vector<File> files_;
+  std::unordered_map<std::string, Entry> entries_;
+  mutable std::mutex mutex_;  ///< guards all below, and `files_` once searches are asked for
+  std::map<std::string, Entry> withheld_;
+  std::vector<Conflict> conflicts_;
+  bool checking_ = false;
+  LogOrigin own_;
+  std::filesystem::path own_file_;
+  std::ofstream out_;
+};
+
+}  // namespace hauberk

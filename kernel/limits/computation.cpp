@@ -44,6 +44,22 @@ struct TaskState {
   bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
 };
 
+struct TaskStarts {
+  std::size_t count = 1;
+  bool narrow = false;  ///< the last of them is that without the widest stage
+};
+
+TaskStarts starts_of(const Model& model, const LimitTask& task, const LimitSettings& settings, bool asked)
+{
+  if (!asked) return {};
+  const auto starts = static_cast<std::size_t>(std::max(1, settings.starts));
+  if (!settings.lessons || !may_fold(model, task)) return {starts, false};
+  // A fabric with room folds one way under the widest stage and another way without it. Fewer starts in large
+  // cells, where each is expensive.
+  const int most = settings.fold_starts / std::max(1, model.element_count() / cell_of_all_starts);
+  return {std::max(starts, static_cast<std::size_t>(std::max(1, most))) + 1, true};
+}
+
 bool is_of(const Model& model, const State& state)
 {
   return state.macro.size() == model.macro_count &&
@@ -51,10 +67,28 @@ bool is_of(const Model& model, const State& state)
          state.rotation.size() == static_cast<std::size_t>(model.element_count());
 }
 
+bool is_of(const Model& model, const ContactEnergy::Point& p)
+{
+  const auto within = [](int k, std::size_t count) { return k >= 0 && static_cast<std::size_t>(k) < count; };
+  if (p.wall >= 0) return within(p.wall, model.walls.size()) && within(p.a, model.rest.size());
+  return within(p.a, model.bodies.size()) && within(p.b, model.bodies.size());
+}
+
+bool is_of(const Model& model, const ContactEnergy& pressed)
+{
+  const auto parameters = std::max_element(model.parameter_count.begin(), model.parameter_count.end());
+  return pressed.gradient.size() == model.dofs() && pressed.parameters.cols() == model.element_count() &&
+         pressed.parameters.rows() == (parameters == model.parameter_count.end() ? 0 : *parameters) &&
+         std::all_of(pressed.points.begin(), pressed.points.end(),
+                     [&model](const ContactEnergy::Point& p) { return is_of(model, p); });
+}
+
 /// Whether states are of a model: what is remembered may come from a file.
 bool is_of(const Model& model, const Locked& locked)
 {
   const auto fits = [&model](const State& state) { return is_of(model, state); };
+  if (locked.pressed && !is_of(model, *locked.pressed)) return false;
+  if (locked.stage.tether.size() > 0 && locked.stage.tether.rows() != model.macro_count) return false;
   return fits(locked.state) && std::all_of(locked.trail.begin(), locked.trail.end(), fits) &&
          std::all_of(locked.path.begin(), locked.path.end(), fits) &&
          locked.trail.size() <= locked.stages.size();
@@ -78,15 +112,12 @@ class Computation {
         asked_(tasks.size()),
         settings_(settings),
         observer_(observer),
-        starts_(static_cast<std::size_t>(std::max(1, settings.starts))),
         states_(tasks_.size())
   {
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
-      // A fabric with room folds one way under the widest stage and another way without it.
-      const bool twice = settings.lessons && k < asked_ && may_fold(model, tasks_[k]);
-      const std::size_t starts = k >= asked_ ? 1 : twice ? std::max(starts_, fold_starts()) : starts_;
-      states_[k].narrow = twice;
-      states_[k].starts.resize(starts + (twice ? 1 : 0));
+      const TaskStarts starts = starts_of(model, tasks_[k], settings, k < asked_);
+      states_[k].narrow = starts.narrow;
+      states_[k].starts.resize(starts.count);
       states_[k].missing = states_[k].starts.size();
       results_.push_back(limit_header(model, tasks_[k]));
       results_.back().status = LimitStatus::interrupted;
@@ -186,26 +217,28 @@ class Computation {
     });
     if (!settings_.lessons || !any_may_fold()) return going() ? std::optional(count) : std::nullopt;
     for (const Relative& relative : relatives(model_, spec_)) {
-      const Solved s = unsolved(relative);
-      if (s.tasks.empty() || !going()) continue;
-      std::optional<MemoryWithin> memory = memory_of(relative);
-      LimitsObserver observer;
-      observer.keep_going = observer_.keep_going;
-      observer.on_start = observer_.on_start;
-      observer.memory = &*memory;
-      count += Computation(s.model, relative.scene, s.tasks, s.settings, observer)
-                   .search(threads, share.after(count))
-                   .value_or(0);
+      if (!going()) break;
+      try {
+        count += search_relative(relative, threads, share.after(count));
+      } catch (const std::exception&) {  // it throws again where it is asked for
+      }
     }
     return going() ? std::optional(count) : std::nullopt;
   }
 
  private:
-  /// Starts of a limit that may fold: fewer in large cells, where each is expensive.
-  std::size_t fold_starts() const
+  std::size_t search_relative(const Relative& relative, unsigned threads, const Share& share)
   {
-    const int most = settings_.fold_starts / std::max(1, model_.element_count() / cell_of_all_starts);
-    return static_cast<std::size_t>(std::max(1, most));
+    const Solved s = unsolved(relative);
+    if (s.tasks.empty()) return 0;
+    std::optional<MemoryWithin> memory = memory_of(relative);
+    LimitsObserver observer;
+    observer.keep_going = observer_.keep_going;
+    observer.on_start = observer_.on_start;
+    observer.memory = &*memory;
+    return Computation(s.model, relative.scene, s.tasks, s.settings, observer)
+        .search(threads, share)
+        .value_or(0);
   }
 
   bool going() const { return !observer_.keep_going || observer_.keep_going(); }
@@ -670,7 +703,7 @@ class Computation {
   const std::size_t asked_;
   LimitSettings settings_;
   const LimitsObserver& observer_;
-  std::size_t starts_, total_ = 0, done_ = 0;
+  std::size_t total_ = 0, done_ = 0;
   std::mutex mutex_;  ///< guards all below
   std::vector<TaskState> states_;
   std::size_t unfinished_ = 0, unfinished_asked_ = 0;  ///< tasks
@@ -715,6 +748,15 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
                                         const std::vector<std::optional<LimitResult>>& known)
 {
   return Computation(model, spec, tasks, settings, observer).run(threads, known);
+}
+
+double count_searches(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings)
+{
+  double count = static_cast<double>(
+      with_neighbours(model, tasks, settings.lessons ? settings.neighbours : 0.0).size() - tasks.size());
+  for (const LimitTask& task : tasks)
+    count += static_cast<double>(starts_of(model, task, settings, true).count) + settings.tilts;
+  return count;
 }
 
 bool compute_searches(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,

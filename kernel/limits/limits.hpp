@@ -147,6 +147,10 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
                                         unsigned threads, const LimitsObserver& observer = {},
                                         const std::vector<std::optional<LimitResult>>& known = {});
 
+/// Starts and tilts of all tasks and their neighbours, the searches with which compute_limits begins: it does
+/// at least these, but for starts of a load that the first one shows to be unbounded.
+double count_searches(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings);
+
 /// Of a computation that is divided: does a share of the searches that stand alone, for `observer.memory`,
 /// which must not be null. These are all starts and tilts of the tasks and the starts of the scenes that this
 /// one contains; what limits learn from each other needs all of them and is left to compute_limits. Searches

@@ -54,6 +54,7 @@ struct Plan {
   std::optional<MeshPlan> mesh;      ///< of contact `mesh`
   std::size_t neighbours = 0;        ///< limits beside those asked for, which only teach
   double neighbour_degrees = 0.0;
+  double searches = 0.0;  ///< that stand alone (count_searches)
   std::vector<PairPlan> pairs;
   int image_pairs = 0;     ///< element pairs within reach at rest
   Image farthest_image{};  ///< largest image indices among them

@@ -1,30 +1,19 @@
 #include "document/diagnostics.hpp"
 
 #include "document/jsonc.hpp"
+#include "document/plain_text.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace hauberk {
 
 namespace {
 
-/// Keys and strings of a file may hold line breaks and terminal codes; a problem is one line of plain text.
-std::string printable(const std::string& text)
-{
-  static constexpr std::string_view digits = "0123456789abcdef";
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7f) {
-      out += c;
-    } else {
-      out += "\\x";
-      out += digits[byte >> 4];
-      out += digits[byte & 15];
-    }
-  }
-  return out;
-}
+/// Problems that are told one by one.
+constexpr std::size_t most_problems = 50;
 
 }  // namespace
 
@@ -36,7 +25,8 @@ std::string Diagnostics::text() const
     return a->line > 0 && (b->line == 0 || a->line < b->line);
   });
   std::string out;
-  for (const Problem* problem : order) {
+  const std::size_t told = order.size() > most_problems ? most_problems : order.size();
+  for (const Problem* problem : std::span(order).first(told)) {
     const bool set_on_command_line =
         problem->line == 0 && std::any_of(overridden.begin(), overridden.end(), [&](const std::string& root) {
           return pointer_within(problem->pointer, root);
@@ -46,9 +36,11 @@ std::string Diagnostics::text() const
       out += "command line";
     else
       out += file + (problem->line > 0 ? ":" + std::to_string(problem->line) : "");
-    if (!problem->pointer.empty()) out += ": " + printable(problem->pointer);
-    out += ": " + printable(problem->message);
+    if (!problem->pointer.empty()) out += ": " + plain_text(problem->pointer);
+    out += ": " + plain_text(problem->message);
   }
+  if (told < order.size())
+    out += fmt::format("\n{}: and {} more problems, {} in all", file, order.size() - told, order.size());
   return out;
 }
 

@@ -19,7 +19,8 @@ struct Diagnostics {
   /// One line per problem, in the order of the file (those without a line last):
   ///   chain.json:12: /cell/place/0/element: ...
   ///   command line: /solver/preset: ...
-  /// The pointer is left out when it is that of the whole file. Ends without a line break.
+  /// Of more than fifty the first fifty and how many there are. The pointer is left out when it is that of
+  /// the whole file. Ends without a line break.
   std::string text() const;
 };
 

@@ -35,10 +35,12 @@ void RecordWriter::words(std::string_view s)
   }
 }
 
-std::string RecordWriter::line() &&
+std::string RecordWriter::line() && { return record_line(std::move(text_)); }
+
+std::string record_line(std::string text)
 {
-  text_ += checksum(text_);
-  return std::move(text_.append(end_of_record));
+  text += checksum(text);
+  return std::move(text.append(end_of_record));
 }
 
 std::size_t RecordReader::count()

@@ -73,6 +73,9 @@ class RecordReader {
   std::string_view text_;
 };
 
+/// The line of a record whose text is `text`, without its line break.
+std::string record_line(std::string text);
+
 /// What a line (without its break) says, mark first, without its checksum and its end; null where it is not
 /// what was written.
 std::optional<std::string_view> undamaged_record(std::string_view line);

@@ -9,10 +9,15 @@
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <boost/json/object.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <utility>
 
 namespace hauberk {
@@ -44,11 +49,8 @@ std::vector<std::string> texts(const json::value& list)
 
 json::object division_json(const Division& d)
 {
-  return {{"format", parts_format},
-          {"parts", d.count},
-          {"experiment", d.experiment},
-          {"set", texts(d.set)},
-          {"plugin_path", texts(d.libraries)}};
+  return {{"format", parts_format},     {"parts", d.count},    {"identity", d.identity},
+          {"experiment", d.experiment}, {"set", texts(d.set)}, {"plugin_path", texts(d.libraries)}};
 }
 
 }  // namespace
@@ -86,6 +88,7 @@ Division read_division(const fs::path& folder)
     Division d;
     d.count = document.at("parts").to_number<std::size_t>();
     if (d.count < 1 || d.count > most_parts) throw InputError("its number of parts is none");
+    d.identity = text_of(document.at("identity"));
     d.experiment = text_of(document.at("experiment"));
     d.set = texts(document.at("set"));
     d.libraries = texts(document.at("plugin_path"));
@@ -103,6 +106,9 @@ void enter_division(const fs::path& folder, const Division& division)
   const fs::path file = folder / parts_folder / parts_file;
   std::error_code unknown;
   if (!fs::exists(file, unknown)) {
+    fs::create_directories(file.parent_path(), unknown);
+    if (unknown)
+      throw InputError(fmt::format("{}: cannot be made: {}", file.parent_path().string(), unknown.message()));
     try {
       write_new_file_atomically(file, write_json(division_json(division)));
     } catch (const InputError&) {  // another part was faster
@@ -113,10 +119,12 @@ void enter_division(const fs::path& folder, const Division& division)
     throw InputError(
         fmt::format("{}: the run there is divided into {} parts, not {}; give another folder with -o",
                     folder.string(), there.count, division.count));
-  if (there.experiment != division.experiment || there.set != division.set)
-    throw InputError(fmt::format("{}: the parts there are of {}{}; give another folder with -o",
-                                 folder.string(), there.experiment,
-                                 there.set == division.set ? "" : " with other --set"));
+  if (there.identity != division.identity)
+    throw InputError(fmt::format(
+        "{}: the parts there are of another experiment ({}{}), or were computed by another build of the program or "
+        "of a plugin; give another folder with -o",
+        folder.string(), there.experiment,
+        there.set.empty() ? "" : fmt::format(", --set {}", fmt::join(there.set, " --set "))));
 }
 
 std::vector<fs::path> logs_in(const fs::path& folder, const std::string& name)
@@ -134,6 +142,19 @@ std::vector<fs::path> logs_in(const fs::path& folder, const std::string& name)
   std::vector<fs::path> out;
   for (auto& [number, path] : found) out.push_back(std::move(path));
   return out;
+}
+
+fs::path claim_log(const fs::path& folder, const std::string& name)
+{
+  for (int k = 1;; ++k) {
+    fs::path file = folder / fmt::format("{}-{}.log", name, k);
+    const int made = ::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (made < 0 && errno == EEXIST) continue;
+    if (made < 0)
+      throw ComputationError(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
+    ::close(made);
+    return file;
+  }
 }
 
 std::string part_list(const std::vector<std::size_t>& numbers)

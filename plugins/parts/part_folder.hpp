@@ -30,6 +30,7 @@ inline constexpr std::size_t most_parts = 10000;
 /// How a run is divided.
 struct Division {
   std::size_t count = 1;
+  std::string identity;                ///< digest of what is computed and by which program
   std::string experiment;              ///< absolute path of its file
   std::vector<std::string> set;        ///< of --set
   std::vector<std::string> libraries;  ///< of --plugin-path, absolute
@@ -45,11 +46,15 @@ std::filesystem::path part_path(const std::filesystem::path& folder, const Share
 /// be read.
 Division read_division(const std::filesystem::path& folder);
 
-/// Says it there, if nothing does yet. Throws InputError where it is another one, naming what differs.
+/// Says it there, if nothing does yet. Throws InputError where it is of another number of parts or identity.
 void enter_division(const std::filesystem::path& folder, const Division& division);
 
 /// Logs NAME-*.log in a folder, in the order of their numbers; none where there is no such folder.
 std::vector<std::filesystem::path> logs_in(const std::filesystem::path& folder, const std::string& name);
+
+/// Makes the first of NAME-1.log, NAME-2.log, ... in `folder` that does not exist, empty, for the caller
+/// alone: two runs never get one. Throws ComputationError where none can be made.
+std::filesystem::path claim_log(const std::filesystem::path& folder, const std::string& name);
 
 /// Parts as Slurm lists them: "1-3,7".
 std::string part_list(const std::vector<std::size_t>& numbers);

@@ -1,15 +1,13 @@
 #include "parts/search_log.hpp"
 
 #include "parts/locked_record.hpp"
+#include "parts/part_folder.hpp"
 
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <utility>
 
 namespace hauberk {
@@ -101,7 +99,7 @@ std::optional<SearchLogs::Contents> SearchLogs::read(const fs::path& file)
         "it, or use another folder",
         file.string()));
   Contents contents{*origin, 0, false};
-  files_.push_back({file, *origin, false});
+  files_.push_back({file, *origin});
   auto begin = static_cast<std::streamoff>(line.size() + 1);
   for (std::size_t number = 2; std::getline(in, line) && !in.eof(); ++number) {
     const std::optional<std::string_view> record = undamaged_record(line);
@@ -122,44 +120,61 @@ std::optional<SearchLogs::Contents> SearchLogs::read(const fs::path& file)
 
 void SearchLogs::enter(const std::string& name, const Entry& entry)
 {
-  const auto [known, is_new] = entries_.emplace(name, entry);
-  if (is_new || known->second.outcome == entry.outcome) return;
-  const LogOrigin &a = files_[known->second.file].origin, &b = files_[entry.file].origin;
-  conflicts_.push_back({name, where(known->second.file), where(entry.file), a.processor == b.processor});
+  std::vector<Entry>& known = entries_[name];
+  const std::string& processor = files_[entry.file].origin.processor;
+  const auto same =
+      std::find_if(known.begin(), known.end(), [&](const Entry& e) { return e.outcome == entry.outcome; });
+  for (const Entry& other : known) {
+    const bool one_processor = files_[other.file].origin.processor == processor;
+    if (other.outcome == entry.outcome || (same != known.end() && !one_processor)) continue;
+    conflicts_.push_back({name, where(other.file), where(entry.file), one_processor});
+  }
+  // Also an equal outcome on another processor, for those that come later to be compared with.
+  if (same == known.end() || files_[same->file].origin.processor != processor) known.push_back(entry);
 }
 
 std::string SearchLogs::where(std::size_t file) const
 {
-  const auto& [path, origin, checked] = files_[file];
-  return fmt::format("{} ({}{}{})", path.string(), origin.run, origin.processor.empty() ? "" : ", ",
+  const File& at = files_[file];
+  const LogOrigin& origin = at.origin;
+  return fmt::format("{} ({}{}{})", at.path.string(), origin.run, origin.processor.empty() ? "" : ", ",
                      origin.processor);
 }
 
-void SearchLogs::write_to(const fs::path& folder, const std::string& name, const LogOrigin& origin)
+void SearchLogs::write_to(fs::path folder, std::string name, LogOrigin origin)
 {
-  own_ = origin;
+  own_folder_ = std::move(folder);
+  own_name_ = std::move(name);
+  own_ = std::move(origin);
   own_.identity = identity_;
-  for (int k = 1;; ++k) {
-    own_file_ = folder / fmt::format("{}-{}.log", name, k);
-    const int made = ::open(own_file_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (made < 0 && errno == EEXIST) continue;
-    if (made < 0)
-      throw ComputationError(
-          fmt::format("{}: cannot be written: {}", own_file_.string(), std::strerror(errno)));
-    ::close(made);
-    break;
+}
+
+/// Called by one thread at a time. False: it could not be written, and nothing more will be.
+bool SearchLogs::write(const std::string& line)
+{
+  if (own_folder_.empty()) return true;
+  if (own_file_.empty()) {
+    try {
+      std::error_code unmade;
+      fs::create_directories(own_folder_, unmade);
+      own_file_ = claim_log(own_folder_, own_name_);
+      out_.open(own_file_, std::ios::binary | std::ios::app);
+      out_ << origin_line(own_) << '\n';
+    } catch (const ComputationError&) {
+      own_file_ = own_folder_ / own_name_;
+    }
   }
-  out_.open(own_file_, std::ios::binary | std::ios::app);
-  out_ << origin_line(own_) << '\n' << std::flush;
-  if (!out_.good())
-    throw ComputationError(fmt::format("{}: cannot be written: is the disk full?", own_file_.string()));
+  if (!out_.is_open()) return false;
+  out_ << line << '\n' << std::flush;
+  if (out_.good()) return true;
+  out_.close();
+  return false;
 }
 
 bool SearchLogs::complete()
 {
   const std::lock_guard lock(mutex_);
-  out_ << RecordWriter(end_mark).line() << '\n' << std::flush;
-  return out_.good();
+  return write(RecordWriter(end_mark).line());
 }
 
 std::optional<KnownSearch> SearchLogs::recall(const std::string& name)
@@ -168,14 +183,15 @@ std::optional<KnownSearch> SearchLogs::recall(const std::string& name)
   if (known == entries_.end()) return std::nullopt;
   {
     const std::lock_guard lock(mutex_);
-    if (File& file = files_[known->second.file]; checking_ && !file.checked) {
-      file.checked = true;
-      withheld_.emplace(name, known->second);
+    const Entry& entry = known->second.front();
+    if (File& file = files_[entry.file]; checking_ && !file.withheld) {
+      file.withheld = true;
+      withheld_.emplace(name, entry);
       return std::nullopt;
     }
     if (withheld_.contains(name)) return std::nullopt;
   }
-  return read_entry(known->second);
+  return read_entry(known->second.front());
 }
 
 std::optional<KnownSearch> SearchLogs::read_entry(const Entry& entry) const
@@ -200,16 +216,16 @@ void SearchLogs::record(const std::string& name, const Locked& locked, double se
   const std::lock_guard lock(mutex_);
   if (const auto other = withheld_.find(name); other != withheld_.end()) {
     const Entry& entry = other->second;
+    files_[entry.file].checked = true;
     if (entry.outcome != outcome)
       conflicts_.push_back(
           {name, where(entry.file), "", files_[entry.file].origin.processor == own_.processor});
     return;
   }
-  if (!out_.is_open()) return;
-  out_ << line << '\n' << std::flush;
-  if (out_.good()) return;
-  out_.close();
-  warn_(fmt::format("warning: {}: cannot be written; going on, but what is computed from here on is not kept",
+  const bool tried = out_.is_open() || own_file_.empty();
+  if (!write(line) && tried)
+    warn_(
+        fmt::format("warning: {}: cannot be written; going on, but what is computed from here on is not kept",
                     own_file_.string()));
 }
 

@@ -45,9 +45,8 @@ class SearchLogs final : public SearchMemory {
   /// InputError where it was written for another experiment or by another build: naming it.
   std::optional<Contents> read(const std::filesystem::path& file);
 
-  /// Begins a log of its own: the first of NAME-1.log, NAME-2.log, ... in `folder` that does not exist, so
-  /// that two runs never share one. Throws ComputationError where none can be made.
-  void write_to(const std::filesystem::path& folder, const std::string& name, const LogOrigin& origin);
+  /// What is recorded goes to a log of its own (claim_log), which is made for its first record.
+  void write_to(std::filesystem::path folder, std::string name, LogOrigin origin);
   /// Its part has nothing left to do. False: that could not be written.
   bool complete();
 
@@ -72,7 +71,8 @@ class SearchLogs final : public SearchMemory {
   struct File {
     std::filesystem::path path;
     LogOrigin origin;
-    bool checked = false;
+    bool withheld = false;  ///< one of its searches is being done once more
+    bool checked = false;   ///< and was compared
   };
   struct Entry {
     std::size_t file = 0;
@@ -82,19 +82,21 @@ class SearchLogs final : public SearchMemory {
   };
 
   void enter(const std::string& name, const Entry& entry);
+  bool write(const std::string& line);
   std::string where(std::size_t file) const;
   std::optional<KnownSearch> read_entry(const Entry& entry) const;
 
   std::string identity_;
   Warn warn_;
   std::vector<File> files_;
-  std::unordered_map<std::string, Entry> entries_;
+  std::unordered_map<std::string, std::vector<Entry>> entries_;  ///< outcomes that differ, the first is used
   mutable std::mutex mutex_;  ///< guards all below, and `files_` once searches are asked for
   std::map<std::string, Entry> withheld_;
   std::vector<Conflict> conflicts_;
   bool checking_ = false;
   LogOrigin own_;
-  std::filesystem::path own_file_;
+  std::filesystem::path own_folder_, own_file_;
+  std::string own_name_;
   std::ofstream out_;
 };
 

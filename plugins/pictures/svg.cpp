@@ -1,5 +1,7 @@
 #include "pictures/svg.hpp"
 
+#include "document/plain_text.hpp"
+
 #include <fmt/format.h>
 
 namespace hauberk::detail {
@@ -17,7 +19,7 @@ std::string attributes(const Stroke& stroke)
 std::string xml_escape(std::string_view text)
 {
   std::string out;
-  for (const char c : text) {
+  for (const char c : plain_text(text)) {
     switch (c) {
       case '&':
         out += "&amp;";

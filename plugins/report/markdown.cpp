@@ -1,5 +1,7 @@
 #include "report/markdown.hpp"
 
+#include "document/plain_text.hpp"
+
 #include <algorithm>
 
 namespace hauberk::detail {
@@ -17,8 +19,8 @@ std::size_t width(const std::string& text)
 std::string markdown_text(const std::string& text)
 {
   std::string out;
-  for (const char c : text) {
-    if (c == '\n' || c == '\r') {
+  for (const char c : plain_text(text, LineBreaks::kept)) {
+    if (c == '\n') {
       out += ' ';
       continue;
     }

@@ -9,7 +9,9 @@
 
 namespace hauberk::detail {
 
-/// Quotes around text that holds a separator, quote or line end; inner quotes doubled.
+/// Quotes around text that holds a separator, quote or line end; inner quotes doubled. Text that a
+/// spreadsheet would take for a formula begins with an apostrophe, and control characters are shown
+/// (plain_text).
 std::string text_cell(const std::string& text);
 /// Reads back exactly; empty where there is no (finite) number.
 std::string number_cell(const std::optional<double>& x);

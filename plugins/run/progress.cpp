@@ -1,5 +1,7 @@
 #include "run/progress.hpp"
 
+#include "document/plain_text.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -36,6 +38,9 @@ std::string bar(std::size_t done, std::size_t total)
 
 void put(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
+/// Names come from files and plugins.
+void put_line(const std::string& text) { put(plain_text(text) + "\n"); }
+
 }  // namespace
 
 Progress::Mode Progress::detect(bool quiet)
@@ -58,7 +63,7 @@ void Progress::draw(const std::vector<std::string>& lines)
 {
   erase();
   const std::size_t width = columns() - 1;  // a wrapped line would count as two
-  for (const std::string& line : lines) put(line.substr(0, width) + "\n");
+  for (const std::string& line : lines) put_line(line.substr(0, width));
   drawn_ = lines.size();
   std::fflush(stderr);
 }
@@ -72,7 +77,7 @@ void Progress::warn(const std::string& text)
 {
   const std::lock_guard lock(mutex_);
   erase();
-  put(text + "\n");
+  put(plain_text(text, LineBreaks::kept) + "\n");
 }
 
 void Progress::limits(const std::string& label, std::size_t done, std::size_t total)

@@ -6,6 +6,7 @@
 #include "run/context.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/prepared.hpp"
+#include "run/work.hpp"
 
 #include <boost/json/object.hpp>
 
@@ -28,10 +29,10 @@ struct ResultFile {
 /// One experiment's task, ready to run. What it was prepared from outlives it. Not thread safe.
 ///
 /// Calls come in this order: `limit_tasks`, of which the scene's plan is made; `check_plan`; `check_line` for
-/// `check`, `plan` for `plan` and for results; and to compute `resume` if there are partial results, `run`,
-/// `enter`, `files`, `summary`, `failed`. `enter` and `files` are called from within `run`, too, whenever the
-/// context saves: they give what there is. A task has to have the pure ones; the defaults of the others are
-/// those of a task that solves the limits of its experiment.
+/// `check`, `plan` for `plan` and for results; `work`; and to compute `resume` if there are partial results,
+/// `run`, `enter`, `files`, `summary`, `failed`. `enter` and `files` are called from within `run`, too,
+/// whenever the context saves: they give what there is. A task has to have the pure ones; the defaults of the
+/// others are those of a task that solves the limits of its experiment.
 ///
 /// `enter` and `files` run in the thread that calls `save` or `save_sometimes` of the context. A task that
 /// computes in several threads holds one lock while it changes what these two read, and while it saves. They
@@ -57,6 +58,8 @@ class TaskRun {
   /// What it is going to do beyond one solve of `limit_tasks`: counts and settings by name, for `hauberk
   /// plan` and results. Numbers, words, and lists or objects of them.
   virtual boost::json::object plan() const { return {}; }
+  /// What it takes at least.
+  virtual Work work(const Plan& plan) const { return work_of(plan, plan.searches); }
   /// Whether times are results, so that two machines must not be mixed.
   virtual bool measures_time() const { return false; }
 

@@ -48,8 +48,10 @@ function(hauberk_precompile target)
   target_precompile_headers(${target} REUSE_FROM ${set})
   # g++ 12 forgets which of them are headers of the system, and reports copies inside std::string that cannot happen.
   # Builds without precompiled headers keep these warnings.
-  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
-                                           -Wno-stringop-overread)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
+                                             -Wno-stringop-overread)
+  endif()
 endfunction()
 
 # hauberk_join(<target>): compiles sources six at a time. What most files take is templates of Eigen and Boost.JSON,

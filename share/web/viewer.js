@@ -129,13 +129,16 @@ function choose(next) {
   place();
 }
 
+// Names come from files that anybody may have written.
+const safe = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+
 // Table and plot of all limits, also of those that have no state to show.
 function makeTable() {
   const rows = fabric.limits.map((limit) => {
     const shown = limit.state > 0;
-    const name = shown ? `<button type="button">${limit.label}</button>` : limit.label;
+    const name = shown ? `<button type="button">${safe(limit.label)}</button>` : safe(limit.label);
     return `<tr data-state="${limit.state}" aria-selected="false"><td>${name}</td><td class="number">${
-      percent(limit.value)}</td><td>${limit.status}${limit.confidence ? `, ${limit.confidence}` : ""}</td></tr>`;
+      percent(limit.value)}</td><td>${safe(limit.status)}${limit.confidence ? `, ${safe(limit.confidence)}` : ""}</td></tr>`;
   });
   byId("limits").innerHTML =
     `<thead><tr><th>limit</th><th>value</th><th>status</th></tr></thead><tbody>${rows.join("")}</tbody>`;
@@ -173,12 +176,12 @@ function makePlot() {
       for (const half of [false, true]) {
         const [x, y] = at(limit, half);
         drawing += `<circle class="mark" data-state="${limit.state}" cx="${x}" cy="${y}" r="3" fill="${colour}"><title>${
-          limit.label}: ${percent(limit.value)}</title></circle>`;
+          safe(limit.label)}: ${percent(limit.value)}</title></circle>`;
       }
     }
   }
   byId("plot").innerHTML = `<svg viewBox="0 0 200 200" role="img" aria-label="Limits against direction: ${
-    fabric.words[0]} as a line, ${fabric.words[1]} dashed">${drawing}</svg>`;
+    safe(fabric.words[0])} as a line, ${safe(fabric.words[1])} dashed">${drawing}</svg>`;
   for (const mark of document.querySelectorAll("#plot .mark"))
     mark.addEventListener("click", () => choose(Number(mark.dataset.state)));
 }

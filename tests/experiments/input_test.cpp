@@ -1,6 +1,6 @@
 /// Bad input through the program: the exact words, exit code 2, and nothing written.
 
-#include "program.hpp"
+#include "result_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -170,6 +170,61 @@ TEST(BadInput, PluginFoldersThatDoNotExist)
       run_program({"run", folder.write("c.json", chain_text()), "--plugin-path", folder / "none"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.err, "hauberk: --plugin-path: '" + (folder / "none") + "' is not a folder\n");
+}
+
+/// What is beyond the budget is refused before anything is computed or written.
+TEST(Budget, WorkIsCountedFirst)
+{
+  const TemporaryFolder folder;
+  const std::string chain = folder.write("c.json", chain_text()), out = folder / "out";
+  const auto refused = [&](const std::vector<std::string>& more, const char* why) {
+    std::vector<std::string> words{"run", chain, "-o", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome o = run_program(words);
+    EXPECT_EQ(o.code, 2) << o.out << o.err;
+    EXPECT_NE(o.err.find(why), std::string::npos) << o.err;
+    EXPECT_FALSE(fs::exists(out)) << why;
+  };
+  refused({"--set", "/solver/starts=2000000000"}, "the run would take 2e+09 searches, at least ");
+  refused({"--set", "/solver/starts=2000000000", "--budget", "1e18"}, "go on with --yes");  // memory
+  refused({"--budget", "1"}, "the budget is 1 evaluations");
+  refused({"--budget-bytes", "100"}, "the budget is 1e+10 evaluations and 0.0001 MB");
+  refused({"--budget", "0"}, "expected a number above 0");
+  EXPECT_EQ(run_program({"run", chain, "-o", out, "--budget", "1", "--yes"}).code, 0);
+  // The other tasks count what they repeat.
+  for (const TaskCase& task : task_cases()) {
+    const std::string file = folder.write("t.json", task.text());
+    const Outcome o = run_program({"run", file, "-o", folder / "t", "--budget", "1"});
+    EXPECT_EQ(o.code, 2) << task.name;
+    EXPECT_NE(o.err.find(" searches, at least "), std::string::npos) << task.name << o.err;
+  }
+  const Outcome plan = run_program({"plan", folder.write("s.json", sweep_text())});
+  EXPECT_NE(plan.out.find("\nWork, without what limits learn from each other\n  7 searches, at least "),
+            std::string::npos)
+      << plan.out;
+}
+
+/// The count is a lower bound of what is then evaluated.
+TEST(Budget, CountsNoMoreThanIsDone)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("m.json", chainmail_text()), out = folder / "out";
+  const Outcome plan = run_program({"plan", file});
+  const std::size_t at = plan.out.find(" searches, at least ");
+  ASSERT_NE(at, std::string::npos);
+  const double searches = std::stod(plan.out.substr(plan.out.rfind("  ", at)));
+  const double least = std::stod(plan.out.substr(at + std::string(" searches, at least ").size()));
+  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
+  double evaluations = 0.0, done = 0.0;
+  const boost::json::value results = read_results(out);
+  for (const boost::json::value& limit : results.at("limits").as_array()) {
+    evaluations += number_at(limit, "/evaluations");
+    done += number_at(limit, "/confidence/searches");
+  }
+  EXPECT_GT(least, 1.0);
+  EXPECT_LE(least, evaluations);
+  EXPECT_LE(searches, done);
+  EXPECT_GE(least, 1e-3 * evaluations) << "it says something";
 }
 
 }  // namespace

@@ -246,14 +246,140 @@ TEST_F(OnePart, OtherRunsAreRefused)
     EXPECT_NE(o.err.find(why), std::string::npos) << o.err;
   };
   refused(run_part(file_, out_, 1, 2), "is divided into 1 parts, not 2");
+  const char* other_run = "the parts there are of another experiment";
   refused(run_program({"run", file_, "--part", "1/1", "-o", out_, "--set", "/solver/clearance=0.1"}),
-          "with other --set");
-  const std::string other = folder_.write("other.json", chain_text());
-  refused(run_part(other, out_, 1, 1), "the parts there are of");
+          other_run);
+  EXPECT_FALSE(fs::exists(fs::path(out_) / "parts" / "1-of-2")) << "nothing is written";
+  // The same text at another place is the same experiment.
+  const std::string copy = folder_.write("copy.json", chain_text());
+  EXPECT_EQ(run_part(copy, out_, 1, 1).code, 0);
   folder_.write("e.json", with(chain_text(), "\"preset\": \"accurate\"", "\"tolerance\": 1e-3"));
-  refused(run_part(file_, out_, 1, 1), "was computed from another experiment");
+  refused(run_part(file_, out_, 1, 1), other_run);
   refused(run_program({"gather", out_}), "was computed from another experiment");
-  EXPECT_EQ(run_program({"gather", out_, "--experiment", other}).code, 0) << "its text is the same";
+  EXPECT_EQ(run_program({"gather", out_, "--experiment", copy}).code, 0);
+}
+
+/// Another build of one version is another program.
+TEST_F(OnePart, OfAnotherBuildAreRefused)
+{
+  const fs::path prefix = fs::path(HAUBERK_PROGRAM).parent_path().parent_path();
+  fs::create_directories(folder_.path() / "other/bin");
+  fs::create_directory_symlink(prefix / "lib", folder_.path() / "other/lib");
+  fs::copy(HAUBERK_PROGRAM, folder_.path() / "other/bin");
+  // One word of a message is another one.
+  std::string program = read_text(HAUBERK_PROGRAM);
+  const std::string word = "join the parts of a divided run";
+  program.replace(program.find(word), 4, "JOIN");
+  std::ofstream(folder_.path() / "other/bin/hauberk", std::ios::binary) << program;
+  const std::string command = fmt::format("'{}' gather '{}' 2> '{}' > /dev/null",
+                                          folder_ / "other/bin/hauberk", out_, folder_ / "err");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_NE(read_text(folder_.path() / "err").find("by another build of the program"), std::string::npos)
+      << read_text(folder_.path() / "err");
+}
+
+/// The folder of a gathering that died on another node.
+TEST_F(OnePart, GatheringTakesOver)
+{
+  folder_.write("out/.hauberk-lock", "node17 4711 abc def\n");
+  const Outcome refused = run_program({"gather", out_});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--take-over node17:4711"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(fs::path(out_) / "parts" / "gathered")) << "nothing is written";
+  EXPECT_EQ(run_program({"gather", out_, "--take-over", "node17:4711"}).code, 0);
+}
+
+/// Indices of contacts, of which there are no such: the search is done again.
+TEST(Parts, HostileLogsAreComputedAgain)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "e.json", with(chain_text(), R"("preset": "accurate")", R"("contact": "constrained", "starts": 3)"));
+  const std::string out = folder / "out";
+  ASSERT_EQ(run_part(file, out, 1, 1).code, 0);
+  const fs::path log = fs::path(out) / "parts" / "1-of-1" / "searches-1.log";
+  std::vector<std::string> lines = lines_of(log);
+  std::size_t changed = 0;
+  for (std::string& line : lines) {
+    const auto record = undamaged_record(line);
+    // The first contact after how many there are: element bodies 0 and 1 of an image.
+    const std::size_t at = record ? record->rfind(" 1 0 0 0 0 ") : std::string_view::npos;
+    const std::size_t other = record ? record->rfind(" 0 1 0 0 0 ") : std::string_view::npos;
+    const std::size_t place = at != std::string_view::npos ? at : other;
+    if (place == std::string_view::npos || line.find("start%200") != std::string::npos) continue;
+    line = with_checksum(std::string(record->substr(0, place)) + " 1000000 1000000 0 0 0 " +
+                         std::string(record->substr(place + 11)));
+    ++changed;
+  }
+  ASSERT_GE(changed, 1U);
+  write_lines(log, lines);
+  const Outcome o = run_program({"gather", out});
+  EXPECT_EQ(o.code, 0) << o.err;
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "whole"}).code, 0);
+  EXPECT_EQ(results_in(out), results_in(folder / "whole"));
+}
+
+class DesignParts : public ::testing::Test {
+ protected:
+  void SetUp() override
+  {
+    file_ = folder_.write("e.json", starts_text());
+    out_ = folder_ / "out";
+    log_ = fs::path(out_) / "parts" / "1-of-1" / "start-1-1.log";
+  }
+
+  TemporaryFolder folder_;
+  std::string file_, out_;
+  fs::path log_;
+};
+
+TEST_F(DesignParts, AreInterruptedAndGoOn)
+{
+  const std::string file =
+      folder_.write("long.json", with(starts_text(), R"("starts": 3)", R"("starts": 100000)"));
+  Process process({"run", file, "--part", "1/1", "-o", out_, "--quiet"}, folder_);
+  for (int k = 0; k < 6000 && !fs::exists(log_); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.signal(SIGINT);
+  const Outcome o = process.wait();
+  EXPECT_EQ(o.code, 130) << o.out << o.err;
+  EXPECT_NE(o.out.find("interrupted; the same command goes on"), std::string::npos) << o.out;
+}
+
+TEST_F(DesignParts, WrongEvaluationsAreNotGathered)
+{
+  ASSERT_EQ(run_part(file_, out_, 1, 1).code, 0);
+  std::vector<std::string> lines = lines_of(log_);
+  const std::string record(undamaged_record(lines[1]).value());
+  const std::size_t at = record.rfind(" 0.");
+  ASSERT_NE(at, std::string::npos);
+  lines[1] = with_checksum(record.substr(0, at) + " 0.5" + record.substr(at + 3));
+  write_lines(log_, lines);
+  const Outcome o = run_program({"gather", out_});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("start-1-1.log: its first evaluation is not what it is here"), std::string::npos)
+      << o.err;
+  EXPECT_FALSE(fs::exists(fs::path(out_) / "results.json"));
+  // The advice leads out.
+  fs::remove_all(log_.parent_path());
+  ASSERT_EQ(run_part(file_, out_, 1, 1).code, 0);
+  EXPECT_EQ(run_program({"gather", out_}).code, 0);
+}
+
+TEST_F(DesignParts, OfTwoProcessesHaveTwoLogs)
+{
+  const TemporaryFolder other;
+  Process twin({"run", file_, "--part", "1/1", "-o", out_, "--quiet"}, other);
+  EXPECT_EQ(run_part(file_, out_, 1, 1).code, 0);
+  EXPECT_EQ(twin.wait().code, 0);
+  // One that began when the other was done has found that out.
+  const fs::path folder = log_.parent_path();
+  const bool both = fs::exists(folder / "searches-2.log");
+  EXPECT_EQ(fs::exists(folder / "start-1-2.log"), both);
+  if (both) {
+    EXPECT_EQ(lines_of(folder / "start-1-1.log"), lines_of(folder / "start-1-2.log"));
+  }
+  EXPECT_EQ(run_program({"gather", out_}).code, 0);
 }
 
 TEST(Parts, WhatCannotBeDivided)
@@ -410,7 +536,20 @@ TEST_F(Scheduler, ThatRefusesIsTold)
   const Outcome o = submit("--array");
   EXPECT_EQ(o.code, 1);
   EXPECT_NE(o.err.find("invalid account"), std::string::npos);
-  EXPECT_NE(o.err.find("the scripts stay"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("what is left to submit is: sbatch --parsable --array=1-5 "), std::string::npos)
+      << o.err;
+}
+
+/// The array is queued, the job that gathers is not: only that is left.
+TEST_F(Scheduler, ThatTakesHalfIsTold)
+{
+  script("sbatch", R"(case "$*" in *dependency*) exit 1;; esac; echo 7)");
+  const Outcome o = submit("--array");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.out.find("job 7: 5 parts"), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("what is left to submit is: sbatch --parsable --dependency=afterany:7 "),
+            std::string::npos)
+      << o.err;
 }
 
 }  // namespace

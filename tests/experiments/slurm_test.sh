@@ -1,20 +1,18 @@
 #!/usr/bin/env bash
 # Runs in parts on the real scheduler: a controller and two nodes on this machine, of this test alone.
 #
-#   slurm_test.sh HAUBERK FOLDER EXPERIMENT.json PARTS [OPTION...]
+#   slurm_test.sh HAUBERK FOLDER EXPERIMENT.json PARTS [--set path=value ...]
 #
-# Submits the experiment with --array PARTS (and the options), kills one node half way, waits for the jobs and compares
-# the results with those of one run, byte for byte. Prints times. Exit code 77: Slurm is not there.
+# Submits the experiment with --array PARTS, kills one node half way, waits for the jobs and compares the results with
+# those of one run, byte for byte. Prints times. Exit code 77: Slurm is not there.
 set -euo pipefail
 hauberk=$(realpath "$1") folder=$2 experiment=$3 parts=$4
 shift 4
-for program in slurmctld slurmd slurmstepd sbatch squeue scontrol; do
-  PATH=$PATH:/usr/sbin:/usr/lib/x86_64-linux-gnu/slurm-wlm:/usr/lib/slurm command -v "$program" >/dev/null || {
-    [[ $program == slurmstepd ]] || { echo "no $program: skipped"; exit 77; }
-  }
+export PATH=$PATH:/usr/sbin
+for program in slurmctld slurmd sbatch squeue scontrol sinfo; do
+  command -v "$program" >/dev/null || { echo "no $program: skipped"; exit 77; }
 done
 [[ $(id -u) == 0 ]] || { echo "Slurm's daemons of this test want root: skipped"; exit 77; }
-export PATH=$PATH:/usr/sbin
 
 rm -rf "$folder"
 mkdir -p "$folder"
@@ -52,11 +50,17 @@ mkdir "$folder/state"
 
 stop() {
   for node in n1 n2; do
-    pkill -KILL -f "slurmstepd.*$folder" 2>/dev/null || true
     [[ -f $folder/slurmd-$node.pid ]] && kill -KILL "$(<"$folder/slurmd-$node.pid")" 2>/dev/null
   done
-  [[ -f $folder/slurmctld.pid ]] && kill "$(<"$folder/slurmctld.pid")" 2>/dev/null
-  true
+  [[ -f $folder/slurmctld.pid ]] || return 0
+  local controller k
+  controller=$(<"$folder/slurmctld.pid")
+  kill "$controller" 2>/dev/null || true
+  for ((k = 0; k < 50; ++k)); do
+    kill -0 "$controller" 2>/dev/null || return 0
+    sleep 0.1
+  done
+  kill -KILL "$controller" 2>/dev/null || true
 }
 trap stop EXIT
 # Whether a command succeeds within so many seconds.
@@ -78,7 +82,7 @@ up() { [[ $(sinfo -h -t idle -o %D) == 2 ]]; }
 within 30 up
 
 begin=$(date +%s.%N)
-"$hauberk" run "$experiment" -o "$folder/whole" --quiet --threads 1 >"$folder/whole.out"
+"$hauberk" run "$experiment" -o "$folder/whole" --quiet --threads 1 "$@" >"$folder/whole.out"
 middle=$(date +%s.%N)
 "$hauberk" submit "$experiment" --engine slurm --array "$parts" -o "$folder/out" "$@"
 logs() { find "$folder/out/parts" -name 'searches-*.log' | wc -l; }
@@ -88,22 +92,21 @@ within 600 half
 echo "killing node n2 with $(logs) of $parts parts begun: $(squeue -h -t R -o '%i on %N' | tr '\n' ';')"
 daemon=$(<"$folder/slurmd-n2.pid")
 kill -KILL "$daemon"
-for process in $(pgrep -f 'slurmstepd: ' || true); do
-  if grep -qz '^SLURMD_NODENAME=n2' "/proc/$process/environ" 2>/dev/null ||
-    tr '\0' '\n' <"/proc/$process/cmdline" | grep -q n2; then
-    kill -KILL "$process" 2>/dev/null || true
-  fi
+on_n2() { grep -qz '^SLURMD_NODENAME=n2' "/proc/$1/environ" 2>/dev/null; }
+for process in $(pgrep -f "$folder" || true) $(pgrep slurmstepd || true); do
+  if [[ $process != $$ ]] && on_n2 "$process"; then kill -KILL "$process" 2>/dev/null || true; fi
 done
-for process in $(pgrep -f "$folder/out" || true); do
-  if grep -qz '^SLURMD_NODENAME=n2' "/proc/$process/environ" 2>/dev/null; then kill -KILL "$process" 2>/dev/null || true; fi
+# What the node was doing has no daemon that would tell of its end.
+for process in $(pgrep slurmstepd || true); do
+  if grep -qz "$folder/spool-n2" "/proc/$process/environ" 2>/dev/null; then kill -KILL "$process" 2>/dev/null || true; fi
 done
 sleep 8  # the controller notices
 slurmd -N n2
 ended() { [[ -z $(squeue -h) ]]; }
 within 900 ended
 end=$(date +%s.%N)
-sacct_of=$(grep -h 'missing' "$folder"/out/parts/*.out || true)
-echo "${sacct_of:-no part had to be submitted again}"
+missing=$(grep -h 'missing' "$folder"/out/parts/*.out || true)
+echo "${missing:-no part had to be submitted again}"
 for file in "$folder"/whole/*; do
   name=$(basename "$file")
   [[ $name == timings.json ]] || cmp "$file" "$folder/out/$name"

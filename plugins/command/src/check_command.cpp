@@ -1,6 +1,7 @@
 #include "dispatch.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
+#include "say.hpp"
 
 #include <fmt/format.h>
 #include <boost/json/array.hpp>
@@ -26,7 +27,7 @@ int check_as_json(const Options& options)
       out["problems"].as_array().push_back({{"pointer", p.pointer}, {"line", line}, {"message", p.message}});
     }
   }
-  fmt::print("{}", write_json(out));
+  say_json(write_json(out));
   return out["ok"].as_bool() ? exit_done : exit_bad_input;
 }
 
@@ -49,7 +50,7 @@ int check_command(const std::vector<std::string>& words)
   options.parse(words);
   if (options.has("json")) return check_as_json(options);
   const Job job = open_job(options);
-  fmt::print("{}: no problems; {}\n", options.positional(), job.task->check_line(job.plan));
+  say("{}: no problems; {}\n", options.positional(), job.task->check_line(job.plan));
   return exit_done;
 }
 

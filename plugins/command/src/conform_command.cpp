@@ -1,5 +1,6 @@
 #include "dispatch.hpp"
 #include "options.hpp"
+#include "say.hpp"
 
 #include <hauberk/conformance/isolated.hpp>
 
@@ -88,7 +89,10 @@ int conform_command(const std::vector<std::string>& words)
   if (!(conditions.seconds > 0.0 && conditions.seconds <= 1e6))
     throw UsageError("--seconds: expected a number in (0, 1e6]", options.usage());
   const auto reports = conformance::conform_all(options.positional(), conditions);
-  fmt::print("{}", options.has("json") ? json_of(reports) : text_of(reports));
+  if (options.has("json"))
+    say_json(json_of(reports));
+  else
+    say("{}", text_of(reports));
   const auto passed = [](const conformance::Report& report) { return report.passed(); };
   return std::all_of(reports.begin(), reports.end(), passed) ? exit_done : exit_failed;
 }

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "run/prepared.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/suggestion.hpp>
@@ -21,11 +22,11 @@ int run(const std::vector<std::string>& words)
   if (words.empty()) throw UsageError("no command given", overview());
   const std::string& name = words.front();
   if (name == "--help" || name == "-h" || name == "help") {
-    fmt::print("{}", overview());
+    say("{}", overview());
     return exit_done;
   }
   if (name == "--version") {
-    fmt::print("hauberk {} ({})\n", version, build_type);
+    say("hauberk {} ({})\n", version, build_type);
     return exit_done;
   }
   if (const Command* command = find_command(words)) {
@@ -44,14 +45,14 @@ int run_or_show(const std::vector<std::string>& words)
   try {
     return run(words);
   } catch (const ShowHelp& shown) {
-    fmt::print("{}", shown.text());
+    say("{}", shown.text());
     return exit_done;
   }
 }
 
 int fail(int code, const std::string& message) noexcept
 {
-  std::fprintf(stderr, "hauberk: %s\n", message.c_str());
+  say_error("hauberk: {}\n", message);
   return code;
 }
 
@@ -63,15 +64,16 @@ int dispatch(const std::vector<std::string>& words) noexcept
     const int code = run_or_show(words);
     return std::fflush(stdout) == 0 ? code : fail(exit_failed, "standard output cannot be written");
   } catch (const UsageError& error) {
-    std::fprintf(stderr, "hauberk: %s\n\n%s", error.what(), error.usage().c_str());
+    say_error("hauberk: {}\n\n{}", error.what(), error.usage());
     return exit_bad_input;
   } catch (const ReportedProblems& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    say_error("{}\n", error.what());
     return exit_bad_input;
   } catch (const InputError& error) {
     return fail(exit_bad_input, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_failed, "out of memory");
+    std::fputs("hauberk: out of memory\n", stderr);
+    return exit_failed;
   } catch (const std::exception& error) {
     return fail(exit_failed, error.what());
   } catch (...) {

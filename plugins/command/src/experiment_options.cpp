@@ -1,6 +1,7 @@
 #include "experiment_options.hpp"
 
 #include "run/weave_library.hpp"
+#include "say.hpp"
 
 #include <hauberk/host/search_path.hpp>
 #include <hauberk/host/trust.hpp>
@@ -33,11 +34,11 @@ std::string shadow_text(const std::string& id, const std::filesystem::path& used
 void warn_of_plugins(const Prepared& prepared)
 {
   for (const std::string& warning : open_to_others(prepared.registry->directories()))
-    fmt::print(stderr, "hauberk: warning: {}\n", warning);
+    say_error("hauberk: warning: {}\n", warning);
   for (const Provenance::Plugin& plugin : prepared.plugins) {
     const std::vector<std::filesystem::path> files = prepared.registry->files(plugin.id);
     for (std::size_t k = 1; k < files.size(); ++k)
-      fmt::print(stderr, "hauberk: warning: {}\n", shadow_text(plugin.id, files[0], files[k]));
+      say_error("hauberk: warning: {}\n", shadow_text(plugin.id, files[0], files[k]));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "export/page.hpp"
 #include "export/picture.hpp"
 #include "run/weave_library.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/host/search_path.hpp>
@@ -281,7 +282,7 @@ int export_command(const std::vector<std::string>& words)
                            {{file.filename().string(), content}}, {});
   else
     write_new_file_atomically(file, content);
-  fmt::print("{}written to {}\n", summary(assembly, nearest), file.string());
+  say("{}written to {}\n", summary(assembly, nearest), file.string());
   return exit_done;
 }
 

@@ -2,6 +2,7 @@
 #include "part_run.hpp"
 #include "run/interrupt.hpp"
 #include "run/weave_library.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -67,8 +68,8 @@ void check_conflicts(const SearchLogs& logs, std::size_t& told)
         texts(c)));
   }
   for (; told < conflicts.size(); ++told)
-    fmt::print(stderr, "hauberk: warning: the search {}: processors of several kinds round differently\n",
-               texts(conflicts[told]));
+    say_error("hauberk: warning: the search {}: processors of several kinds round differently\n",
+              texts(conflicts[told]));
 }
 
 Job open_division(const Division& division, const std::string& experiment)
@@ -102,6 +103,10 @@ Description gather_description()
           {.name = "missing",
            .help = "print the parts that are missing, as Slurm lists them (`1-3,7`), and do nothing else"},
           {.name = "force", .help = "replace results that the folder holds"},
+          {.name = "take-over",
+           .takes = Takes::text,
+           .value = "HOST:PID",
+           .help = "take the folder from this run, which is no more (see `run`)"},
           {.name = "threads",
            .takes = Takes::integer,
            .value = "N",
@@ -118,17 +123,17 @@ int gather_command(const std::vector<std::string>& words)
   request.threads = threads_of(options);
   request.folder = options.positional();
   request.quiet = options.has("quiet");
+  if (options.has("take-over")) request.take_over = options.get<std::string>("take-over");
   const Division division = read_division(request.folder);
   const std::string experiment =
       options.has("experiment") ? options.get<std::string>("experiment") : division.experiment;
   Job job = open_division(division, experiment);
   refuse_whole(job);
-  SearchLogs logs(identity_of(job),
-                  [](const std::string& warning) { fmt::print(stderr, "hauberk: {}\n", warning); });
+  SearchLogs logs(identity_of(job), [](const std::string& warning) { say_error("hauberk: {}\n", warning); });
   const PartsThere there = read_parts(request.folder, division, logs);
   const std::string missing = part_list(there.missing);
   if (options.has("missing")) {
-    fmt::print("{}{}", missing, missing.empty() ? "" : "\n");
+    say("{}{}", missing, missing.empty() ? "" : "\n");
     return exit_done;
   }
   if (!there.missing.empty())
@@ -142,8 +147,6 @@ int gather_command(const std::vector<std::string>& words)
   warn_of_plugins(*job.prepared);
   logs.check_one_of_each();
   const fs::path own = request.folder / parts_folder / gathered_folder;
-  std::error_code ignored;
-  fs::create_directories(own, ignored);
   const LogOrigin origin = log_origin(gathered_folder);
   logs.write_to(own, searches_name, origin);
   Gathering gathering{&logs, there.folders, there.processors, [&] { check_conflicts(logs, told); }};
@@ -155,8 +158,8 @@ int gather_command(const std::vector<std::string>& words)
   request.resume = !request.force;
   const int code = run_experiment(job, request);
   if (const auto [checked, all] = logs.checked(); checked > 0)
-    fmt::print("{} parts; a search of {} of {} logs was done once more and is the same\n", division.count,
-               checked, all);
+    say("{} parts; a search of {} of {} logs was done once more and is the same\n", division.count, checked,
+        all);
   return code;
 }
 

@@ -2,6 +2,7 @@
 #include "document/atomic_file.hpp"
 #include "experiment_options.hpp"
 #include "options.hpp"
+#include "say.hpp"
 
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/experiment/union_shape.hpp>
@@ -187,8 +188,7 @@ int new_command(const std::vector<std::string>& words)
   const fs::path folder = options.positionals()[1];
   check_name(name, *open_registry(options));
   write_project(folder, project_files(from, name));
-  fmt::print(
-      "{0} '{1}' is in {2}; next:\n\n  cd {2}\n  cmake -B build{3} && cmake --build build && ctest "
+  say("{0} '{1}' is in {2}; next:\n\n  cd {2}\n  cmake -B build{3} && cmake --build build && ctest "
       "--test-dir build\n"
       "  hauberk plugins conform build/plugins/{1}.so\n"
       "  hauberk run experiment.json --plugin-path build/plugins -o out\n",

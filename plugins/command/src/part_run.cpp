@@ -1,10 +1,12 @@
 #include "part_run.hpp"
 
 #include "dispatch.hpp"
+#include "run/code_digest.hpp"
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
 #include "run/memory.hpp"
 #include "run/provenance.hpp"
+#include "say.hpp"
 
 #include <hauberk/host/sha256.hpp>
 
@@ -29,9 +31,10 @@ Share part_of(const Options& options)
   }
 }
 
-Division division_of(const Options& options, std::size_t count)
+Division division_of(const Options& options, const Job& job, std::size_t count)
 {
   Division d{count,
+             identity_of(job),
              std::filesystem::absolute(options.positional()).lexically_normal().string(),
              options.list("set"),
              {}};
@@ -43,6 +46,8 @@ Division division_of(const Options& options, std::size_t count)
 std::string identity_of(const Job& job)
 {
   Sha256 hash;
+  // Versions are not enough: two builds of one may round differently.
+  hash.add(code_digest());
   hash.add(identity(*job.prepared, provenance(*job.prepared, 1, job.task->measures_time())));
   return hash.digest();
 }
@@ -64,16 +69,17 @@ int run_part(Job& job, const Share& share, const Options& options, const RunRequ
 {
   refuse_whole(job);
   const std::filesystem::path folder = part_path(request.folder, share);
+  const Division division = division_of(options, job, share.count);
+  enter_division(request.folder, division);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) throw InputError(fmt::format("{}: cannot be made: {}", folder.string(), failed.message()));
-  enter_division(request.folder, division_of(options, share.count));
   Progress progress(Progress::detect(request.quiet));
-  SearchLogs logs(identity_of(job), [&](const std::string& warning) { progress.warn(warning); });
+  SearchLogs logs(division.identity, [&](const std::string& warning) { progress.warn(warning); });
   for (const std::filesystem::path& file : logs_in(folder, searches_name)) {
     const std::optional<SearchLogs::Contents> contents = logs.read(file);
     if (!contents || !contents->complete) continue;
-    fmt::print("part {}: complete already\n", part_name(share));
+    say("part {}: complete already\n", part_name(share));
     return exit_done;
   }
   if (logs.known() > 0)
@@ -89,16 +95,20 @@ int run_part(Job& job, const Share& share, const Options& options, const RunRequ
                      nothing,
                      nothing,
                      &logs};
-  job.task->run_part(context, share);
+  try {
+    job.task->run_part(context, share);
+  } catch (const InputError& error) {  // what is bad input was refused before
+    throw ComputationError(error.what());
+  }
   progress.clear();
   if (interrupted()) {
-    fmt::print("part {}: interrupted; the same command goes on\n", part_name(share));
+    say("part {}: interrupted; the same command goes on\n", part_name(share));
     return exit_interrupted;
   }
   if (!logs.complete())
     throw ComputationError(fmt::format("{}: cannot be written: is the disk full?", folder.string()));
-  fmt::print("part {}: done, in {}; `hauberk gather {}` joins all\n", part_name(share), folder.string(),
-             request.folder.string());
+  say("part {}: done, in {}; `hauberk gather {}` joins all\n", part_name(share), folder.string(),
+      request.folder.string());
   return exit_done;
 }
 

@@ -11,9 +11,9 @@ namespace hauberk::command {
 Share part_of(const Options& options);
 
 /// What the folder is to say of a division into so many parts.
-Division division_of(const Options& options, std::size_t count);
+Division division_of(const Options& options, const Job& job, std::size_t count);
 
-/// Digest of what the job computes and by which program.
+/// Digest of what the job computes and by which program, its libraries and plugins.
 std::string identity_of(const Job& job);
 
 /// What logs of this process say of it.

@@ -2,6 +2,7 @@
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
 #include "run/plan_text.hpp"
+#include "say.hpp"
 #include "tasks/job.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +26,11 @@ int plan_command(const std::vector<std::string>& words)
   Options options(plan_description());
   options.parse(words);
   const Job job = open_job(options);
-  fmt::print("{}", options.has("json") ? write_json(boost::json::value(plan_document(job)))
-                                       : plan_text(*job.prepared, job.plan, job.task->plan()));
+  if (options.has("json"))
+    say_json(write_json(boost::json::value(plan_document(job))));
+  else
+    say("{}\nWork, without what limits learn from each other\n  {}\n",
+        plan_text(*job.prepared, job.plan, job.task->plan()), text_of(job.task->work(job.plan)));
   return exit_done;
 }
 

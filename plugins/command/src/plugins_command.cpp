@@ -2,6 +2,7 @@
 #include "document/check.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
+#include "say.hpp"
 
 #include <hauberk/experiment/schema.hpp>
 #include <hauberk/experiment/union_shape.hpp>
@@ -40,7 +41,7 @@ std::string section_place(PluginKind kind)
 
 void print_line(const PluginTable& table)
 {
-  fmt::print("{:<20} {:<10} {:<8} {}\n", table.id, kind_text(table.kind), table.version, table.summary);
+  say("{:<20} {:<10} {:<8} {}\n", table.id, kind_text(table.kind), table.version, table.summary);
 }
 
 void describe_in(boost::json::object& out, const PluginTable& table)
@@ -54,10 +55,10 @@ void describe_in(boost::json::object& out, const PluginTable& table)
 void warn(const Registry& registry, const std::vector<PluginEntry>& entries)
 {
   for (const std::string& warning : open_to_others(registry.directories()))
-    fmt::print(stderr, "hauberk: warning: {}\n", warning);
+    say_error("hauberk: warning: {}\n", warning);
   for (const PluginEntry& entry : entries) {
     if (entry.shadowed_by)
-      fmt::print(stderr, "hauberk: warning: {}\n", shadow_text(entry.id, *entry.shadowed_by, entry.file));
+      say_error("hauberk: warning: {}\n", shadow_text(entry.id, *entry.shadowed_by, entry.file));
   }
 }
 
@@ -71,10 +72,10 @@ int list(const Registry& registry)
     if (entry.table != nullptr) {
       print_line(*entry.table);
     } else if (entry.shadowed_by) {
-      fmt::print("{:<20} not used: {} is found before {}\n", entry.id, entry.shadowed_by->string(),
-                 entry.file.string());
+      say("{:<20} not used: {} is found before {}\n", entry.id, entry.shadowed_by->string(),
+          entry.file.string());
     } else {
-      fmt::print("{:<20} cannot be used: {}\n", entry.id, entry.problem);
+      say("{:<20} cannot be used: {}\n", entry.id, entry.problem);
       broken = true;
     }
   }
@@ -105,7 +106,7 @@ int list_as_json(const Registry& registry)
   boost::json::object built_in{{"id", union_table().id}, {"file", nullptr}};
   describe_in(built_in, union_table());
   out.push_back(std::move(built_in));
-  fmt::print("{}", write_json(out));
+  say_json(write_json(out));
   return broken ? exit_failed : exit_done;
 }
 
@@ -155,12 +156,12 @@ std::string parameters_text(const PluginTable& table)
 
 int describe(const PluginTable& table, const std::string& file)
 {
-  fmt::print("{} {}: {}\n{}\n\n", table.id, table.version, kind_text(table.kind), table.summary);
-  fmt::print("source: {}\nfile:   {}\n\n", table.citation, file);
+  say("{} {}: {}\n{}\n\n", table.id, table.version, kind_text(table.kind), table.summary);
+  say("source: {}\nfile:   {}\n\n", table.citation, file);
   const std::vector<Field> fields = plugin_fields(table);
-  if (!fields.empty()) fmt::print("{}", fields_reference(fields, section_place(table.kind)));
-  if (table.kind == PluginKind::shape) fmt::print("{}", parameters_text(table));
-  if (table.kind == PluginKind::optimizer) fmt::print("{}", traits_text(table));
+  if (!fields.empty()) say("{}", fields_reference(fields, section_place(table.kind)));
+  if (table.kind == PluginKind::shape) say("{}", parameters_text(table));
+  if (table.kind == PluginKind::optimizer) say("{}", traits_text(table));
   return exit_done;
 }
 

@@ -4,6 +4,7 @@
 #include "results/designed_experiment.hpp"
 #include "results/document.hpp"
 #include "results/timings.hpp"
+#include "say.hpp"
 
 #include <fmt/format.h>
 
@@ -99,8 +100,8 @@ int report_command(const std::vector<std::string>& words)
   const std::vector<NamedContent> files = report_content(entries);
   prepare_output_directory(folder, options.has("force"), report_names);
   write_files_atomically(folder, files, report_names);
-  fmt::print("{} results in {}: {}, {}, {}\n", entries.size(), folder.string(), report_text_file,
-             report_table_file, report_picture_file);
+  say("{} results in {}: {}, {}, {}\n", entries.size(), folder.string(), report_text_file, report_table_file,
+      report_picture_file);
   return exit_done;
 }
 

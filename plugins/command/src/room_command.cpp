@@ -5,6 +5,7 @@
 #include "experiment_options.hpp"
 #include "limits/room.hpp"
 #include "run/interrupt.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -144,15 +145,14 @@ int room_command(const std::vector<std::string>& words)
   const auto near =
       std::count_if(gaps.begin(), gaps.end(), [&](double g) { return room.best.gap - g < 1e-4; });
   if (options.has("json")) {
-    fmt::print("{}", write_json(as_json(prepared, room, gaps, near)));
+    say_json(write_json(as_json(prepared, room, gaps, near)));
   } else {
-    fmt::print("{}\nlargest rest clearance {:.8g} {} more than solver.clearance (seed {})\n",
-               prepared.experiment.name, room.best.gap * m.length, prepared.experiment.length_unit,
-               room.best.seed);
-    fmt::print("{}", ratios(m, 0.5 * room.best.gap));
-    fmt::print("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, room.gaps.size(),
-               gaps.empty() ? 0.0 : gaps.back() * m.length);
-    if (interrupted()) fmt::print("{}", "interrupted: the search is not done, there may be more room\n");
+    say("{}\nlargest rest clearance {:.8g} {} more than solver.clearance (seed {})\n",
+        prepared.experiment.name, room.best.gap * m.length, prepared.experiment.length_unit, room.best.seed);
+    say("{}", ratios(m, 0.5 * room.best.gap));
+    say("{} of {} starts within 1e-4 L of it; the worst {:.8g}\n", near, room.gaps.size(),
+        gaps.empty() ? 0.0 : gaps.back() * m.length);
+    if (interrupted()) say("{}", "interrupted: the search is not done, there may be more room\n");
   }
   if (options.has("output")) {
     const auto& file = options.get<std::string>("output");
@@ -160,7 +160,7 @@ int room_command(const std::vector<std::string>& words)
                                              prepared.experiment.name + "_room");
     const std::string folder = std::filesystem::path(file).parent_path().string();
     write_new_file_atomically(file, write_json(in_folder(experiment, prepared.experiment, folder)) + "\n");
-    if (!options.has("json")) fmt::print("written to {}\n", file);
+    if (!options.has("json")) say("written to {}\n", file);
   }
   return interrupted() ? exit_interrupted : exit_done;
 }

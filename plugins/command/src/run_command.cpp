@@ -6,10 +6,25 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace hauberk::command {
 namespace {
 
 constexpr int most_threads = 4096;
+
+Budget budget_of(const Options& options)
+{
+  Budget budget;
+  for (const auto& [name, value] :
+       {std::pair<const char*, double*>{"budget", &budget.evaluations}, {"budget-bytes", &budget.bytes}}) {
+    if (!options.has(name)) continue;
+    *value = options.get<double>(name);
+    if (!(*value > 0.0))
+      throw UsageError(fmt::format("--{}: expected a number above 0", name), options.usage());
+  }
+  return budget;
+}
 
 }  // namespace
 
@@ -77,6 +92,19 @@ Description run_description()
                 "again. Rows of a sweep and scenes of a stability map are shared out, of limits their "
                 "starts, of a design the limits before it and its starts. Tasks `chart` and `transition` "
                 "cannot be divided."},
+           {.name = "budget",
+            .takes = Takes::real,
+            .value = "N",
+            .help = "evaluations of closest points that the run may take at least; default: 1e10",
+            .more =
+                "Counted before anything is computed: searches, times stages, times pairs that are near at "
+                "rest. Most runs take ten to a hundred times as many; a processor does about a million in a "
+                "second. A run beyond it is refused."},
+           {.name = "budget-bytes",
+            .takes = Takes::real,
+            .value = "N",
+            .help = "the same of memory; default: what the machine has"},
+           {.name = "yes", .help = "go on beyond the budget"},
            {.name = "quiet", .help = "show no progress"}},
           experiment_options())};
 }
@@ -97,6 +125,9 @@ int run_command(const std::vector<std::string>& words)
   if (options.has("part")) share = part_of(options);
   Job job = open_job(options);
   warn_of_plugins(*job.prepared);
+  if (!options.has("yes"))
+    refuse_beyond(budget_of(options),
+                  job.task->work(job.plan).times(share ? 1.0 / static_cast<double>(share->count) : 1.0));
   if (share) return run_part(job, *share, options, request);
   return run_experiment(job, request);
 }

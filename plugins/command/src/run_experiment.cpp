@@ -7,6 +7,7 @@
 #include "run/memory.hpp"
 #include "run/provenance.hpp"
 #include "run/run_folder.hpp"
+#include "say.hpp"
 #include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
@@ -23,10 +24,9 @@ namespace {
 bool report_expectations(const Experiment& experiment, const boost::json::value& document)
 {
   const std::vector<ExpectationFailure> failures = evaluate_expectations(experiment.expect, document);
-  for (const ExpectationFailure& failure : failures)
-    fmt::print("expected result missed: {}\n", failure.text());
+  for (const ExpectationFailure& failure : failures) say("expected result missed: {}\n", failure.text());
   if (failures.empty() && !experiment.expect.empty())
-    fmt::print("all {} expected results are met\n", experiment.expect.size());
+    say("all {} expected results are met\n", experiment.expect.size());
   return !failures.empty();
 }
 
@@ -82,7 +82,7 @@ int already_complete(const Job& job, const boost::json::value& document, const s
   remove_abandoned(folder, names);
   drop_previous(folder, names);
   drop_journal(folder);
-  fmt::print("{}: complete already\n", (folder / results_file).string());
+  say("{}: complete already\n", (folder / results_file).string());
   const bool missed = report_expectations(job.prepared->experiment, document);
   return missed || job.task->failed() ? exit_failed : exit_done;
 }
@@ -98,31 +98,38 @@ int already_complete(const Job& job, const boost::json::value& document, const s
   throw ComputationError(fmt::format("{}; what was computed is in {}", reason, output.directory().string()));
 }
 
-/// Everything after the folder was prepared: from here on nothing is bad input.
-void compute(Job& job, RunContext& context, RunFolder& output)
-try {
-  job.task->run(context);
-} catch (const ComputationError& error) {
-  context.progress.clear();
-  fail_with_partial_results(error.what(), output);
-} catch (const InputError& error) {
-  context.progress.clear();
-  fail_with_partial_results(error.what(), output);
+/// Everything after the folder was prepared: from here on nothing is bad input. What is gathered and not yet
+/// compared is no result.
+void compute(Job& job, RunContext& context, RunFolder& output, const Gathering* gathering)
+{
+  const auto fail = [&](const std::string& reason) {
+    context.progress.clear();
+    if (gathering != nullptr) throw ComputationError(reason);
+    fail_with_partial_results(reason, output);
+  };
+  try {
+    if (gathering != nullptr) job.task->join_parts(context, gathering->folders);
+    if (!interrupted()) job.task->run(context);
+  } catch (const ComputationError& error) {
+    fail(error.what());
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
 }
 
 /// The end of a run whose results are written: what came of it, on the terminal.
 int conclude(const Job& job, RunFolder& output, const boost::json::object& document, double seconds)
 {
   if (!interrupted()) output.done();
-  fmt::print("{}\n\n{}", job.prepared->experiment.name, job.task->summary());
-  fmt::print("{:.2f} s\n", seconds);
+  say("{}\n\n{}", job.prepared->experiment.name, job.task->summary());
+  say("{:.2f} s\n", seconds);
   const bool missed = !interrupted() && report_expectations(job.prepared->experiment, document);
   std::string names = results_file;
   for (const auto& [what, name] : document.at("files").as_object())
     names += ", " + std::string(name.as_string());
-  fmt::print("results in {}: {}\n", output.directory().string(), names);
+  say("results in {}: {}\n", output.directory().string(), names);
   if (interrupted()) {
-    fmt::print("{}", interrupted_note);
+    say("{}", interrupted_note);
     return exit_interrupted;
   }
   return missed || job.task->failed() ? exit_failed : exit_done;
@@ -174,14 +181,13 @@ int run_experiment(Job& job, const RunRequest& request)
     // What was found is in logs; results that were not compared must not look final.
     context.save = context.save_sometimes = [] {};
     context.memory = request.gathering->memory;
-    job.task->join_parts(context, request.gathering->folders);
   }
-  compute(job, context, output);
+  compute(job, context, output, request.gathering);
   progress.clear();
   if (request.gathering != nullptr) {
     request.gathering->check();
     if (interrupted()) {
-      fmt::print("interrupted; the same command goes on\n");
+      say("interrupted; the same command goes on\n");
       return exit_interrupted;
     }
   }

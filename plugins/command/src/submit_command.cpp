@@ -1,6 +1,8 @@
 #include "dispatch.hpp"
 #include "document/atomic_file.hpp"
 #include "part_run.hpp"
+#include "run/folder_lock.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -51,6 +53,7 @@ struct Submission {
   fs::path script(const char* file) const { return folder / parts_folder / file; }
   std::string head(const std::string& output) const;
   std::string part() const;
+  std::string set_gather() const;
   std::string array() const;
   std::string gather() const;
   std::string one_job() const;
@@ -85,39 +88,50 @@ std::string Submission::array() const
   return head("array-%A_%a.out") + fmt::format("exec /bin/sh {}\n", quoted(script(part_script).string()));
 }
 
+/// The command that gathers, in the variable `gather` of a script's positional parameters. A job that the
+/// scheduler has begun again takes the folder from its former self, whichever node that was on.
+std::string Submission::set_gather() const
+{
+  return fmt::format(
+      "folder={}\n"
+      "set -- {} gather \"$folder\" --quiet\n"
+      "if [ \"${{SLURM_RESTART_COUNT:-0}}\" -gt 0 ] && [ -f \"$folder/{}\" ]; then\n"
+      "  set -- \"$@\" --take-over \"$(cut -d' ' -f1,2 \"$folder/{}\" | tr ' ' ':')\"\n"
+      "fi\n",
+      quoted(folder.string()), quoted(program), lock_file, lock_file);
+}
+
 std::string Submission::gather() const
 {
-  const std::string gather = fmt::format("{} gather {}", quoted(program), quoted(folder.string()));
   return head("gather-%j.out") +
          fmt::format(
              "# Joins the parts. Those that are missing are submitted again, so many times:\n"
              "left=${{1:-{}}}\n"
-             "missing=$({} --missing) || exit\n"
+             "{}missing=$(\"$@\" --missing) || exit\n"
              "if [ -n \"$missing\" ] && [ \"$left\" -gt 0 ]; then\n"
              "  echo \"parts $missing are missing: they are submitted again\"\n"
              "  job=$(sbatch --parsable --array=\"$missing\" {}) || exit\n"
              "  sbatch --parsable --dependency=\"afterany:${{job%%;*}}\" {} $((left - 1))\n"
              "  exit\n"
              "fi\n"
-             "exec {}\n",
-             resubmissions, gather, quoted(script(array_script).string()),
-             quoted(script(gather_script).string()), gather);
+             "exec \"$@\"\n",
+             resubmissions, set_gather(), quoted(script(array_script).string()),
+             quoted(script(gather_script).string()));
 }
 
 std::string Submission::one_job() const
 {
-  const std::string gather = fmt::format("{} gather {}", quoted(program), quoted(folder.string()));
   return head("steps-%j.out") +
          fmt::format(
              "# All parts as one step of this job; those that are missing after it once more, so many times:\n"
              "left={}\n"
              "export SRUN_CPUS_PER_TASK=\"${{SLURM_CPUS_PER_TASK:-1}}\"\n"
-             "while missing=$({} --missing) && [ -n \"$missing\" ] && [ \"$left\" -ge 0 ]; do\n"
+             "{}while missing=$(\"$@\" --missing) && [ -n \"$missing\" ] && [ \"$left\" -ge 0 ]; do\n"
              "  srun --kill-on-bad-exit=0 /bin/sh {}\n"
              "  left=$((left - 1))\n"
              "done\n"
-             "exec {}\n",
-             resubmissions, gather, quoted(script(part_script).string()), gather);
+             "exec \"$@\"\n",
+             resubmissions, set_gather(), quoted(script(part_script).string()));
 }
 
 /// What a command prints, up to its first line break. Throws ComputationError where it fails; what it says of
@@ -133,8 +147,8 @@ std::string output_of(const std::string& command)
   const int status = ::pclose(pipe);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || text.empty())
     throw ComputationError(fmt::format(
-        "the scheduler took nothing: {} (status {}); the scripts stay, and can be submitted by hand", command,
-        WIFEXITED(status) ? WEXITSTATUS(status) : -1));
+        "the scheduler did not take a job (status {}); the scripts stay, and what is left to submit is: {}",
+        WIFEXITED(status) ? WEXITSTATUS(status) : -1, command));
   return text.substr(0, text.find('\n'));
 }
 
@@ -167,7 +181,7 @@ Submission submission_of(const Options& options)
     throw UsageError("give either --array N or --steps N", options.usage());
   Submission s;
   s.steps = options.has("steps");
-  s.division = division_of(options, parts_of(options, s.steps ? "steps" : "array"));
+  s.division = {parts_of(options, s.steps ? "steps" : "array"), {}, {}, {}, {}};
   s.folder = fs::absolute(output_folder(options)).lexically_normal();
   s.program = this_program();
   s.options = options.list("sbatch");
@@ -241,15 +255,13 @@ int submit_command(const std::vector<std::string>& words)
   options.parse(words);
   if (!options.has("engine") || options.get<std::string>("engine") != "slurm")
     throw UsageError("--engine: expected slurm", options.usage());
-  const Submission s = submission_of(options);
+  Submission s = submission_of(options);
   refuse_for_slurm(s.folder);
   const Job job = open_job(options);
   refuse_whole(job);
   warn_of_plugins(*job.prepared);
+  s.division = division_of(options, job, s.division.count);
   const fs::path scripts = s.folder / parts_folder;
-  std::error_code failed;
-  fs::create_directories(scripts, failed);
-  if (failed) throw InputError(fmt::format("{}: cannot be made: {}", scripts.string(), failed.message()));
   enter_division(s.folder, s.division);
   std::vector<NamedContent> files{{part_script, s.part()}};
   if (s.steps) {
@@ -267,21 +279,21 @@ int submit_command(const std::vector<std::string>& words)
   };
   const std::string steps = quoted(s.script(steps_script).string());
   if (options.has("dry-run")) {
-    fmt::print("scripts in {}; submit them with\n", scripts.string());
+    say("scripts in {}; submit them with\n", scripts.string());
     if (s.steps)
-      fmt::print("  sbatch {}\n", steps);
+      say("  sbatch {}\n", steps);
     else
-      fmt::print("  job=$(sbatch --parsable {}) && sbatch {}\n", array, gather("${job%%;*}"));
+      say("  job=$(sbatch --parsable {}) && sbatch {}\n", array, gather("${job%%;*}"));
     return exit_done;
   }
   if (s.steps) {
-    fmt::print("job {}: {} parts as its steps, and gathering them\n", submit(steps), s.division.count);
+    say("job {}: {} parts as its steps, and gathering them\n", submit(steps), s.division.count);
   } else {
     const std::string first = submit(array);
-    fmt::print("job {}: {} parts\n", first, s.division.count);
-    fmt::print("job {}: gathering them\n", submit(gather(first)));
+    say("job {}: {} parts\n", first, s.division.count);
+    say("job {}: gathering them\n", submit(gather(first)));
   }
-  fmt::print("results will be in {}; messages of the jobs are in {}\n", s.folder.string(), scripts.string());
+  say("results will be in {}; messages of the jobs are in {}\n", s.folder.string(), scripts.string());
   return exit_done;
 }
 

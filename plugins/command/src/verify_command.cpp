@@ -3,6 +3,7 @@
 #include "experiment_options.hpp"
 #include "options.hpp"
 #include "results/document.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/experiment/stored_shapes.hpp>
@@ -78,7 +79,10 @@ int verify_command(const std::vector<std::string>& words)
   if (std::filesystem::is_directory(file, unknown)) file /= results_file;
   const std::shared_ptr<const Registry> registry = open_registry(options);
   const VerifyReport report = verify(read_json_file(file.string()), {}, StoredShapes(plugins_of(*registry)));
-  fmt::print("{}", options.has("json") ? write_json(as_json(report)) : report.text());
+  if (options.has("json"))
+    say_json(write_json(as_json(report)));
+  else
+    say("{}", report.text());
   return report.ok ? exit_done : exit_failed;
 }
 

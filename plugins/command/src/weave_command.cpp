@@ -7,6 +7,7 @@
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
 #include "run/weave_library.hpp"
+#include "say.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -86,14 +87,17 @@ int weave_command(const std::vector<std::string>& words)
   const maker::Sheet sheet =
       maker::answer(weave, question, lookup, open_registry(options), available_processors(), progress);
   const std::string text = maker::sheet_text(sheet), json = write_json(maker::sheet_json(sheet));
-  fmt::print("{}", options.has("json") ? json : text);
+  if (options.has("json"))
+    say_json(json);
+  else
+    say("{}", text);
   if (!kept) return exit_done;
   write_files_atomically(folder,
                          {{"weave.txt", text},
                           {"weave.json", json},
                           {"experiment.json", maker::experiment_text(weave, question, 0.0)}},
                          sheet_files);
-  if (!options.has("json")) fmt::print("\nwritten to {}; experiment.json runs again\n", folder.string());
+  if (!options.has("json")) say("\nwritten to {}; experiment.json runs again\n", folder.string());
   return exit_done;
 }
 

@@ -56,6 +56,13 @@ class ChartTask final : public TaskRun {
             {"runs_per_point", chart_.repeats}};
   }
 
+  /// Every run of a point as the experiment itself.
+  Work work(const Plan& plan) const override
+  {
+    const double runs = static_cast<double>(chart_.points.size()) * chart_.repeats;
+    return work_of(plan, plan.searches).times(runs);
+  }
+
   bool measures_time() const override { return true; }
 
   bool resume(const json::value& results) override

@@ -9,6 +9,7 @@
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
 #include "run/limits_run.hpp"
+#include "run/machine.hpp"
 #include "run/nearest_node.hpp"
 #include "run/plan_text.hpp"
 #include "run/presets.hpp"
@@ -45,6 +46,23 @@ bool ended_well(const std::string& status)
 {
   return status != "failed" && status != "interrupted" && status != "infeasible";
 }
+
+/// Notes the first evaluation of a search, and knows none.
+class FirstEvaluation final : public EvaluationMemory {
+ public:
+  bool recall(DesignPoint& /*p*/, long& /*evaluations*/) override { return false; }
+  void record(const DesignPoint& p, long evaluations) override
+  {
+    if (record_.empty()) record_ = evaluation_record(p, evaluations);
+  }
+  bool recall_states(DesignPoint& /*p*/) override { return false; }
+  void record_states(const DesignPoint& /*p*/) override {}
+
+  const std::string& text() const { return record_; }
+
+ private:
+  std::string record_;
+};
 
 class DesignTask final : public TaskRun {
  public:
@@ -112,6 +130,17 @@ class DesignTask final : public TaskRun {
             {"final_search", search(0.0)}, {"limits_before_and_after", 2 * tasks_.size()}};
   }
 
+  /// The limits before and after, and from every start one evaluation of the searched ones.
+  Work work(const Plan& plan) const override
+  {
+    const double searched = (spec_.quantity == DesignQuantity::eta ? 2.0 : 1.0) * spec_.targets.size();
+    Work work = work_of(plan, plan.searches).times(2.0);
+    const Work starts = work_of(plan, searched).times(spec_.starts);
+    work.searches += starts.searches;
+    work.evaluations += starts.evaluations;
+    return work;
+  }
+
   bool resume(const boost::json::value& results) override
   {
     const boost::json::value& design = results.at("design");
@@ -165,36 +194,35 @@ class DesignTask final : public TaskRun {
                   {},
                   memory ? &*memory : nullptr},
                  context.progress, share);
-    const auto& section = *experiment_.section<ExperimentDesign>();
-    const TappedOptimizer optimizer(*section.optimizer, section.max_iterations, [](const DesignPoint&) {});
     for (int start = 0; start < spec_.starts && !interrupted(); ++start) {
       if (!share.has(static_cast<std::size_t>(start))) continue;
-      EvaluationLog log(next_log(context.folder, start), context.identity(), true,
+      EvaluationLog log(next_log(start), part_identity(context.identity(), this_machine().processor), true,
                         [&](const std::string& warning) { context.progress.warn(warning); });
-      search_start(
-          prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
-          optimizer, context.threads, start,
-          [&](const DesignProgress& p) {
-            context.progress.design(p, spec_, false);
-            return !interrupted();
-          },
-          log);
+      search(start, log, [&](const DesignProgress& p) {
+        context.progress.design(p, spec_, false);
+        return !interrupted();
+      });
     }
     context.progress.clear();
   }
 
+  /// Of every start the first evaluation is made once more and compared.
   void join_parts(RunContext& context, const std::vector<std::filesystem::path>& folders) override
   {
-    std::vector<std::filesystem::path> logs;
-    for (int start = 0; start < spec_.starts; ++start) {
-      std::vector<std::filesystem::path> of_start;
+    context_ = &context;
+    std::vector<StartLog> logs;
+    for (int start = 0; start < spec_.starts && !interrupted(); ++start) {
+      std::vector<StartLog> of_start;
       for (const std::filesystem::path& folder : folders) {
-        const std::vector<std::filesystem::path> there = logs_in(folder, log_name(start));
-        of_start.insert(of_start.end(), there.begin(), there.end());
+        for (const std::filesystem::path& file : logs_in(folder, log_name(start)))
+          of_start.push_back(start_log(file, context.identity()));
       }
       if (of_start.empty()) break;  // searched now, as all that follow
-      logs.push_back(longest_of(of_start));
+      logs.push_back(
+          longest_of(of_start, [&](const std::string& warning) { context.progress.warn(warning); }));
+      check_first(start, logs.back());
     }
+    if (interrupted()) return;
     join_evaluations(logs, context.identity(), context.folder / journal_file);
     context.resumed = true;
   }
@@ -232,15 +260,51 @@ class DesignTask final : public TaskRun {
 
   static std::string log_name(int start) { return fmt::format("start-{}", start); }
 
-  /// A log of a start that no other run writes, with what others have found of it.
-  static std::filesystem::path next_log(const std::filesystem::path& folder, int start)
+  /// A log of a start for this process alone, with what others have found of it.
+  std::filesystem::path next_log(int start) const
   {
-    const std::vector<std::filesystem::path> there = logs_in(folder, log_name(start));
-    std::filesystem::path next;
-    for (std::size_t k = there.size() + 1; next.empty() || std::filesystem::exists(next); ++k)
-      next = folder / fmt::format("{}-{}.log", log_name(start), k);
-    if (!there.empty()) std::filesystem::copy_file(longest_of(there), next);
+    std::vector<StartLog> there;
+    for (const std::filesystem::path& file : logs_in(context_->folder, log_name(start))) {
+      if (std::filesystem::file_size(file) > 0) there.push_back(start_log(file, context_->identity()));
+    }
+    // Of this kind of processor: a search goes on from its own numbers.
+    std::erase_if(there, [](const StartLog& log) { return log.processor != this_machine().processor; });
+    const std::filesystem::path next = claim_log(context_->folder, log_name(start));
+    if (!there.empty())
+      std::filesystem::copy_file(longest_of(there, [](const std::string&) {}).file, next,
+                                 std::filesystem::copy_options::overwrite_existing);
     return next;
+  }
+
+  /// A search from one start, for its memory. What ends it early ends it again where it is asked for.
+  void search(int start, EvaluationMemory& memory, const DesignObserver& observer) const
+  {
+    const auto& section = *experiment_.section<ExperimentDesign>();
+    const TappedOptimizer optimizer(*section.optimizer, section.max_iterations, [](const DesignPoint&) {});
+    try {
+      search_start(prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings,
+                   spec_, optimizer, context_->threads, start, observer, memory);
+    } catch (const SearchInterrupted&) {
+    } catch (const InputError&) {
+    } catch (const ComputationError&) {
+    }
+  }
+
+  /// Throws ComputationError where the first evaluation of a log is not what it is here, though it should be.
+  void check_first(int start, const StartLog& log) const
+  {
+    FirstEvaluation first;
+    search(start, first, [](const DesignProgress&) { return false; });
+    const std::string there = first_evaluation(log.file);
+    if (first.text().empty() || there.empty() || first.text() == there) return;
+    if (log.processor == this_machine().processor)
+      throw ComputationError(fmt::format(
+          "{}: its first evaluation is not what it is here, though the processors are of one kind: a file or a "
+          "memory is damaged; remove its folder and compute its part again",
+          log.file.string()));
+    context_->progress.warn(fmt::format(
+        "warning: {}: its first evaluation is not what it is here: processors of several kinds round differently",
+        log.file.string()));
   }
 
   /// What the run remembers of one of its computations of limits.

@@ -151,21 +151,7 @@ void EvaluationLog::record(const DesignPoint& p, long evaluations)
 {
   forget();
   closest_points_ += evaluations;
-  RecordWriter out(evaluation_mark);
-  out.numbers(p.x);
-  out.number(evaluations);
-  out.number(p.evaluated ? 1 : 0);
-  out.number(p.continued ? 1 : 0);
-  out.words(p.why);
-  out.numbers(std::vector<double>(p.changed.begin(), p.changed.end()));
-  out.numbers(p.values);
-  out.number(p.objective);
-  out.numbers(all_of(p.gradient));
-  if (p.evaluated)
-    out.numbers({p.value_gradients.data(), static_cast<std::size_t>(p.value_gradients.size())});
-  else
-    out.numbers(std::vector<double>(p.values.size() * p.x.size(), 0.0));
-  write(std::move(out).line());
+  write(record_line(evaluation_record(p, evaluations)));
 }
 
 bool EvaluationLog::recall_states(DesignPoint& p)
@@ -220,41 +206,102 @@ void EvaluationLog::record_states(const DesignPoint& p)
   write(std::move(out).line());
 }
 
-void join_evaluations(const std::vector<fs::path>& logs, std::string_view identity, const fs::path& file)
+namespace {
+
+constexpr std::string_view on = " on ";
+
+std::string text_of_log(const fs::path& log) { return read_whole_file(log.string(), largest_results); }
+
+/// Without its first line, and without what a kill cut off.
+std::string lines_of_log(const fs::path& log)
 {
-  const std::string first = std::string(format_name) + std::string(identity) + "\n";
-  std::string joined = first;
-  for (const fs::path& log : logs) {
-    const std::string text = read_whole_file(log.string(), largest_results);
-    if (!text.starts_with(first))
-      throw InputError(fmt::format(
-          "{}: is of another experiment or build; remove it and compute its part again", log.string()));
-    joined += std::string_view(text).substr(first.size());
-  }
-  std::error_code unknown;
-  if (fs::symlink_status(file, unknown).type() == fs::file_type::regular &&
-      read_whole_file(file.string(), largest_results).starts_with(joined))
-    return;
-  write_files_atomically(file.parent_path(), {{file.filename().string(), joined}}, {});
+  std::string text = text_of_log(log);
+  text.resize(text.rfind('\n') + 1);
+  return text.substr(std::min(text.size(), text.find('\n') + 1));
 }
 
-fs::path longest_of(const std::vector<fs::path>& logs)
+}  // namespace
+
+std::string part_identity(std::string_view identity, const std::string& processor)
 {
-  fs::path best;
-  std::string longest;
-  for (const fs::path& log : logs) {
-    std::string text = read_whole_file(log.string(), largest_results);
-    text.resize(text.rfind('\n') + 1);  // what a kill cut off
-    const std::string_view common = std::string_view(longest).substr(0, text.size());
-    if (!best.empty() && !text.starts_with(common))
-      throw InputError(fmt::format(
-          "{} and {}: are of one search and differ; remove one of them, or both and compute their part again",
-          best.string(), log.string()));
-    if (!best.empty() && text.size() <= longest.size()) continue;
-    best = log;
+  RecordWriter out('P');
+  out.words(processor);
+  return std::string(identity) + std::string(on) + out.text();
+}
+
+StartLog start_log(const fs::path& file, std::string_view identity)
+{
+  const std::string text = text_of_log(file), first = std::string(format_name) + std::string(identity);
+  const std::string_view line = std::string_view(text).substr(0, text.find('\n'));
+  if (line.starts_with(first) && line.substr(first.size()).starts_with(on)) {
+    RecordReader in(line.substr(first.size() + on.size() + 1));
+    StartLog log{file, in.words()};
+    if (in.good && in.ended()) return log;
+  }
+  throw ComputationError(fmt::format(
+      "{}: is of another experiment or build, or damaged; remove its folder and compute its part again",
+      file.string()));
+}
+
+StartLog longest_of(const std::vector<StartLog>& logs, const std::function<void(const std::string&)>& warn)
+{
+  StartLog best = logs.front();
+  std::string longest = lines_of_log(best.file);
+  for (auto log = logs.begin() + 1; log != logs.end(); ++log) {
+    std::string text = lines_of_log(log->file);
+    if (!text.starts_with(std::string_view(longest).substr(0, text.size()))) {
+      const std::string both = fmt::format("{} and {}", best.file.string(), log->file.string());
+      if (log->processor == best.processor)
+        throw ComputationError(fmt::format(
+            "{}: are of one search and differ, though the processors are of one kind: a file or a memory is "
+            "damaged; remove the folder and compute its part again",
+            both));
+      warn(fmt::format(
+          "warning: {}: are of one search and differ: processors of several kinds round differently", both));
+      continue;
+    }
+    if (text.size() <= longest.size()) continue;
+    best = *log;
     longest = std::move(text);
   }
   return best;
+}
+
+std::string evaluation_record(const DesignPoint& p, long evaluations)
+{
+  RecordWriter out(evaluation_mark);
+  out.numbers(p.x);
+  out.number(evaluations);
+  out.number(p.evaluated ? 1 : 0);
+  out.number(p.continued ? 1 : 0);
+  out.words(p.why);
+  out.numbers(std::vector<double>(p.changed.begin(), p.changed.end()));
+  out.numbers(p.values);
+  out.number(p.objective);
+  out.numbers(all_of(p.gradient));
+  if (p.evaluated)
+    out.numbers({p.value_gradients.data(), static_cast<std::size_t>(p.value_gradients.size())});
+  else
+    out.numbers(std::vector<double>(p.values.size() * p.x.size(), 0.0));
+  return out.text();
+}
+
+std::string first_evaluation(const fs::path& log)
+{
+  const std::string lines = lines_of_log(log);
+  const auto record = undamaged_record(std::string_view(lines).substr(0, lines.find('\n')));
+  return record ? std::string(*record) : std::string();
+}
+
+void join_evaluations(const std::vector<StartLog>& logs, std::string_view identity, const fs::path& file)
+{
+  std::string joined = std::string(format_name) + std::string(identity) + "\n";
+  for (const StartLog& log : logs) joined += lines_of_log(log.file);
+  std::error_code unknown;
+  if (fs::symlink_status(file, unknown).type() == fs::file_type::regular &&
+      text_of_log(file).starts_with(joined))
+    return;
+  write_files_atomically(file.parent_path(), {{file.filename().string(), joined}}, {});
 }
 
 }  // namespace hauberk

@@ -70,6 +70,12 @@ class StabilityTask final : public TaskRun {
             {"cases", map_.cases.size()}};
   }
 
+  /// Every scene as the experiment itself.
+  Work work(const Plan& plan) const override
+  {
+    return work_of(plan, plan.searches).times(static_cast<double>(items_.size()));
+  }
+
   /// The experiment is the same, so its cases are the same and in the same order.
   bool resume(const json::value& results) override
   {

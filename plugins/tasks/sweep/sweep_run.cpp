@@ -6,6 +6,7 @@
 #include "run/text_table.hpp"
 #include "run/variant_run.hpp"
 #include "tasks/sweep/row_lessons.hpp"
+#include "tasks/sweep/sweep_task.hpp"
 #include "tasks/variants/grid.hpp"
 
 #include <fmt/format.h>
@@ -146,6 +147,27 @@ std::string cell(const SweepRow& row, std::size_t measure)
   return fmt::format("{:.8g}", *row.measured[measure]);
 }
 
+/// Rows without results and why, as many and as much of each as one reads.
+std::string remarks(const SweepTable& table)
+{
+  constexpr std::size_t most_rows = 50, most_characters = 300;
+  std::string text;
+  std::size_t without = 0;
+  for (std::size_t k = 0; k < table.rows.size(); ++k) {
+    const SweepRow& row = table.rows[k];
+    if ((row.status != RowStatus::failed && row.status != RowStatus::refused) || ++without > most_rows)
+      continue;
+    std::size_t end = std::min(row.message.size(), most_characters);
+    while (end < row.message.size() && (static_cast<unsigned char>(row.message[end]) & 0xc0U) == 0x80U) --end;
+    text += fmt::format("row {}, {}: {}{}\n", k, to_string(row.status), row.message.substr(0, end),
+                        end < row.message.size() ? " ..." : "");
+  }
+  if (without > most_rows)
+    text += fmt::format("{} more rows without results, {} in all; what is wrong with each is in {}\n",
+                        without - most_rows, without, sweep_file_names.front());
+  return text;
+}
+
 }  // namespace
 
 SweepTable empty_table(const ExperimentSweep& from)
@@ -212,13 +234,7 @@ std::string sweep_summary(const SweepTable& table)
     for (std::size_t k = 0; k < table.measures.size(); ++k) line.push_back(cell(row, k));
     line.push_back(to_string(row.status));
   }
-  std::string text = text_table(cells);
-  for (std::size_t k = 0; k < table.rows.size(); ++k) {
-    const SweepRow& row = table.rows[k];
-    if (row.status == RowStatus::failed || row.status == RowStatus::refused)
-      text += fmt::format("row {}, {}: {}\n", k, to_string(row.status), row.message);
-  }
-  return text;
+  return text_table(cells) + remarks(table);
 }
 
 }  // namespace hauberk

@@ -45,6 +45,14 @@ class SweepTask final : public TaskRun {
             {"limits_per_row", limit_tasks().size()}};
   }
 
+  /// Every row as the experiment itself.
+  Work work(const Plan& plan) const override
+  {
+    const auto rows = std::count_if(readings_.begin(), readings_.end(),
+                                    [](const VariantReading& row) { return row.experiment.has_value(); });
+    return work_of(plan, plan.searches).times(static_cast<double>(rows));
+  }
+
   /// Rows of the same experiment are the same and in the same order.
   bool resume(const boost::json::value& results) override
   {

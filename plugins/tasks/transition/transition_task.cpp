@@ -103,6 +103,16 @@ class TransitionTask final : public TaskRun {
     return fmt::format("{} paths, {} formulations", spec_.paths.size(), spec_.contacts.size());
   }
 
+  /// Each formulation at every step, of which the result has a row.
+  Work work(const Plan& /*plan*/) const override
+  {
+    constexpr double row_bytes = 64.0;
+    double steps = 0.0;
+    for (const TransitionMotion& path : spec_.paths) steps += path.steps;
+    const double count = steps * static_cast<double>(spec_.contacts.size());
+    return {0.0, count, row_bytes * count};
+  }
+
   /// Quick enough to be computed anew unless it is complete.
   bool resume(const boost::json::value& results) override
   {

@@ -60,12 +60,13 @@ TEST(PartList, IsThatOfSlurm)
 
 TEST_F(PartFolder, HoldsOneDivision)
 {
-  const Division d{8, "/a/b \"c\".json", {"/x=1", "y=\"2\""}, {"/lib"}};
+  const Division d{8, "0a1b", "/a/b \"c\".json", {"/x=1", "y=\"2\""}, {"/lib"}};
   EXPECT_THROW(read_division(folder_), InputError);
   enter_division(folder_, d);
   enter_division(folder_, d);  // by another part
   const Division there = read_division(folder_);
   EXPECT_EQ(there.count, d.count);
+  EXPECT_EQ(there.identity, d.identity);
   EXPECT_EQ(there.experiment, d.experiment);
   EXPECT_EQ(there.set, d.set);
   EXPECT_EQ(there.libraries, d.libraries);
@@ -73,27 +74,39 @@ TEST_F(PartFolder, HoldsOneDivision)
   other.count = 7;
   EXPECT_THROW(enter_division(folder_, other), InputError);
   other = d;
-  other.set.pop_back();
+  other.identity = "0a1c";
   EXPECT_THROW(enter_division(folder_, other), InputError);
   other = d;
-  other.experiment = "/a.json";
-  EXPECT_THROW(enter_division(folder_, other), InputError);
+  other.experiment = "/another/way/to/the/same.json";
+  enter_division(folder_, other);
+  EXPECT_EQ(read_division(folder_).experiment, d.experiment);
 }
 
 TEST_F(PartFolder, DamagedDivisionsAreRefused)
 {
   const fs::path file = folder_ / parts_folder / parts_file;
-  for (const char* text :
-       {"", "{}", "[]", R"({"format": "hauberk-parts/2"})",
-        R"({"format": "hauberk-parts/1", "parts": 0, "experiment": "", "set": [], "plugin_path": []})",
-        R"({"format": "hauberk-parts/1", "parts": 1e300, "experiment": "", "set": [], "plugin_path": []})",
-        R"({"format": "hauberk-parts/1", "parts": 2, "experiment": 3, "set": [], "plugin_path": []})"}) {
+  for (
+      const char* text :
+      {"", "{}", "[]", R"({"format": "hauberk-parts/2"})",
+       R"({"format": "hauberk-parts/1", "parts": 0, "identity": "", "experiment": "", "set": [], "plugin_path": []})",
+       R"({"format": "hauberk-parts/1", "parts": 1e300, "identity": "", "experiment": "", "set": [], "plugin_path": []})",
+       R"({"format": "hauberk-parts/1", "parts": 2, "identity": "", "experiment": 3, "set": [], "plugin_path": []})"}) {
     std::ofstream(file) << text;
     EXPECT_THROW(read_division(folder_), InputError) << text;
   }
   fs::remove(file);
   ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);  // must not be waited for
   EXPECT_THROW(read_division(folder_), InputError);
+}
+
+TEST_F(PartFolder, LogsAreClaimedOnce)
+{
+  const fs::path first = claim_log(folder_, "a"), second = claim_log(folder_, "a");
+  EXPECT_EQ(first, folder_ / "a-1.log");
+  EXPECT_EQ(second, folder_ / "a-2.log");
+  fs::create_symlink("/dev/null", folder_ / "a-3.log");
+  EXPECT_EQ(claim_log(folder_, "a"), folder_ / "a-4.log");
+  EXPECT_THROW(claim_log(folder_ / "nowhere", "a"), ComputationError);
 }
 
 TEST_F(PartFolder, LogsComeInTheOrderOfTheirNumbers)

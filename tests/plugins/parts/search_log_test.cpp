@@ -112,6 +112,21 @@ TEST_F(SearchLog, OutcomesThatDifferAreConflicts)
   EXPECT_FALSE(conflicts[1].one_processor);
 }
 
+/// Every two of one kind of processor are compared, also where the first is of another.
+TEST_F(SearchLog, OutcomesOfOneKindAreCompared)
+{
+  SearchLogs in = logs();
+  in.read(written({1.0}, "P"));
+  in.read(written({1.1}, "Q"));
+  in.read(written({1.2}, "Q"));
+  const auto conflicts = in.conflicts();
+  ASSERT_EQ(conflicts.size(), 3U);
+  EXPECT_EQ(std::count_if(conflicts.begin(), conflicts.end(), [](const auto& c) { return c.one_processor; }),
+            1);
+  in.read(written({1.0}, "Q"));  // as the first, and unlike both of its kind
+  EXPECT_EQ(in.conflicts().size(), 5U);
+}
+
 /// One search of each log is done once more, and only that.
 TEST_F(SearchLog, ChecksOneOfEach)
 {
@@ -122,6 +137,7 @@ TEST_F(SearchLog, ChecksOneOfEach)
     EXPECT_FALSE(in.recall("s0"));
     EXPECT_FALSE(in.recall("s0")) << "not done yet";
     EXPECT_TRUE(in.recall("s1"));
+    EXPECT_EQ(in.checked().first, 0U) << "a search that is never done is not compared";
     in.record("s0", outcome(found), 9.0);
     EXPECT_EQ(in.checked(), (std::pair<std::size_t, std::size_t>(1, 1)));
     EXPECT_EQ(in.conflicts().size(), found == 1.0 ? 0U : 1U);

@@ -11,6 +11,8 @@ namespace hauberk {
 
 /// Its name in a folder of results.
 inline constexpr const char* designed_file = "designed.json";
+/// That of the best design of a search that is not done.
+inline constexpr const char* best_so_far_file = "best_so_far.json";
 
 /// Rewrites the resolved experiment (strict JSON text) so that it describes `scene`, the final design at its
 /// relaxed rest state: every placed element k gets its own entry `<type>_<k>` in `elements` with all its

@@ -138,7 +138,11 @@ TEST(Design, AnInterruptLeavesTheBestSoFar)
   EXPECT_FALSE(r.at_pointer("/design/history").as_array().empty());
   EXPECT_NE(number_at(r, "/design/variables/0/final"), 4.9);
   EXPECT_EQ(number_at(r, "/scene/elements/0/parameters/ring.R"), number_at(r, "/design/variables/0/final"));
-  EXPECT_TRUE(fs::exists(folder.path() / "out" / "designed.json"));
+  // Nothing looks finished, and nothing is not a number.
+  EXPECT_FALSE(fs::exists(folder.path() / "out" / "designed.json"));
+  EXPECT_EQ(o.out.find("nan"), std::string::npos) << o.out;
+  EXPECT_EQ(r.at_pointer("/files/best_so_far").as_string(), "best_so_far.json");
+  EXPECT_EQ(run_program({"check", folder / "out/best_so_far.json"}).code, 0);
   // What the search cost is what its log says: lines of "E", the number of variables, the variables, the
   // cost.
   std::ifstream log(folder.path() / "out" / ".hauberk-evaluations");

@@ -3,18 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hauberk {
 namespace {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6f}", *value) : "-"; }
 
+/// An objective is not known where some limit is not.
+std::string known(double objective)
+{
+  return std::isfinite(objective) ? fmt::format("{:.4e}", objective) : std::string("not known");
+}
+
 std::string design_table(const DesignResult& d, int starts)
 {
   std::string text = fmt::format("Design of {}: {}", d.quantity, d.status);
   if (!d.message.empty()) text += " (" + d.message + ")";
-  text += fmt::format("\nobjective {:.4e} -> {:.4e}, {} iterations, {:.1f} s, start {} of {}\n",
-                      d.objective_initial, d.objective, d.iterations, d.seconds, d.start + 1, starts);
+  text += fmt::format("\nobjective {} -> {}, {} iterations, {:.1f} s, start {} of {}\n",
+                      known(d.objective_initial), known(d.objective), d.iterations, d.seconds, d.start + 1,
+                      starts);
   text += fmt::format("{:>10} {:>10} {:>10} {:>12} {:>11}  {}\n", "direction", "target", "initial",
                       "provisional", "recomputed", "met");
   std::size_t met = 0;
@@ -28,28 +36,32 @@ std::string design_table(const DesignResult& d, int starts)
   return text;
 }
 
-/// What was designed, and which bounds hold it.
-std::string variables_table(const DesignResult& d, const std::string& unit)
+/// What was designed, and which bounds hold it. A unit that all have is in the head.
+std::string variables_table(const DesignResult& d, const std::vector<std::string>& units)
 {
   constexpr double at_bound = 1e-6;  // of the width of the bounds
+  const bool one_unit = std::equal(units.begin() + 1, units.end(), units.begin());
   std::size_t width = 8;
   for (const DesignVariableResult& v : d.variables) width = std::max(width, v.name.size());
-  std::string text = fmt::format("{:<{}} {:>12} {:>12}  {}\n", "variable", width, "initial", "final", unit);
-  for (const DesignVariableResult& v : d.variables) {
+  std::string text = fmt::format("{:<{}} {:>12} {:>12}{}\n", "variable", width, "initial", "final",
+                                 one_unit ? "  " + units.front() : "");
+  for (std::size_t k = 0; k < d.variables.size(); ++k) {
+    const DesignVariableResult& v = d.variables[k];
     const double room = at_bound * (v.upper - v.lower);
     const char* bound = v.final <= v.lower + room   ? "  at its lower bound"
                         : v.final >= v.upper - room ? "  at its upper bound"
                                                     : "";
-    text += fmt::format("{:<{}} {:>12.6g} {:>12.6g}{}\n", v.name, width, v.initial, v.final, bound);
+    text += fmt::format("{:<{}} {:>12.6g} {:>12.6g}{}{}\n", v.name, width, v.initial, v.final,
+                        one_unit || units[k].empty() ? "" : " " + units[k], bound);
   }
   return text;
 }
 
 }  // namespace
 
-std::string design_tables(const DesignResult& design, int starts, const std::string& unit)
+std::string design_tables(const DesignResult& design, int starts, const std::vector<std::string>& units)
 {
-  return design_table(design, starts) + "\n" + variables_table(design, unit) + "\n";
+  return design_table(design, starts) + "\n" + variables_table(design, units) + "\n";
 }
 
 }  // namespace hauberk

@@ -4,11 +4,12 @@
 #include "design/design_result.hpp"
 
 #include <string>
+#include <vector>
 
 namespace hauberk {
 
-/// What became of it, target by target and variable by variable. `starts`: how many there were; `unit`: of
-/// lengths.
-std::string design_tables(const DesignResult& design, int starts, const std::string& unit);
+/// What became of it, target by target and variable by variable. `starts`: how many there were; `units`: of
+/// the variables, empty for numbers.
+std::string design_tables(const DesignResult& design, int starts, const std::vector<std::string>& units);
 
 }  // namespace hauberk

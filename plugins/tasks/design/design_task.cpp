@@ -235,17 +235,18 @@ class DesignTask final : public TaskRun {
   std::vector<ResultFile> files(const std::filesystem::path& folder) const override
   {
     std::vector<ResultFile> out = limit_files(prepared_, run_);
-    if (!run_.design) return out;
+    const bool finished = run_.design && run_.design->status != "interrupted";
+    if (!run_.design || (!finished && run_.design->history.empty())) return out;
     const std::string written = write_json(in_folder(experiment_.expanded, experiment_, folder.string()));
-    out.push_back(
-        {"designed", design_file_names.front(), write_json(designed_experiment(written, run_.scene))});
+    out.push_back({finished ? "designed" : "best_so_far", finished ? designed_file : best_so_far_file,
+                   write_json(designed_experiment(written, run_.scene))});
     return out;
   }
 
   std::string summary() const override
   {
     std::string text = rest_remark(prepared_);
-    if (run_.design) text += design_tables(*run_.design, spec_.starts, experiment_.length_unit);
+    if (run_.design) text += design_tables(*run_.design, spec_.starts, units());
     return text + limit_tables(experiment_, run_);
   }
 
@@ -256,6 +257,19 @@ class DesignTask final : public TaskRun {
   }
 
  private:
+  /// Of the variables, as people read them.
+  std::vector<std::string> units() const
+  {
+    std::vector<std::string> out;
+    for (const DesignVariable& v : spec_.variables) {
+      const auto& [element, parameter] = v.entries.front();
+      const std::size_t type = prepared_.scene.elements[element].type;
+      const std::string& unit = prepared_.scene.types[type].shape->parameters()[parameter].unit;
+      out.push_back(unit == "length" ? experiment_.length_unit : unit == "degree" ? "degrees" : "");
+    }
+    return out;
+  }
+
   static constexpr const char *limits_before = "limits before", *limits_after = "limits after";
 
   static std::string log_name(int start) { return fmt::format("start-{}", start); }

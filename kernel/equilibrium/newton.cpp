@@ -285,7 +285,8 @@ class Newton {
     };
     // Shifts that a known direction of negative curvature rules out are not tried.
     if (soft_.size() > 0) {
-      for (const double needed = -soft_.dot(curvature_->times(soft_)); lambda <= needed;) raise();
+      const double needed = -soft_.dot(curvature_->times(soft_));
+      while (lambda <= needed) raise();
     }
     bool softened = false;
     for (int it = 0; it < 60; ++it) {

@@ -28,7 +28,7 @@ struct KnownText {
   const char* name;
   const char* about;
 };
-constexpr KnownText texts[] = {
+constexpr KnownText known_texts[] = {
     {"quadratic", "a convex quadratic, three of six bounds active"},
     {"rosenbrock", "Rosenbrock's valley without bounds"},
     {"rosenbrock_bound", "Rosenbrock's valley cut by a bound"},
@@ -103,7 +103,7 @@ void solve(Trial& trial, const std::string& name)
 
 void add_known_problem_checks(std::vector<Check>& out)
 {
-  for (const KnownText& text : texts) {
+  for (const KnownText& text : known_texts) {
     const std::string name = text.name;
     out.push_back(of_trial("optimizer.solves." + name, PluginKind::optimizer, text.about,
                            [name](Trial& trial) { solve(trial, name); }));

@@ -15,8 +15,8 @@
 namespace hauberk::conformance {
 namespace {
 
-constexpr int states = 12;
-constexpr double rounding = 1e-12;
+constexpr int load_states = 12;
+constexpr double load_rounding = 1e-12;
 
 using Values = std::vector<double>;
 
@@ -26,7 +26,7 @@ void load(Trial& trial)
   const LoadCase& load_case = *object.load_case;
   const std::size_t count = load_case.macro_count();
   bool pulls = false;
-  for (const double theta : angles(trial.random, states)) {
+  for (const double theta : angles(trial.random, load_states)) {
     const Direction direction = Direction::at_radians(theta);
     Values t(count, std::numeric_limits<double>::quiet_NaN());
     load_case.load(direction, t);
@@ -110,7 +110,7 @@ void require_stretch(const LoadCase& load_case, const Values& macro, const Vec3&
 {
   const auto [smallest, largest] = load_case.stretch_range(macro);
   const double factor = lengthening(load_case, macro, T);
-  require(factor >= smallest * (1.0 - rounding) && factor <= largest * (1.0 + rounding),
+  require(factor >= smallest * (1.0 - load_rounding) && factor <= largest * (1.0 + load_rounding),
           "a lattice translation is lengthened by {:.9g}, outside the range of stretch [{:.9g}, {:.9g}]",
           factor, smallest, largest);
 }
@@ -132,9 +132,9 @@ void stretch_range(Trial& trial)
   const LoadCase& load_case = *object.load_case;
   const auto at_rest =
       load_case.stretch_range(Values(static_cast<std::size_t>(load_case.macro_count()), 0.0));
-  require(std::abs(at_rest.first - 1.0) <= rounding && std::abs(at_rest.second - 1.0) <= rounding,
+  require(std::abs(at_rest.first - 1.0) <= load_rounding && std::abs(at_rest.second - 1.0) <= load_rounding,
           "at rest the range of stretch is [{}, {}]; expected [1, 1]", at_rest.first, at_rest.second);
-  for (int draw = 0; draw < 8 * states; ++draw) {
+  for (int draw = 0; draw < 8 * load_states; ++draw) {
     const Values macro = draw_macro(load_case, trial.random, 0.9);
     const auto [smallest, largest] = load_case.stretch_range(macro);
     require(smallest > 0.0 && smallest <= largest && std::isfinite(largest),
@@ -165,7 +165,7 @@ void boundedness(Trial& trial)
   Random& random = trial.random;
   const std::size_t count = load_case.macro_count();
   std::vector<Values> loads;
-  for (const double theta : angles(random, states)) {
+  for (const double theta : angles(random, load_states)) {
     Values t(count);
     load_case.load(Direction::at_radians(theta), t);
     loads.push_back(t);
@@ -256,7 +256,7 @@ void transform(Trial& trial)
     if (!load_case.transform(O, macro, moved)) continue;
     require(load_case.transform(O, doubled, twice), "it transforms some macroscopic states and not others");
     for (std::size_t k = 0; k < count; ++k)
-      require(std::abs(twice[k] - 2.0 * moved[k]) <= rounding, "its transformation is not linear");
+      require(std::abs(twice[k] - 2.0 * moved[k]) <= load_rounding, "its transformation is not linear");
     require(std::abs(squared(moved) - squared(macro)) <= exact * (1.0 + squared(macro)),
             "an isometry changes the square of the metric's norm from {:.9g} to {:.9g}", squared(macro),
             squared(moved));

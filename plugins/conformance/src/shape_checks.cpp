@@ -21,7 +21,7 @@ namespace {
 /// Half of them near the defaults, half from the whole bounds; fewer where a switch is set otherwise.
 int points(const Trial& trial) { return trial.switched ? 4 : 12; }
 /// Of equal quantities that come from different arithmetic, relative to the largest of them.
-constexpr double rounding = 1e-12;
+constexpr double shape_rounding = 1e-12;
 
 using Values = std::vector<double>;
 
@@ -50,7 +50,7 @@ void parameters(Trial& trial)
   }
 }
 
-void bounds(Trial& trial)
+void parameter_bounds(Trial& trial)
 {
   const Object object = trial.make();
   const std::vector<ParameterInfo>& infos = object.shape->parameters();
@@ -344,7 +344,7 @@ void solid_sizes(Trial& trial)
   if (!any) skip("none of its primitives is a solid");
 }
 
-void scaling(Trial& trial)
+void shape_scaling(Trial& trial)
 {
   const Object object = trial.make();
   const std::vector<ParameterInfo>& infos = object.shape->parameters();
@@ -372,11 +372,11 @@ void scaling(Trial& trial)
         // Sizes of a solid may have any unit; its distances are lengths.
         const std::size_t rows = small[i].solid ? primitive_dofs : std::min(a.size(), b.size());
         const double turned = (small[i].rotation - large[i].rotation).cwiseAbs().maxCoeff();
-        require(turned <= rounding, "with all lengths times {}, '{}' is turned, by {:.3g}", factor,
+        require(turned <= shape_rounding, "with all lengths times {}, '{}' is turned, by {:.3g}", factor,
                 small[i].name, turned);
         if (small[i].solid && large[i].solid) require_scaled(small[i], large[i], factor, trial.random);
         for (std::size_t row = 0; row < rows; ++row)
-          require(std::abs(b[row] - factor * a[row]) <= rounding * largest,
+          require(std::abs(b[row] - factor * a[row]) <= shape_rounding * largest,
                   "with all lengths times {}, {} of '{}' goes from {:.12g} to {:.12g}; expected {:.12g}",
                   factor, quantity_name(small[i], row), small[i].name, a[row], b[row], factor * a[row]);
       }
@@ -394,7 +394,7 @@ void add_shape_checks(std::vector<Check>& out)
     out.push_back(of_trial(name, PluginKind::shape, about, function));
   };
   add("shape.parameters", "parameters have names, units, docs, and defaults within their bounds", parameters);
-  add("shape.bounds", "values outside the bounds are refused with the parameter's name", bounds);
+  add("shape.bounds", "values outside the bounds are refused with the parameter's name", parameter_bounds);
   add("shape.refusals",
       "at the ends of their bounds, parameters make closed primitives or are refused by name", refusals);
   add("shape.primitives", "primitives are closed; names, number and order do not depend on parameters",
@@ -403,7 +403,8 @@ void add_shape_checks(std::vector<Check>& out)
   add("shape.solid_sizes", "sizes of solids move distance and probe as the solid says", solid_sizes);
   add("shape.rotations", "rotations turn as Jacobians say: differences approach them with slope 2",
       rotations);
-  add("shape.scaling", "all lengths times c gives positions and sizes times c, and turns nothing", scaling);
+  add("shape.scaling", "all lengths times c gives positions and sizes times c, and turns nothing",
+      shape_scaling);
   add("shape.surface",
       "surfaces of primitives are closed, do not meet themselves, and are within their spheres",
       check_surfaces);

@@ -14,10 +14,10 @@ namespace {
 
 using std::numbers::pi;
 /// Of distances, relative to the solid's radius: what an iteration leaves.
-constexpr double rounding = 1e-9;
-/// Of central differences with the step below.
+constexpr double solid_rounding = 1e-9;
+/// Of central differences with the chord below.
 constexpr double coarse = 1e-5;
-constexpr double step = 1e-4;
+constexpr double chord = 1e-4;
 constexpr int samples = 40;
 constexpr int searches = 5;  ///< of worst cases
 
@@ -52,16 +52,16 @@ class SolidCheck {
     for (int k = 0; k < samples; ++k) {
       const double u = angle(), v = angle();
       const Vec3 x = solid_.surface_point(angles(u, v));
-      require(x.norm() <= size_ * (1.0 + rounding),
+      require(x.norm() <= size_ * (1.0 + solid_rounding),
               "a surface point of '{}' is {:.9g} from its origin, its radius {:.9g}", name_, x.norm(), size_);
       const SolidDistance d = solid_.distance(x);
       require(
-          std::abs(d.distance) <= rounding * size_,
+          std::abs(d.distance) <= solid_rounding * size_,
           "the distance of '{}' is {:.3g} at the point of its surface u = {:.6g}, v = {:.6g}: chart and field do "
           "not agree",
           name_, d.distance, u, v);
       // Chart and normal are perpendicular, and the surface turns to the outside.
-      const double h = step;
+      const double h = chord;
       const Vec3 along_u = solid_.surface_point(angles(u + h, v)) - solid_.surface_point(angles(u - h, v));
       const Vec3 along_v = solid_.surface_point(angles(u, v + h)) - solid_.surface_point(angles(u, v - h));
       for (const Vec3& t : {along_u, along_v})
@@ -72,7 +72,8 @@ class SolidCheck {
       const double beyond = solid_.distance(x + out * d.normal).distance;
       const double within = solid_.distance(x - out * d.normal).distance;
       require(
-          std::abs(beyond - out) <= rounding * size_ && std::abs(within + out) <= rounding * size_,
+          std::abs(beyond - out) <= solid_rounding * size_ &&
+              std::abs(within + out) <= solid_rounding * size_,
           "{:.3g} from the surface of '{}' along its normal the distance is {:.9g}, and as deep inside {:.9g}",
           out, name_, beyond, within);
     }
@@ -92,14 +93,14 @@ class SolidCheck {
       double nearest = std::numeric_limits<double>::infinity();
       for (const Vec3& y : points) nearest = std::min(nearest, (x - y).norm());
       const SolidDistance d = solid_.distance(x);
-      require(d.at_least <= d.distance + rounding * size_,
+      require(d.at_least <= d.distance + solid_rounding * size_,
               "'{}' is certain of {:.6g}, which is more than its distance {:.6g}", name_, d.at_least,
               d.distance);
       require(
-          d.at_least <= nearest + rounding * size_,
+          d.at_least <= nearest + solid_rounding * size_,
           "the distance of '{}' from a point is at least {:.9g}, it says, and a point of its surface is {:.9g} from it",
           name_, d.at_least, nearest);
-      const bool certain = d.distance > 0.0 && d.at_least >= d.distance - rounding * size_;
+      const bool certain = d.distance > 0.0 && d.at_least >= d.distance - solid_rounding * size_;
       require(
           !certain || d.distance >= nearest - longest,
           "the distance of '{}' from a point is {:.6g}, it says, and samples of its surface are {:.6g} away, known to "
@@ -153,14 +154,14 @@ class SolidCheck {
       const double u = angle(), v = dimension == 2 ? angle() : 0.0;
       const auto at = [&](double a, double b) { return solid_.probe(angles(u + a, v + b)); };
       const ProbeDerivatives here = at(0.0, 0.0);
-      require(std::abs(solid_.distance(here.x).distance + solid_.offset()) <= rounding * size_,
+      require(std::abs(solid_.distance(here.x).distance + solid_.offset()) <= solid_rounding * size_,
               "a point of the probe of '{}' has the distance {:.9g}, its offset is {:.9g}", name_,
               solid_.distance(here.x).distance, solid_.offset());
-      const Vec3 u_by = (at(step, 0.0).x - at(-step, 0.0).x) / (2.0 * step);
-      const Vec3 uu_by = (at(step, 0.0).u - at(-step, 0.0).u) / (2.0 * step);
-      const Vec3 v_by = (at(0.0, step).x - at(0.0, -step).x) / (2.0 * step);
-      const Vec3 uv_by = (at(0.0, step).u - at(0.0, -step).u) / (2.0 * step);
-      const Vec3 vv_by = (at(0.0, step).v - at(0.0, -step).v) / (2.0 * step);
+      const Vec3 u_by = (at(chord, 0.0).x - at(-chord, 0.0).x) / (2.0 * chord);
+      const Vec3 uu_by = (at(chord, 0.0).u - at(-chord, 0.0).u) / (2.0 * chord);
+      const Vec3 v_by = (at(0.0, chord).x - at(0.0, -chord).x) / (2.0 * chord);
+      const Vec3 uv_by = (at(0.0, chord).u - at(0.0, -chord).u) / (2.0 * chord);
+      const Vec3 vv_by = (at(0.0, chord).v - at(0.0, -chord).v) / (2.0 * chord);
       const double off =
           std::max({(u_by - here.u).norm(), (v_by - here.v).norm(), jumps_ ? 0.0 : (uu_by - here.uu).norm(),
                     jumps_ ? 0.0 : (uv_by - here.uv).norm(), jumps_ ? 0.0 : (vv_by - here.vv).norm()});
@@ -177,7 +178,7 @@ class SolidCheck {
     if (solid_.fold() == Fold::none) return;
     const bool pole = solid_.fold() == Fold::pole, line = solid_.probe_dimension() == 1;
     const Vec3 other = solid_.probe(line ? angles(-u, 0.0) : angles(pole ? u + pi : u, -v)).x;
-    require((other - x).norm() <= rounding * size_,
+    require((other - x).norm() <= solid_rounding * size_,
             "the probe of '{}' does not fold as it says at u = {:.6g}, v = {:.6g}", name_, u, v);
   }
 
@@ -193,7 +194,7 @@ class SolidCheck {
             solid_.probe(angles(u + random_.between(-hu, hu), v + (line ? 0.0 : random_.between(-hv, hv))));
         const double over = std::max(
             {d.u.norm() - b.u, d.v.norm() - b.v, d.uu.norm() - b.uu, d.uv.norm() - b.uv, d.vv.norm() - b.vv});
-        require(over <= rounding * size_,
+        require(over <= solid_rounding * size_,
                 "a derivative of the probe of '{}' is longer than its bound by {:.3g}", name_, over);
       }
       third_derivatives(b, u, v);
@@ -212,7 +213,7 @@ class SolidCheck {
   void worst_of_probe(double u, double v, double hu, double hv)
   {
     constexpr int sweeps = 30;
-    const double floor = rounding * size_;
+    const double floor = solid_rounding * size_;
     const auto ratios = [&](const std::vector<double>& x) {
       const ProbeBounds b = solid_.probe_bounds(x[0], x[1], hu, hv);
       const double a = std::clamp(x[2], -1.0, 1.0), c = std::clamp(x[3], -1.0, 1.0);
@@ -237,7 +238,7 @@ class SolidCheck {
       const double most = std::max(d.bend_along, d.bend_across),
                    least = std::min(d.bend_along, d.bend_across);
       const double concave = std::isfinite(s.reach) ? -least * s.reach : 0.0;
-      return std::max(most / (s.convex + rounding / size_), concave);
+      return std::max(most / (s.convex + solid_rounding / size_), concave);
     };
     for (int k = 0; k < searches; ++k) {
       const double ratio = over(maximise(over, {angle(), angle()}, {0.4, 0.4}, sweeps));
@@ -251,10 +252,11 @@ class SolidCheck {
     const auto by = [&](double du, double dv) {
       const ProbeDerivatives a = solid_.probe(angles(u + du, v + dv)),
                              c = solid_.probe(angles(u - du, v - dv));
-      return std::array<double, 2>{(a.uu - c.uu).norm() / (2.0 * step), (a.vv - c.vv).norm() / (2.0 * step)};
+      return std::array<double, 2>{(a.uu - c.uu).norm() / (2.0 * chord),
+                                   (a.vv - c.vv).norm() / (2.0 * chord)};
     };
-    const auto [uuu, uvv] = by(step, 0.0);
-    const auto [uuv, vvv] = by(0.0, step);
+    const auto [uuu, uvv] = by(chord, 0.0);
+    const auto [uuv, vvv] = by(0.0, chord);
     const double over = std::max({uuu - b.uuu, uuv - b.uuv, uvv - b.uvv, vvv - b.vvv});
     require(jumps_ || over <= coarse * size_,
             "a third derivative of the probe of '{}' is longer than its bound by {:.3g}", name_, over);
@@ -297,8 +299,8 @@ class SolidCheck {
       normals.push_back(d.normal);
       const double most = std::max(d.bend_along, d.bend_across),
                    least = std::min(d.bend_along, d.bend_across);
-      require(most <= s.convex * (1.0 + 1e-6) + rounding / size_, "'{}' bends by {:.6g}, its bound is {:.6g}",
-              name_, most, s.convex);
+      require(most <= s.convex * (1.0 + 1e-6) + solid_rounding / size_,
+              "'{}' bends by {:.6g}, its bound is {:.6g}", name_, most, s.convex);
       require(!std::isfinite(s.reach) ? least >= -1e-6 * s.convex : -least <= (1.0 + 1e-6) / s.reach,
               "'{}' bends the concave way by {:.6g}, its reach is {:.6g}", name_, -least, s.reach);
     }
@@ -306,9 +308,10 @@ class SolidCheck {
       for (std::size_t j = 1; j < points.size(); j += 2) {
         const Vec3 d = points[j] - points[i];
         const double height = d.dot(normals[i]), square = d.squaredNorm();
-        const bool within = std::isfinite(s.reach)
-                                ? 2.0 * s.reach * height > square * (1.0 + 1e-6) + rounding * size_ * size_
-                                : height > 1e-6 * size_;
+        const bool within =
+            std::isfinite(s.reach)
+                ? 2.0 * s.reach * height > square * (1.0 + 1e-6) + solid_rounding * size_ * size_
+                : height > 1e-6 * size_;
         require(
             !within,
             "a ball of radius {:.6g} that touches '{}' from outside holds another point of it, {:.6g} away",
@@ -349,12 +352,12 @@ void check_motion(const Primitive& from, const Primitive& to, Random& random)
   for (int k = 0; k < samples; ++k) {
     const ProbeAngles at = angles(random.between(0.0, 2.0 * pi), random.between(0.0, 2.0 * pi));
     const Vec3 x = b.surface_point(at);
-    require(std::abs(made->distance(x).distance) <= rounding * size,
+    require(std::abs(made->distance(x).distance) <= solid_rounding * size,
             "'{}' makes another solid of sizes than the shape does: {:.6g} apart", from.name,
             made->distance(x).distance);
     const double moved =
         std::max(std::abs(a.distance(x).distance), std::abs(b.distance(a.surface_point(at)).distance));
-    require(moved <= speed + rounding * size,
+    require(moved <= speed + solid_rounding * size,
             "the surface of '{}' moves by {:.6g} where sizes change, its speed is {:.6g}", from.name, moved,
             speed);
   }
@@ -366,7 +369,7 @@ void require_scaled(const Primitive& small, const Primitive& large, double facto
   for (int k = 0; k < samples; ++k) {
     const Vec3 x = random.vector(1.5 * size);
     const double a = small.solid->distance(x).distance, b = large.solid->distance(factor * x).distance;
-    require(std::abs(b - factor * a) <= rounding * factor * size,
+    require(std::abs(b - factor * a) <= solid_rounding * factor * size,
             "with all lengths times {}, a distance of '{}' goes from {:.12g} to {:.12g}; expected {:.12g}",
             factor, small.name, a, b, factor * a);
   }

@@ -22,7 +22,8 @@ namespace hauberk::conformance {
 namespace {
 
 using std::numbers::pi;
-constexpr double rounding = 1e-12;  ///< of equal lengths from different arithmetic, relative to the surface
+constexpr double surface_rounding =
+    1e-12;  ///< of equal lengths from different arithmetic, relative to the surface
 
 /// Core of a tube and the plane across it: a point and two orthonormal vectors.
 struct Station {
@@ -184,18 +185,20 @@ void check_triangles(const Primitive& primitive, Trial& trial)
     farthest = std::max(farthest, x.norm());
   }
   const double count = static_cast<double>(surface.points().size());
-  require(area.norm() <= rounding * count * total && std::abs(six - six_from) <= rounding * count * total,
+  require(area.norm() <= surface_rounding * count * total &&
+              std::abs(six - six_from) <= surface_rounding * count * total,
           "the triangles of '{}' are not closed: their areas add up to {:.3g} of all", primitive.name,
           area.norm() / total);
   require(six > 0.0, "the triangles of '{}' point inwards: their volume is {:.6g}", primitive.name,
           six / 6.0);
-  require(std::abs(sum / count - 1.0) <= rounding, "points of '{}' have a mean distance of {:.12g}, not 1",
-          primitive.name, sum / count);
-  require(std::abs(primitive.r0() - primitive.R() * six / (3.0 * total)) <= rounding * count * primitive.R(),
+  require(std::abs(sum / count - 1.0) <= surface_rounding,
+          "points of '{}' have a mean distance of {:.12g}, not 1", primitive.name, sum / count);
+  require(std::abs(primitive.r0() - primitive.R() * six / (3.0 * total)) <=
+              surface_rounding * count * primitive.R(),
           "'{}' is said to be {:.12g} thick; twice its volume over its area is {:.12g}", primitive.name,
           primitive.r0(), primitive.R() * six / (3.0 * total));
   const double bound = make_body(primitive, 0, 0, 1.0).bound;
-  require(primitive.R() * farthest <= bound * (1.0 + rounding),
+  require(primitive.R() * farthest <= bound * (1.0 + surface_rounding),
           "'{}' reaches {:.6g} from its centre, its bounding sphere {:.6g}", primitive.name,
           primitive.R() * farthest, bound);
 }
@@ -258,7 +261,7 @@ void check_surfaces(Trial& trial)
       const Body body = body_of(primitive);
       double farthest = 0.0;
       for (const Vec3& x : points) farthest = std::max(farthest, x.norm());
-      require(farthest <= body.bound * (1.0 + rounding),
+      require(farthest <= body.bound * (1.0 + surface_rounding),
               "'{}' reaches {:.6g} from its centre, its bounding sphere {:.6g}", primitive.name, farthest,
               body.bound);
     }
@@ -323,7 +326,7 @@ void check_mesh_distances(const Primitive& p, const Primitive& f, Trial& trial)
   }
   const double size = a.bound + b.bound;
   const double found = smallest_feature_distance(frame, 4.0 * size);
-  require(found <= nearest + rounding * size && nearest <= found + known_to,
+  require(found <= nearest + surface_rounding * size && nearest <= found + known_to,
           "the gap of '{}' and '{}' is {:.6g}, says the kernel; samples of their triangles are {:.6g} apart, "
           "known to {:.2g}",
           p.name, f.name, found, nearest, known_to);
@@ -357,7 +360,7 @@ void check_distances(Trial& trial)
       const Separation found = separation(a, {}, b, pose, 0.0, std::numeric_limits<double>::infinity(), 0.99);
       const double size = a.bound + b.bound;
       if (found.upper <= 0.0) continue;  // they meet
-      require(found.lower <= sampled + rounding * size && sampled <= found.upper + known_to,
+      require(found.lower <= sampled + surface_rounding * size && sampled <= found.upper + known_to,
               "the gap of '{}' and '{}' is between {:.6g} and {:.6g}, says the kernel; samples of the "
               "surfaces are {:.6g} apart, known to {:.2g}",
               p.name, f.name, found.lower, found.upper, sampled, known_to);

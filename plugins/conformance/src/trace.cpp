@@ -9,8 +9,8 @@
 namespace hauberk::conformance {
 namespace {
 
-constexpr int points = 6;
-constexpr int states = 8;
+constexpr int traced_points = 6;
+constexpr int traced_states = 8;
 constexpr int most_iterates = 30;
 
 using Numbers = std::vector<double>;
@@ -74,13 +74,13 @@ void trace_optimizer(const Optimizer& optimizer, Numbers& out)
 Exercise::Exercise(const Object& object, Trial& trial)
 {
   if (object.shape) {
-    for (int k = 0; k < points; ++k) points_.push_back(draw_point(*object.shape, trial));
+    for (int k = 0; k < traced_points; ++k) points_.push_back(draw_point(*object.shape, trial));
   }
   if (!object.load_case) return;
   const LoadCase& load_case = *object.load_case;
   Random& random = trial.random;
   const std::size_t coordinates = load_case.coordinate_count();
-  for (const double theta : angles(random, states)) {
+  for (const double theta : angles(random, traced_states)) {
     const Numbers macro = draw_macro(load_case, random);
     states_.push_back({macro, random.values(macro.size(), 0.1), random.values(coordinates, 0.5),
                        random.values(coordinates, 0.2), random.vector(2.0),

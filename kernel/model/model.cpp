@@ -42,7 +42,8 @@ std::vector<double> lattice_distances(const Model& m)
   const double reach = m.reach.empty() ? 0.0 : *std::max_element(m.reach.begin(), m.reach.end());
   std::vector<double> out;
   for (const Vec3& t : m.lattice) {
-    const bool idle = (t - space * (space.transpose() * t)).norm() > aside * t.norm();
+    const Vec3 within = space.cols() == 0 ? Vec3::Zero() : Vec3(space * (space.transpose() * t));
+    const bool idle = (t - within).norm() > aside * t.norm();
     out.push_back(idle ? std::min(0.5 * t.norm(), reach) : 0.5 * t.norm());
   }
   return out;

@@ -53,8 +53,8 @@ TEST(CommandLine, WrongOptions)
 
 TEST(CommandLine, HelpAndVersion)
 {
-  for (const char* command :
-       {"run", "check", "plan", "room", "gather", "submit", "verify", "report", "plugins", "completion", "man"}) {
+  for (const char* command : {"run", "check", "plan", "room", "gather", "submit", "verify", "report",
+                              "plugins", "completion", "man"}) {
     const Outcome o = run_program({command, "--help"});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.out.find(std::string("Usage: hauberk ") + command), 0U) << o.out;

@@ -255,6 +255,20 @@ std::string sweep_text()
 })";
 }
 
+std::string transition_text()
+{
+  return with(with(with(chain_text(), R"("name": "chain",)", R"("name": "turn", "task": "transition",)"),
+                   R"([6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 })",
+                   R"([8.58, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 43.27 })"),
+              R"("solver": { "preset": "accurate" },
+  "expect": [ { "pointer": "/limits/0/value", "value": 0.43333333333333, "rel": 1e-8 } ])",
+              R"("transition": { "activation_distance": 0.1, "contacts": ["nearest", "arc"],
+    "paths": [ { "name": "pitchfork", "steps": 10,
+                 "rotation": { "axis": [1, 0, 0], "degrees": [4, -1.5] } } ] },
+  "expect": [ { "pointer": "/transition/paths/0/curves/0/energy_jump/relative", "min": 0.2 },
+              { "pointer": "/transition/paths/0/curves/1/energy_jump/relative", "max": 1e-7 } ])");
+}
+
 std::string chart_text()
 {
   return with(

@@ -87,6 +87,9 @@ std::string map_text();
 /// which are no scene.
 std::string sweep_text();
 
+/// The chain's rings at the cross angle of figure 2, turned through the place where the nearest point splits.
+std::string transition_text();
+
 /// A chart of two chains, one of them with a reference and a second limit that is unbounded: seven settings
 /// with two numbers of threads, two runs each. The last setting stalls.
 std::string chart_text();

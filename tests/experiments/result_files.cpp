@@ -77,11 +77,9 @@ const std::vector<TaskCase>& task_cases()
     return with(chainmail_text(), R"("directions_deg": [0, 30, 90])",
                 R"("directions_deg": [0, 15, 30, 45, 60, 75, 90], "senses": ["stretch"])");
   };
-  static const std::vector<TaskCase> tasks{{"limits", stretches},
-                                           {"design", design_text},
-                                           {"stability", map_text},
-                                           {"sweep", sweep_text},
-                                           {"chart", chart_text}};
+  static const std::vector<TaskCase> tasks{{"limits", stretches},   {"design", design_text},
+                                           {"stability", map_text}, {"sweep", sweep_text},
+                                           {"chart", chart_text},   {"transition", transition_text}};
   return tasks;
 }
 

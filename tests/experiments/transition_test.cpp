@@ -13,25 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 namespace json = boost::json;
 
-/// The chain's rings at the cross angle of figure 2, turned through the place where the nearest point splits.
-std::string turn_text()
-{
-  return with(with(with(chain_text(), R"("name": "chain",)", R"("name": "turn", "task": "transition",)"),
-                   R"([6, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 90 })",
-                   R"([8.58, 0, 0], "rotation": { "axis": [1, 0, 0], "degrees": 43.27 })"),
-              R"("solver": { "preset": "accurate" },
-  "expect": [ { "pointer": "/limits/0/value", "value": 0.43333333333333, "rel": 1e-8 } ])",
-              R"("transition": { "activation_distance": 0.1, "contacts": ["nearest", "arc"],
-    "paths": [ { "name": "pitchfork", "steps": 10,
-                 "rotation": { "axis": [1, 0, 0], "degrees": [4, -1.5] } } ] },
-  "expect": [ { "pointer": "/transition/paths/0/curves/0/energy_jump/relative", "min": 0.2 },
-              { "pointer": "/transition/paths/0/curves/1/energy_jump/relative", "max": 1e-7 } ])");
-}
-
 TEST(TransitionRun, ComputesAndWritesEverything)
 {
   const TemporaryFolder folder;
-  const std::string file = folder.write("turn.json", turn_text()), out = folder / "out";
+  const std::string file = folder.write("turn.json", transition_text()), out = folder / "out";
   EXPECT_EQ(run_program({"check", file}).out, file + ": no problems; 1 paths, 2 formulations\n");
   const Outcome o = run_program({"run", file, "-o", out});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
@@ -52,7 +37,7 @@ TEST(TransitionRun, ComputesAndWritesEverything)
 TEST(TransitionRun, OverlappingPathsAreBadInput)
 {
   const TemporaryFolder folder;
-  const std::string file = folder.write("turn.json", with(turn_text(), "[4, -1.5]", "[4, -4]"));
+  const std::string file = folder.write("turn.json", with(transition_text(), "[4, -1.5]", "[4, -4]"));
   const Outcome o = run_program({"run", file, "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("/transition/paths/0: path 'pitchfork': the surfaces touch or overlap at step"),

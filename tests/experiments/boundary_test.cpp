@@ -207,7 +207,7 @@ TEST(BoundaryList, MistakesAreBadInput)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("b.json", threefold_text("[[1, 0, 0], [0, 0, 0]]"));
-  const Outcome o = run_program({"check", file});
+  const Outcome o = run_program({"check", file, "--thorough"});
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("/load_case/directions/1: expected a direction, found all zeros"), std::string::npos)
       << o.err;

@@ -60,7 +60,8 @@ TEST(ChartInput, MistakesOfTheFileAreBadInput)
 {
   const TemporaryFolder folder;
   const auto errors = [&](const std::string& from, const std::string& to) {
-    const Outcome o = run_program({"check", folder.write("c.json", with(chart_text(), from, to))});
+    const Outcome o =
+        run_program({"check", folder.write("c.json", with(chart_text(), from, to)), "--thorough"});
     EXPECT_EQ(o.code, 2) << o.out;
     return o.err;
   };
@@ -77,7 +78,7 @@ TEST(ChartInput, MistakesOfTheFileAreBadInput)
   EXPECT_TRUE(
       holds(wrong, "scene 'chain', method 'arc', setting 'coarse': expected one of auto, nearest, arc"));
   EXPECT_EQ(std::count(wrong.begin(), wrong.end(), '\n'), 1) << "once, not for every setting:\n" << wrong;
-  const Outcome good = run_program({"check", folder.write("c.json", chart_text())});
+  const Outcome good = run_program({"check", folder.write("c.json", chart_text()), "--thorough"});
   EXPECT_EQ(good.out, folder / "c.json: no problems; 2 scenes, 2 methods, 14 points of 2 runs\n");
 }
 

@@ -120,12 +120,13 @@ TEST(CommandLine, Json)
   const TemporaryFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const auto document = [](const Outcome& o) { return parse_json(o.out, "answer"); };
-  Outcome o = run_program({"check", file, "--json"});
+  Outcome o = run_program({"check", file, "--json", "--thorough"});
   EXPECT_EQ(o.code, 0);
   EXPECT_TRUE(document(o).at("ok").as_bool());
   EXPECT_NE(std::string(document(o).at("summary").as_string()).find(" elements, "), std::string::npos);
 
-  o = run_program({"check", file, "--json", "--set", "/solver/starts=0", "--set", "/cell/repeat=[0,1]"});
+  o = run_program(
+      {"check", file, "--json", "--set", "/solver/starts=0", "--set", "/cell/repeat=[0,1]", "--thorough"});
   EXPECT_EQ(o.code, 2);
   const boost::json::array problems = document(o).at("problems").as_array();
   ASSERT_EQ(problems.size(), 2U) << o.out;
@@ -165,7 +166,7 @@ TEST(CommandLine, Check)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("c.json", chain_text());
-  const Outcome o = run_program({"check", file});
+  const Outcome o = run_program({"check", file, "--thorough"});
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.out, file + ": no problems; 2 elements, 1 limits\n");
 }

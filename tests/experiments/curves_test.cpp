@@ -178,11 +178,12 @@ TEST(Curves, WhatKnowsToriOnlySaysSo)
   // So of struts, where nothing but their plugin knows the surface.
   const std::string struts = HAUBERK_SOURCE_DIR "/shapes/strut_frame/example.json";
   for (const char* setting : {"/solver/contact=published", "/solver/ccd=sampled", "/solver/preset=paper"}) {
-    const Outcome o = run_program({"check", struts, "--set", setting});
+    const Outcome o = run_program({"check", struts, "--set", setting, "--thorough"});
     EXPECT_EQ(o.code, 2) << setting;
     EXPECT_NE(o.err.find("this scene has solids, and"), std::string::npos) << setting << o.err;
   }
-  const Outcome thick = run_program({"check", file, "--set", "/elements/oval/parameters/r=1.7"});
+  const Outcome thick =
+      run_program({"check", file, "--set", "/elements/oval/parameters/r=1.7", "--thorough"});
   EXPECT_EQ(thick.code, 2);
   EXPECT_NE(thick.err.find("parameter 'r' = 1.7 is too thick: the curve bends with a radius of 1.6"),
             std::string::npos)

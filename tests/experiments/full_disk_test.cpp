@@ -168,8 +168,11 @@ TEST(FullDisk, StandardOutputAndProgress)
   EXPECT_EQ(read_results(folder / "a").at_pointer("/limits/0/status").as_string(), "locked");
   // Progress is not worth a result.
   EXPECT_EQ(Process({"run", file, "-o", folder / "b"}, folder, "", "/dev/full").wait().code, 0);
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"plugins", "list"}, {"man"}, {"check", file}})
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                {"run", "--help"},
+                                                {"plugins", "list"},
+                                                {"man"},
+                                                {"check", file, "--thorough"}})
     EXPECT_EQ(Process(words, folder, "/dev/full").wait().code, 1) << words.back();
 }
 

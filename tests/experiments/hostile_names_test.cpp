@@ -39,8 +39,10 @@ TEST(HostileNames, ActNowhere)
   EXPECT_FALSE(acts(o.out)) << o.out;
   EXPECT_FALSE(acts(o.err)) << o.err;
   EXPECT_NE(o.out.find("\\x1b[2J\\x9b31m\\u{202e}\\u{2066}\\x0d"), std::string::npos) << o.out;
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"plan", file}, {"check", file}, {"plan", file, "--json"}, {"verify", out}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"plan", file},
+                                                {"check", file, "--thorough"},
+                                                {"plan", file, "--json"},
+                                                {"verify", out}}) {
     const Outcome shown = run_program(words);
     EXPECT_EQ(shown.code, 0) << words.front() << shown.err;
     EXPECT_FALSE(acts(shown.out + shown.err)) << words.front() << ": " << shown.out;
@@ -101,7 +103,7 @@ TEST(HostileNames, FiftyProblemsAreEnough)
   for (int k = 0; k < 80; ++k) places += R"({ "element": "none", "position": [0, 0, 0] }, )";
   const std::string file =
       folder.write("e.json", with(chain_text(), R"("place": [)", "\"place\": [" + places));
-  const Outcome o = run_program({"check", file});
+  const Outcome o = run_program({"check", file, "--thorough"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 51) << o.err;
   EXPECT_NE(o.err.find(": and 30 more problems, 80 in all\n"), std::string::npos) << o.err;

@@ -1,5 +1,6 @@
 /// Bad input through the program: the exact words, exit code 2, and nothing written.
 
+#include "document/json_text.hpp"
 #include "result_files.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ void expect_refused(const std::string& text, const std::vector<std::string>& pro
   EXPECT_EQ(o.out, "");
   EXPECT_FALSE(fs::exists(folder / "out"));
   // `check` says the same.
-  const Outcome check = run_program({"check", file});
+  const Outcome check = run_program({"check", file, "--thorough"});
   EXPECT_EQ(check.code, 2);
   EXPECT_EQ(check.err, expected);
 }
@@ -170,6 +171,24 @@ TEST(BadInput, PluginFoldersThatDoNotExist)
       run_program({"run", folder.write("c.json", chain_text()), "--plugin-path", folder / "none"});
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.err, "hauberk: --plugin-path: '" + (folder / "none") + "' is not a folder\n");
+}
+
+/// Problems of a file are told at once, whatever its rest state takes.
+TEST(Check, SaysWhatItLeftOut)
+{
+  const TemporaryFolder folder;
+  const std::string large =
+      folder.write("l.json", with(chainmail_text(), R"("repeat": [2, 1],)", R"("repeat": [300, 250],)"));
+  const Outcome o = run_program({"check", large});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.out.find(large + ": no problems in the file itself; the rest state, "), 0U) << o.out;
+  const boost::json::value told = parse_json(run_program({"check", large, "--json"}).out, "check");
+  EXPECT_TRUE(told.at("ok").as_bool());
+  EXPECT_TRUE(told.at("summary").is_null());
+  EXPECT_NE(told.at("left_out").as_string().find("--thorough"), std::string::npos);
+  const Outcome bad = run_program({"check", large, "--set", "/solver/startz=1"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find("/solver/startz: unknown key"), std::string::npos) << bad.err;
 }
 
 /// What is beyond the budget is refused before anything is computed or written.

@@ -83,7 +83,7 @@ TEST(Mesh, Refusals)
 {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& text, const std::string& message) {
-    const Outcome o = run_program({"check", folder.write("m.json", text)});
+    const Outcome o = run_program({"check", folder.write("m.json", text), "--thorough"});
     EXPECT_EQ(o.code, 2);
     EXPECT_NE(o.err.find(message), std::string::npos) << "missing: " << message << '\n' << o.err;
   };
@@ -255,7 +255,7 @@ TEST_F(MeshFiles, ExperimentsWrittenElsewhereFindTheFile)
   const std::string file = folder_.write("m.json", text_), moved = folder_ / "deep/er/room.json";
   const Outcome o = run_program({"room", file, "--starts", "1", "--fixed-cell", "-o", moved});
   ASSERT_EQ(o.code, 0) << o.err;
-  const Outcome found = run_program({"check", moved});
+  const Outcome found = run_program({"check", moved, "--thorough"});
   EXPECT_EQ(found.code, 0) << found.err;
   std::ifstream in(moved);
   const std::string written{std::istreambuf_iterator<char>(in), {}};

@@ -63,7 +63,7 @@ TEST(SweepRun, BadRowsAreRowsWithAMessage)
   const std::string file = folder.write(
       "s.json",
       with(with(sweep_text(), R"([4.8, 5.2, 0.6])", R"([0.6, 5.0, 2, 5.6])"), "[0.5, 0.6, 0.7]", "[0.7]"));
-  const Outcome checked = run_program({"check", file});
+  const Outcome checked = run_program({"check", file, "--thorough"});
   EXPECT_EQ(checked.out, file + ": no problems; 4 rows of 1 limits (1 refused as input)\n");
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/expect=[]"}).code, 0);
   const json::value r = read_results(folder / "out");

@@ -17,7 +17,8 @@ TEST(TransitionRun, ComputesAndWritesEverything)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("turn.json", transition_text()), out = folder / "out";
-  EXPECT_EQ(run_program({"check", file}).out, file + ": no problems; 1 paths, 2 formulations\n");
+  EXPECT_EQ(run_program({"check", file, "--thorough"}).out,
+            file + ": no problems; 1 paths, 2 formulations\n");
   const Outcome o = run_program({"run", file, "-o", out});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   for (const char* name : {"transition.csv", "minima.csv", "transition.svg"})

@@ -169,7 +169,7 @@ class Tutorial : public ::testing::Test {
 TEST_F(Tutorial, FilesHaveNoProblems)
 {
   for (const std::string& file : files_) {
-    const Outcome o = run_program({"check", file});
+    const Outcome o = run_program({"check", file, "--thorough"});
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_EQ(o.out.find(file + ": no problems; "), 0U) << o.out;
   }

@@ -74,7 +74,7 @@ TEST_P(Weaves, HaveRoomFromTheirSmallestRatioOn)
   const auto check = [&](double ratio) {
     // The side rings of the threefold element must stay as large as its lattice needs them.
     const double upper = std::string(weave.name) == "threefold" ? 2.575 : 5.0;
-    std::vector<std::string> words{"check", file};
+    std::vector<std::string> words{"check", file, "--thorough"};
     for (const std::string& word : scaled(weave, ratio, upper / ratio)) words.push_back(word);
     return run_program(words);
   };
@@ -174,7 +174,7 @@ TEST(RoomFiles, PatchesCanBeLoaded)
   const std::string found = folder / "found.json";
   const Outcome o = run_program({"room", folder.write("p.json", patch), "-o", found, "--starts", "3"});
   ASSERT_EQ(o.code, 0) << o.err;
-  const Outcome checked = run_program({"check", found});
+  const Outcome checked = run_program({"check", found, "--thorough"});
   EXPECT_EQ(checked.code, 0) << checked.err;
   // The room found is that of the state that was written.
   const auto first_line = [](const std::string& text) {
@@ -198,7 +198,7 @@ TEST(RoomFiles, AWeaveThatIsSweptCanBeLoaded)
                         "values": [7, 8] }] } })"),
                                  "-o", found, "--starts", "1"});
   ASSERT_EQ(o.code, 0) << o.err;
-  const Outcome checked = run_program({"check", found});
+  const Outcome checked = run_program({"check", found, "--thorough"});
   EXPECT_EQ(checked.code, 0) << checked.err;
 }
 
@@ -226,7 +226,7 @@ TEST(WeaveFiles, ArePathsToo)
   folder.write("own.json", read_text(std::string(HAUBERK_WEAVES) + "/chain.json"));
   const std::string text =
       with(experiment({"chain", {}, "", "", 0.0}), R"("name": "chain")", R"("name": "own.json")");
-  EXPECT_EQ(run_program({"check", folder.write("w.json", text)}).code, 0);
+  EXPECT_EQ(run_program({"check", folder.write("w.json", text), "--thorough"}).code, 0);
   // The results of a run hold what the weave stands for.
   ASSERT_EQ(run_program({"run", folder / "w.json", "-o", folder / "out"}).code, 0);
   const json::value r = read_results(folder / "out");
@@ -291,7 +291,7 @@ TEST(WeaveFiles, MistakesAreReported)
   const std::string good = experiment({"chain", {}, "", "", 0.0});
   const auto after = [&](const std::string& from, const std::string& to) {
     const std::string file = folder.write("w.json", with(good, from, to));
-    std::string text = run_program({"check", file}).err;
+    std::string text = run_program({"check", file, "--thorough"}).err;
     const std::size_t at = text.find(file);
     return at == std::string::npos ? text : text.substr(at + file.size());
   };

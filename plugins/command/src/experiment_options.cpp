@@ -2,6 +2,7 @@
 
 #include "run/weave_library.hpp"
 #include "say.hpp"
+#include "tasks/table.hpp"
 
 #include <hauberk/host/search_path.hpp>
 #include <hauberk/host/trust.hpp>
@@ -40,6 +41,26 @@ void warn_of_plugins(const Prepared& prepared)
     for (std::size_t k = 1; k < files.size(); ++k)
       say_error("hauberk: warning: {}\n", shadow_text(plugin.id, files[0], files[k]));
   }
+}
+
+void read_alone(const Options& options)
+{
+  const std::string& file = options.positional();
+  const std::shared_ptr<const Registry> registry = open_registry(options);
+  const PluginLookup lookup = [&registry](PluginKind kind, const std::string& id,
+                                          std::string& error) -> const PluginTable* {
+    try {
+      return &registry->find(kind, id);
+    } catch (const InputError& problem) {
+      error = problem.what();
+      return nullptr;
+    }
+  };
+  Diagnostics diagnostics;
+  const std::optional<Experiment> experiment = read_experiment(
+      {file, read_text_file(file), options.list("set"), weave_lookup(file), {}, task_formats()}, lookup,
+      diagnostics);
+  if (!experiment) throw ReportedProblems(diagnostics);
 }
 
 Job open_job(const Options& options)

@@ -19,6 +19,9 @@ std::string shadow_text(const std::string& id, const std::filesystem::path& used
 /// are shadowed.
 void warn_of_plugins(const Prepared& prepared);
 
+/// Reads the experiment that `options` name, and nothing that is made of it. Throws ReportedProblems.
+void read_alone(const Options& options);
+
 /// The experiment that `options` name, with --set. Throws as prepare_job.
 Job open_job(const Options& options);
 

@@ -1,15 +1,31 @@
 #include "design/journal.hpp"
 
+#include <hauberk/error.hpp>
+
 #include <algorithm>
 #include <utility>
 
 namespace hauberk {
 
+bool DesignJournal::recall(DesignPoint& p, long& cost) const
+{
+  if (memory_ == nullptr || !memory_->recall(p, cost)) return false;
+  const bool fits = !p.evaluated || (p.values.size() == targets_ &&
+                                     p.gradient.size() == static_cast<Eigen::Index>(p.x.size()));
+  const bool known = std::all_of(p.changed.begin(), p.changed.end(), [this](int task) {
+    return task >= 0 && static_cast<std::size_t>(task) < search_.task_count();
+  });
+  if (!fits || !known)
+    throw ComputationError(
+        "what is remembered of an evaluation is of another design; start anew with --force");
+  return true;
+}
+
 void DesignJournal::evaluate(const std::vector<std::shared_ptr<DesignPoint>>& points, DesignPoint& iterate)
 {
   std::vector<long> cost(points.size(), 0);
   std::size_t known = 0;
-  while (memory_ != nullptr && known < points.size() && memory_->recall(*points[known], cost[known])) {
+  while (known < points.size() && recall(*points[known], cost[known])) {
     points[known]->states_missing = points[known]->evaluated;
     ++known;
   }
@@ -41,7 +57,7 @@ void DesignJournal::find_states(DesignPoint& p, const DesignPoint& iterate)
 void DesignJournal::check(DesignPoint& p, const DesignPoint& iterate)
 {
   long cost = 0;
-  if (memory_ != nullptr && memory_->recall(p, cost)) {
+  if (recall(p, cost)) {
     p.states_missing = true;
   } else {
     if (p.states_missing) find_states(p, iterate);

@@ -13,7 +13,10 @@ namespace hauberk {
 /// Not thread safe.
 class DesignJournal {
  public:
-  explicit DesignJournal(std::shared_ptr<const DesignScene> scene) : search_(std::move(scene)) {}
+  explicit DesignJournal(std::shared_ptr<const DesignScene> scene)
+      : targets_(scene->design.targets.size()), search_(std::move(scene))
+  {
+  }
 
   /// Evaluations are recalled from `memory` as far as it knows them, and recorded there; null: neither. It
   /// must outlive this.
@@ -32,11 +35,15 @@ class DesignJournal {
   void keep_states(DesignPoint& p, const DesignPoint& iterate);
 
  private:
+  /// What the memory knows of p. Throws ComputationError where that is of no such design: it may come from a
+  /// file.
+  bool recall(DesignPoint& p, long& cost) const;
   /// Warm starts of a design that was evaluated from the iterate in a run that ended before it kept them:
   /// they are found again as they were found first, at no cost that was not counted then.
   void find_states(DesignPoint& p, const DesignPoint& iterate);
   long search_again(DesignPoint& p) const;
 
+  std::size_t targets_;
   TargetSearch search_;
   EvaluationMemory* memory_ = nullptr;
   long evaluations_ = 0;

@@ -1,10 +1,15 @@
 #include "run/run_folder.hpp"
 
+#include "results/document.hpp"
+
 #include <hauberk/error.hpp>
+#include <hauberk/host/sha256.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <fstream>
 
 namespace hauberk {
 namespace {
@@ -31,6 +36,19 @@ std::string rescue(const std::vector<NamedContent>& files)
 
 }  // namespace
 
+std::optional<bool> is_as_written(const std::filesystem::path& directory)
+{
+  std::ifstream in;
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(std::filesystem::symlink_status(directory / digest_file, unknown)))
+    in.open(directory / digest_file);
+  if (!in.is_open()) return std::nullopt;
+  const std::string now = sha256_of_file(directory / results_file);
+  for (std::string digest; in >> digest;)
+    if (digest == now) return true;
+  return false;
+}
+
 void drop_journal(const std::filesystem::path& directory)
 {
   std::error_code ignored;
@@ -45,12 +63,25 @@ RunFolder::RunFolder(std::filesystem::path directory, std::span<const char* cons
       content_(std::move(content)),
       own_(resuming)
 {
+  if (resuming) digest_ = sha256_of_file(directory_ / results_file);
 }
 
 void RunFolder::replace(const std::vector<NamedContent>& files)
 {
   last_ = std::chrono::steady_clock::now();  // also when it fails: a full disk is not asked at every iterate
-  write_files_atomically(directory_, files, names_, own_ ? FormerResults::replaced : FormerResults::kept);
+  // Before the results: where a kill comes between, they are those before.
+  std::vector<NamedContent> all = files;
+  const auto results = std::find_if(all.begin(), all.end(),
+                                    [](const NamedContent& file) { return file.name == results_file; });
+  std::string now;
+  if (results != all.end()) {
+    Sha256 hash;
+    hash.add(results->content);
+    now = hash.digest();
+    all.insert(results, {digest_file, now + "\n" + digest_ + "\n"});
+  }
+  write_files_atomically(directory_, all, names_, own_ ? FormerResults::replaced : FormerResults::kept);
+  digest_ = now;
   own_ = true;
 }
 
@@ -93,6 +124,8 @@ void RunFolder::done()
 {
   drop_previous(directory_, names_);
   drop_journal(directory_);
+  std::error_code ignored;
+  std::filesystem::remove(directory_ / digest_file, ignored);
 }
 
 }  // namespace hauberk

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,13 @@ namespace hauberk {
 
 /// A file in which a running task may keep what it needs to go on; it goes once results are complete.
 inline constexpr const char* journal_file = ".hauberk-evaluations";
+
+/// Digests of partial results as they were written, so that --resume knows that they are still the same: of
+/// the last ones, and of those before, which a kill may have left. It goes once results are complete.
+inline constexpr const char* digest_file = ".hauberk-digest";
+
+/// Whether a folder's results.json is as the run left it; null: nothing tells.
+std::optional<bool> is_as_written(const std::filesystem::path& directory);
 
 /// Removes the journal of a folder, as its search is done or is to begin anew.
 void drop_journal(const std::filesystem::path& directory);
@@ -52,7 +60,8 @@ class RunFolder {
   std::span<const char* const> names_;
   Progress& progress_;
   Content content_;
-  bool own_;  ///< the folder's results are this run's
+  std::string digest_;  ///< of the results.json that was written last
+  bool own_;            ///< the folder's results are this run's
   std::string warned_;
   std::chrono::steady_clock::time_point last_{};
 };

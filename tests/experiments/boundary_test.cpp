@@ -1,7 +1,7 @@
 /// Limits along components, through the whole program.
 
 #include "document/json_text.hpp"
-#include "program.hpp"
+#include "result_files.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
@@ -139,7 +139,7 @@ TEST_F(Boundary, SameForAnyNumberOfThreadsAndResumed)
   }
   fs::remove_all(folder / "one");
   fs::create_directory(folder / "one");
-  folder.write("one/results.json", write_json(partial));
+  write_partial_results(folder / "one", partial);
   const Outcome o = run_program({"run", file_, "-o", folder / "one", "--resume"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_NE(o.err.find("finished limits are kept"), std::string::npos) << o.err;

@@ -2,6 +2,7 @@
 
 #include "chart_fixture.hpp"
 #include "document/json_text.hpp"
+#include "result_files.hpp"
 
 #include <boost/json/object.hpp>
 
@@ -40,7 +41,7 @@ TEST_F(ChartStopping, ResumesRunsThatAreMissing)
   // Marks a point that must not be computed again.
   partial.at_pointer("/chart/points/0/seconds/runs/0") = 1e-9;
   partial.at_pointer("/provenance/machine/load_average") = 1e6;
-  std::ofstream(out + "/results.json") << write_json(partial);
+  write_partial_results(out, partial);
   const Outcome o = run_program({"run", *folder_ / "c.json", "-o", out, "--resume"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_TRUE(holds(o.err, "resuming: finished runs are kept\n"));
@@ -112,7 +113,7 @@ TEST_F(ChartStopping, TimesOfAnotherMachineAreNotMixedIn)
   json::value elsewhere = results_;
   elsewhere.at_pointer("/provenance/machine/processors") = 4097;
   elsewhere.at_pointer("/chart/points/2/status") = "interrupted";
-  std::ofstream(out + "/results.json") << write_json(elsewhere);
+  write_partial_results(out, elsewhere);
   const Outcome o = run_program({"run", *folder_ / "c.json", "-o", out, "--resume"});
   EXPECT_EQ(o.code, 2);
   EXPECT_TRUE(holds(o.err, "cannot be resumed: it was timed on another machine (4097 of '"));

@@ -1,6 +1,7 @@
 #include "program.hpp"
 
 #include "document/json_text.hpp"
+#include "document/json_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>

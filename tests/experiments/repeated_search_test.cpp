@@ -1,7 +1,7 @@
 /// A design that was interrupted ends as if it had not been, whatever the optimizer.
 
 #include "document/json_text.hpp"
-#include "program.hpp"
+#include "result_files.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
@@ -62,7 +62,7 @@ class RepeatedSearch : public ::testing::TestWithParam<std::pair<const char*, co
     partial.at("limits").as_array().clear();
     fs::remove_all(out);
     fs::create_directory(out);
-    std::ofstream(out + "/results.json") << write_json(partial);
+    write_partial_results(out, partial);
     std::ofstream(fs::path(out) / log_name, std::ios::binary) << log;
     return run_program({"run", file, "-o", out, "--resume", "--threads", "1"});
   }

@@ -1,11 +1,15 @@
 #include "result_files.hpp"
 
 #include "document/json_text.hpp"
+#include "document/json_writer.hpp"
+
+#include <hauberk/host/sha256.hpp>
 
 #include <gtest/gtest.h>
 #include <boost/json/object.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace hauberk::test {
@@ -26,7 +30,8 @@ Contents contents(const fs::path& folder)
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     // Evaluations of an interrupted design are lines, not a result; repeated_search_test.cpp is about them.
     if (entry.path().filename() == ".hauberk-evaluations") continue;
-    if (entry.path().filename() == ".hauberk-lock") continue;  // folder_lock_test.cpp is about it
+    if (entry.path().filename() == ".hauberk-digest") continue;  // it is written before what it is of
+    if (entry.path().filename() == ".hauberk-lock") continue;    // folder_lock_test.cpp is about it
     if (entry.is_regular_file()) out[entry.path().filename().string()] = read_text(entry.path());
   }
   return out;
@@ -62,6 +67,12 @@ void expect_whole(const Contents& files, const std::string& what)
   const json::value results = parse_json(files.at("results.json"), "results.json");
   for (const auto& [key, name] : results.at("files").as_object())
     EXPECT_TRUE(files.contains(std::string(name.as_string()))) << what << ": lacks " << name;
+}
+
+void write_partial_results(const fs::path& folder, const json::value& document)
+{
+  std::ofstream(folder / "results.json", std::ios::binary) << write_json(document);
+  std::ofstream(folder / ".hauberk-digest") << sha256_of_file(folder / "results.json") << '\n';
 }
 
 std::string endless_text()

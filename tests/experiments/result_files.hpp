@@ -22,6 +22,9 @@ Contents without_temporaries(Contents files);
 /// Every result is whole: JSON that parses, a table whose rows are equally long, a picture that is closed.
 void expect_whole(const Contents& files, const std::string& what);
 
+/// Puts a document into a folder of partial results as if a run had left it.
+void write_partial_results(const std::filesystem::path& folder, const boost::json::value& document);
+
 /// Never done: a limit with very many starts beside one that is decided at once.
 std::string endless_text();
 

@@ -1,7 +1,7 @@
 /// `hauberk run` of a small stability experiment, from the file to counts.
 
 #include "document/json_text.hpp"
-#include "program.hpp"
+#include "result_files.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
@@ -71,7 +71,7 @@ TEST(StabilityRun, ResumesWhatIsMissing)
     partial.at_pointer(std::string(k) + "/outcome") = "interrupted";
   // Marks a case that must not be computed again.
   partial.at_pointer("/stability/cases/0/message") = "kept";
-  std::ofstream(out + "/results.json") << write_json(partial);
+  write_partial_results(out, partial);
   const Outcome o = run_program({"run", file, "-o", out, "--resume"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_NE(o.err.find("resuming: finished cases are kept\n"), std::string::npos) << o.err;

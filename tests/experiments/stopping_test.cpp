@@ -1,7 +1,7 @@
 /// Interrupting a run, and going on with it.
 
 #include "document/json_text.hpp"
-#include "program.hpp"
+#include "result_files.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
@@ -89,7 +89,7 @@ TEST(Resuming, GivesTheSameResultsAsOneRun)
   json::value timings = read_timings(out);
   timings.at("peak_memory_bytes") = std::int64_t{1} << 40;
   std::ofstream(out + "/timings.json") << write_json(timings);
-  std::ofstream(out + "/results.json") << write_json(partial);
+  write_partial_results(out, partial);
 
   const Outcome o = run_program({"run", file, "-o", out, "--resume"});
   EXPECT_EQ(o.code, 0) << o.err;
@@ -138,13 +138,13 @@ TEST(Resuming, FinishedLimitsLearnFromNewOnes)
   json::value partial = whole;
   partial.at_pointer("/limits/0") = alone.at_pointer("/limits/0");
   partial.at_pointer("/limits/1/status") = "interrupted";
-  std::ofstream(out + "/results.json") << write_json(partial);
+  write_partial_results(out, partial);
   EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0);
   EXPECT_EQ(write_json(timeless(read_results(out))), write_json(timeless(whole)));
   // What has learnt learns again, from states of its own run.
   partial = whole;
   partial.at_pointer("/limits/1/status") = "interrupted";
-  std::ofstream(out + "/results.json") << write_json(partial);
+  write_partial_results(out, partial);
   EXPECT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0);
   EXPECT_EQ(write_json(timeless(read_results(out))), write_json(timeless(whole)));
 }
@@ -173,6 +173,31 @@ TEST(Resuming, RefusesOtherExperiments)
           ": cannot be resumed: it was computed from another experiment; give the same file and --set, or "
           "start anew with --force\n");
   EXPECT_EQ(read_text(results), before);
+}
+
+/// A number that somebody has changed is not gone on from, and neither is what nothing vouches for.
+TEST(Resuming, RefusesWhatWasChanged)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("e.json", endless_text()), out = folder / "out";
+  Process process({"run", file, "-o", out, "--quiet"}, folder);
+  for (int k = 0; k < 3000 && !fs::exists(out + "/results.json"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.signal(SIGINT);
+  ASSERT_EQ(process.wait().code, 130);
+  const std::string text = read_text(out + "/results.json");
+  const auto refused = [&](const char* why) {
+    const Outcome o = run_program({"run", file, "-o", out, "--resume"});
+    EXPECT_EQ(o.code, 2) << o.out;
+    EXPECT_NE(o.err.find(why), std::string::npos) << o.err;
+  };
+  std::string changed = text;
+  changed.replace(changed.find("\"unbounded\""), 11, "\"stalled\"");
+  std::ofstream(out + "/results.json", std::ios::binary) << changed;
+  refused("results.json: cannot be resumed: it is not as the run left it");
+  std::ofstream(out + "/results.json", std::ios::binary) << text;
+  fs::remove(out + "/.hauberk-digest");
+  refused("nothing tells that these partial results are as a run left them");
 }
 
 TEST(Resuming, RefusesOtherFormats)

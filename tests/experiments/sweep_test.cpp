@@ -1,7 +1,7 @@
 /// `hauberk run` of sweeps, from the file to a table.
 
 #include "document/json_text.hpp"
-#include "program.hpp"
+#include "result_files.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
@@ -144,7 +144,7 @@ TEST(SweepRun, ResumesWhatIsMissing)
   }
   // Marks a row that must not be computed again.
   partial.at_pointer("/sweep/rows/0/message") = "kept";
-  std::ofstream(out + "/results.json") << write_json(partial);
+  write_partial_results(out, partial);
   const Outcome o = run_program({"run", file, "-o", out, "--resume"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_NE(o.err.find("resuming: finished rows are kept\n"), std::string::npos) << o.err;
@@ -196,7 +196,7 @@ TEST(SweepRun, RowsAreVerifiedFromTheFile)
   const auto after = [&](const char* pointer, const json::value& value) {
     json::value wrong = whole;
     wrong.at_pointer(pointer) = value;
-    std::ofstream(out + "/results.json") << write_json(wrong);
+    write_partial_results(out, wrong);
     return run_program({"verify", out});
   };
   EXPECT_EQ(after("/sweep/rows/1/result/limits/0/poses/0/position/0", 0.01).code, 1);
@@ -216,7 +216,7 @@ TEST(SweepRun, TableIsVerifiedAgainstWhatWasAskedFor)
   ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", out}).code, 0);
   const json::value whole = read_results(out);
   const auto verdict = [&](const json::value& document) {
-    std::ofstream(out + "/results.json") << write_json(document);
+    write_partial_results(out, document);
     const Outcome o = run_program({"verify", out});
     return (o.code == 0 ? "ok " : "wrong ") + o.out;
   };
@@ -263,7 +263,7 @@ TEST(SweepRun, RangesAreVerified)
   EXPECT_EQ(run_program({"verify", out}).code, 0);
   json::value wrong = read_results(out);
   wrong.at_pointer("/sweep/rows/1/values/R") = 5.05;
-  std::ofstream(out + "/results.json") << write_json(wrong);
+  write_partial_results(out, wrong);
   EXPECT_NE(run_program({"verify", out}).out.find("rows/1: 'R' is not the value of this row"),
             std::string::npos);
 }

@@ -108,6 +108,8 @@ std::vector<Entry> files()
           {".hauberk-previous", "in the folder of results: those of a former run, until the new one is done"},
           {".hauberk-evaluations", "in the folder of a design's results: what `--resume` goes on from"},
           {"parts", "in the folder of results: what the parts of a divided run have found, for `gather`"},
+          {".hauberk-digest",
+           "in the folder of partial results: what tells `--resume` that they were not changed"},
           {".hauberk-lock", "in the folder of results: the run that writes into it"}};
 }
 

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace hauberk::command {
 namespace {
@@ -63,7 +64,16 @@ Former resume(const std::filesystem::path& folder, Job& job, Provenance& provena
   try {
     former.document = read_timed_results(file);
     check_origin(former.document, *job.prepared);
+    const std::optional<bool> as_written = is_as_written(folder);
+    if (as_written == false)
+      throw InputError(
+          "it is not as the run left it, so that nothing of it can be believed; bring that back, or start anew with "
+          "--force");
     former.left = job.task->resume(former.document) ? Left::nothing : Left::something;
+    if (former.left == Left::something && !as_written)
+      throw InputError(fmt::format(
+          "nothing tells that these partial results are as a run left them ({} is missing); start anew with --force",
+          digest_file));
     keep_former(former.document, provenance);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: cannot be resumed: {}", file.string(), error.what()));
@@ -80,8 +90,11 @@ int already_complete(const Job& job, const boost::json::value& document, const s
   // The run may have been killed after its last result, before it had tidied up.
   const std::vector<const char*> names = result_names();
   remove_abandoned(folder, names);
+  remove_abandoned(folder, std::array{digest_file});
   drop_previous(folder, names);
   drop_journal(folder);
+  std::error_code ignored;
+  std::filesystem::remove(folder / digest_file, ignored);
   say("{}: complete already\n", (folder / results_file).string());
   const bool missed = report_expectations(job.prepared->experiment, document);
   return missed || job.task->failed() ? exit_failed : exit_done;
@@ -152,6 +165,7 @@ int run_experiment(Job& job, const RunRequest& request)
   const std::vector<const char*> names = result_names();
   // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
   prepare_output_directory(folder, request.force || request.resume, names);
+  remove_abandoned(folder, std::array{digest_file});
 
   const bool resuming = former.left == Left::something;
   if (!resuming && request.gathering == nullptr) drop_journal(folder);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -23,6 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view format_name = "hauberk-evaluations/4 ";
+/// Limits that a design can have.
+constexpr int most_tasks = 1000000;
 constexpr char evaluation_mark = 'E';
 constexpr char states_mark = 'S';
 
@@ -123,7 +126,10 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
   found.evaluated = in.number<int>() != 0;
   found.continued = in.number<int>() != 0;
   found.why = in.words();
-  for (const double k : in.numbers()) found.changed.push_back(static_cast<int>(k));
+  for (const double k : in.numbers()) {
+    in.good = in.good && k >= 0.0 && k < static_cast<double>(most_tasks) && k == std::floor(k);
+    found.changed.push_back(in.good ? static_cast<int>(k) : 0);
+  }
   found.values = in.numbers();
   found.objective = in.number<double>();
   found.gradient = vector(in.numbers());

@@ -217,17 +217,17 @@ struct StartSearch {
 
 StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double clearance,
                         const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
-                        unsigned threads, int start, const DesignObserver& observer, EvaluationMemory* memory)
+                        unsigned threads, int start, const DesignObserver& observer, EvaluationMemory* memory,
+                        const KeepGoing& keep_going)
 {
   SceneSpec frozen = scene;
   frozen.length = characteristic_length(scene);
   Schedule coarse = design.schedule;
   coarse.last = std::max(coarse.last, design.coarse_last);
-  const KeepGoing always = [] { return true; };  // searches are interrupted between iterates
   StartSearch out;
-  out.problem =
-      std::make_unique<DesignProblem>(DesignScene{frozen, load, clearance, limits, design, threads, always},
-                                      static_cast<std::uint64_t>(start));
+  out.problem = std::make_unique<DesignProblem>(
+      DesignScene{frozen, load, clearance, limits, design, threads, keep_going},
+      static_cast<std::uint64_t>(start));
   out.initial_scene = scene_of(out.problem->current());
   out.problem->set_memory(memory);
   out.problem->set_schedule(coarse);
@@ -240,15 +240,17 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
 
 bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                   const DesignSpec& design, const Optimizer& optimizer, unsigned threads, int start,
-                  const DesignObserver& observer, EvaluationMemory& memory)
+                  const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going)
 {
-  return !search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, &memory)
+  return !search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, &memory,
+                      keep_going)
               .outcome.interrupted;
 }
 
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
-                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory)
+                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory,
+                    const KeepGoing& keep_going)
 {
   const auto t0 = std::chrono::steady_clock::now();
   Designed out;
@@ -257,8 +259,8 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   std::string failure;
   bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
-    auto [problem, initial_scene, s] =
-        search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, memory);
+    auto [problem, initial_scene, s] = search_from(scene, load, clearance, limits, design, optimizer, threads,
+                                                   start, observer, memory, keep_going);
     if (start == 0) out.result.initial_scene = std::move(initial_scene);
     out.result.evaluations += problem->evaluations();
     interrupted = s.interrupted;

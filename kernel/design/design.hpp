@@ -71,16 +71,19 @@ class EvaluationMemory;
 /// Runs all starts of the design with coarse stages, then continues the best of them with the final ones.
 /// Evaluations that `memory` knows are not made again (evaluation_memory.hpp); null: none are known, nor
 /// recorded. Throws InputError when the initial design is infeasible at rest, ComputationError when no
-/// evaluation succeeds.
-Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
-                    const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
-                    unsigned threads, const DesignObserver& observer, EvaluationMemory* memory = nullptr);
+/// evaluation succeeds, and Interrupted where `keep_going` says no within an evaluation, which is then not
+/// recorded.
+Designed run_design(
+    const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
+    const DesignSpec& design, const Optimizer& optimizer, unsigned threads, const DesignObserver& observer,
+    EvaluationMemory* memory = nullptr, const KeepGoing& keep_going = [] { return true; });
 
 /// Of a run that is divided: the search from one of its starts with coarse stages, for `memory` alone. Throws
-/// InputError when the initial design is infeasible at rest. False: the observer interrupted it.
+/// InputError when the initial design is infeasible at rest, Interrupted as run_design. False: the observer
+/// interrupted it.
 bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                   const DesignSpec& design, const Optimizer& optimizer, unsigned threads, int start,
-                  const DesignObserver& observer, EvaluationMemory& memory);
+                  const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going);
 
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);

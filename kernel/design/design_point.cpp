@@ -76,12 +76,13 @@ struct ChangingPair {
   }
 
   /// How far of the way up to `end` the gap stays above `least`.
-  double advance(double end, double least) const
+  double advance(double end, double least, const KeepGoing& keep_going) const
   {
     double t = 0.0, now = gap;
     while (rate > 0.0 && t + now / rate < end) {
       if (now <= least || now / rate < shortest_advance) return t;
       t += most_of_gap * now / rate;
+      if (!keep_going()) throw Interrupted();
       now = gap_at(t);
     }
     return end;
@@ -257,7 +258,8 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
   return state;
 }
 
-double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy)
+double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy,
+                           const KeepGoing& keep_going)
 {
   double shape = 0.0;
   for (std::size_t k = 0; k < a.bodies.size(); ++k)
@@ -285,7 +287,7 @@ double safe_parameter_step(const Model& a, const Model& b, const State& from, co
   std::sort(pairs.begin(), pairs.end(),
             [](const ChangingPair& x, const ChangingPair& y) { return x.gap * y.rate < y.gap * x.rate; });
   double safe = 1.0;
-  for (const ChangingPair& pair : pairs) safe = pair.advance(safe, least);
+  for (const ChangingPair& pair : pairs) safe = pair.advance(safe, least, keep_going);
   return safe;
 }
 

@@ -66,6 +66,8 @@ Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
 /// Largest t in [0, 1] such that nothing collides while parameters go from `a` to `b` (same topology) and the
 /// state moves along dy, which must not change the strain: conservative advancement of every pair of bodies,
 /// with the speeds of both shapes (shape_speed) added to that of their motion.
-double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy);
+/// Throws Interrupted where `keep_going` says no.
+double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy,
+                           const KeepGoing& keep_going = [] { return true; });
 
 }  // namespace hauberk

@@ -52,7 +52,7 @@ RestPath::End RestPath::end_of_way(const DesignPoint& from, const DesignPoint& t
       end = part < 1.0 - way.share ? way.share + part : 1.0;
       next = intermediate(from, to, variables, end);
       dy = response * (part * change);
-      safe = next ? safe_parameter_step(at.model, *next, at.rest, dy) : 0.5;
+      safe = next ? safe_parameter_step(at.model, *next, at.rest, dy, scene_->keep_going) : 0.5;
       if (safe < 1.0) part *= most_of_safe * safe;
     }
     const State predicted = advanced(at.model, at.rest, dy, 1.0);

@@ -74,6 +74,7 @@ Locked TargetSearch::search(const DesignPoint& p, const State& start, const Macr
                             const Schedule& schedule, LockedTarget& counted) const
 {
   Locked l = lock(p.model, start, load, scene_->limits.contact, schedule, scene_->keep_going);
+  if (l.status == LockStatus::interrupted) throw Interrupted();
   counted.evaluations += l.evaluations;
   return l;
 }
@@ -173,7 +174,9 @@ std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoin
     for (const LimitResult& limit : limits) evaluations += limit.evaluations;
   };
   observer.on_unreported = count;
+  observer.keep_going = scene_->keep_going;
   count(compute_limits(p.model, p.spec, tasks_, settings, threads, observer));
+  if (!scene_->keep_going()) throw Interrupted();
   return states;
 }
 
@@ -198,6 +201,7 @@ void TargetSearch::learn(const DesignPoint& p, const std::vector<MacroLoad>& loa
       try {
         found[i] = lock(p.model, targets[donor].locked.state, loads[k], scene_->limits.contact,
                         without_widest(schedule_), scene_->keep_going);
+        if (found[i].status == LockStatus::interrupted) throw Interrupted();
       } catch (const ComputationError&) {
         // What cannot be computed teaches nothing: the learner keeps its own state.
       }

@@ -429,7 +429,7 @@ SafeStep checked_step(const Model& m, const State& from, const Vector& dy, doubl
                       GapBounds* bounds)
 {
   if (stage.ccd == CollisionCheck::certified || stage.contact.formulation == Formulation::mesh)
-    return largest_safe_step(m, from, dy, keep, stage.contact.threads, bounds);
+    return largest_safe_step(m, from, dy, keep, stage.contact.threads, bounds, stage.contact.keep_going);
   return sampled_safe_step(m, from, dy, std::sqrt(published::d_th) * stage.contact.g_hat);
 }
 

@@ -59,7 +59,8 @@ bool inside(const PairFrame& frame)
 }
 
 /// Looks for the part of [0, alpha] over which a pair keeps that part of its gap.
-void advance(Tight& tight, double clearance, double alpha, double keep, bool remember)
+void advance(Tight& tight, double clearance, double alpha, double keep, bool remember,
+             const std::function<bool()>* keep_going)
 {
   const BodyPair& bodies = *tight.bodies;
   const CandidatePair& pair = *bodies.pair;
@@ -75,16 +76,16 @@ void advance(Tight& tight, double clearance, double alpha, double keep, bool rem
     if (remember) tight.found = std::move(pair_advance).found();
   };
   if (probe_dimension(PairFrame(P, pp, F, pf)) == 1) {
-    run(PairAdvance<1>(P, tp, F, tf, clearance, tight.known));
+    run(PairAdvance<1>(P, tp, F, tf, clearance, tight.known, keep_going));
   } else {
-    run(PairAdvance<2>(P, tp, F, tf, clearance, tight.known));
+    run(PairAdvance<2>(P, tp, F, tf, clearance, tight.known, keep_going));
   }
 }
 
 }  // namespace
 
 SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, double keep, unsigned threads,
-                           GapBounds* bounds)
+                           GapBounds* bounds, const std::function<bool()>* keep_going)
 {
   SafeStep out;
   out.alpha = wall_step(m, from, dy, keep);
@@ -95,8 +96,9 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
   const std::size_t most = all.size() >= large_scene ? taken_together : 1;
   std::vector<Tight> tight;
   const auto advance_all = [&] {
-    parallel_for(tight.size(), threads,
-                 [&](std::size_t i) { advance(tight[i], m.clearance, out.alpha, keep, bounds != nullptr); });
+    parallel_for(tight.size(), threads, [&](std::size_t i) {
+      advance(tight[i], m.clearance, out.alpha, keep, bounds != nullptr, keep_going);
+    });
     for (Tight& t : tight) {
       if (t.found) bounds->remember(t.bodies->a, t.bodies->b, t.bodies->pair->tj.image, std::move(*t.found));
       out.alpha = std::min(out.alpha, t.alpha);
@@ -109,7 +111,8 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
     const CandidatePair& pair = *bodies.pair;
     const Pose &pi = pair.ti.pose, &pj = pair.tj.pose;
     if (bodies.A.facets) {
-      out.alpha = advance_facets(bodies.A, pair.ti, bodies.B, pair.tj, m.clearance, out.alpha, keep, out);
+      out.alpha =
+          advance_facets(bodies.A, pair.ti, bodies.B, pair.tj, m.clearance, out.alpha, keep, out, keep_going);
       continue;
     }
     const auto far = [&](double apart) {

@@ -3,6 +3,8 @@
 
 #include "motion/gap_bounds.hpp"
 
+#include <functional>
+
 namespace hauberk {
 
 /// How steps are checked for collisions.
@@ -37,8 +39,11 @@ inline constexpr double keep_gap = 0.1;
 /// `bounds`, if given, says which pairs, and which panels of others, are too far apart to be looked at, and
 /// is left with what was found of all panels. Of pairs with room to spare half of the gap is certified, if it
 /// can be. How far the step goes may depend on it; that it is safe does not.
+///
+/// `keep_going`, if given, is asked now and then within a pair; where it says no, Interrupted is thrown.
 SafeStep largest_safe_step(const Model& model, const State& from, const Vector& dy, double keep,
-                           unsigned threads = 1, GapBounds* bounds = nullptr);
+                           unsigned threads = 1, GapBounds* bounds = nullptr,
+                           const std::function<bool()>* keep_going = nullptr);
 
 /// The published check (paper equations (6) to (8)), without guarantee. For every pair of bodies the smallest
 /// distance over s in [0, alpha] is sought by minimisation in s from sampled closest points; where it is not

@@ -1,5 +1,6 @@
 #include "motion/facet_advancement.hpp"
 
+#include "contact/formulation.hpp"
 #include "geometry/facets.hpp"
 
 #include <algorithm>
@@ -29,8 +30,9 @@ struct Followed {
 
 class FacetAdvance {
  public:
-  FacetAdvance(const Body& A, const Track& ta, const Body& B, const Track& tb, SafeStep& count)
-      : A_(A), B_(B), ta_(ta), tb_(tb), count_(count)
+  FacetAdvance(const Body& A, const Track& ta, const Body& B, const Track& tb, SafeStep& count,
+               const std::function<bool()>* keep_going)
+      : A_(A), B_(B), ta_(ta), tb_(tb), count_(count), keep_going_(keep_going)
   {
     bend_ = ta.acceleration + tb.acceleration + ta.w.squaredNorm() * A.reach + tb.w.squaredNorm() * B.reach;
   }
@@ -39,6 +41,7 @@ class FacetAdvance {
   {
     double s = 0.0, target = -1.0;
     while (s < limit) {
+      ask();
       const Instant now = at(s);
       const double rest = limit - s, speed = fastest(now, rest);
       // Parts in which bodies move by an edge at most: of longer ones nearly all features would be
@@ -57,6 +60,7 @@ class FacetAdvance {
       double safe = part;
       for (const Followed& f : near) {
         if (f.distance <= target) return s;
+        poll(keep_going_, ++followed_);
         safe = advance(f, s, safe, now, target);
         if (safe <= 0.0) return s;
       }
@@ -67,6 +71,12 @@ class FacetAdvance {
   }
 
  private:
+  /// Looking for features takes a while even where none is near.
+  void ask() const
+  {
+    if (keep_going_ != nullptr && !(*keep_going_)()) throw Interrupted();
+  }
+
   Instant at(double s) const
   {
     Instant out;
@@ -86,7 +96,7 @@ class FacetAdvance {
     const PairFrame frame(A_, now.a, B_, now.b);
     near_features(frame, range,
                   [&](const FeaturePair& pair, const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& f) {
-                    ++count_.evaluations;
+                    poll(keep_going_, ++count_.evaluations);
                     const double distance = nearest_features(pair, p, f).distance;
                     if (distance < range) near.push_back({pair, distance});
                   });
@@ -161,15 +171,17 @@ class FacetAdvance {
   const Track& ta_;
   const Track& tb_;
   SafeStep& count_;
+  const std::function<bool()>* keep_going_;
+  long followed_ = 0;
   double bend_ = 0.0;  ///< bound of the relative acceleration of two points
 };
 
 }  // namespace
 
 double advance_facets(const Body& A, const Track& ta, const Body& B, const Track& tb, double clearance,
-                      double limit, double keep, SafeStep& count)
+                      double limit, double keep, SafeStep& count, const std::function<bool()>* keep_going)
 {
-  return FacetAdvance(A, ta, B, tb, count).run(limit, clearance, keep);
+  return FacetAdvance(A, ta, B, tb, count, keep_going).run(limit, clearance, keep);
 }
 
 }  // namespace hauberk

@@ -1,6 +1,7 @@
 #pragma once
 /// How far two bodies go along a step while their gap stays open, certified panel by panel.
 
+#include "contact/formulation.hpp"
 #include "geometry/panel_field.hpp"
 #include "geometry/separation.hpp"
 #include "motion/gap_bounds.hpp"
@@ -28,8 +29,8 @@ class PairAdvance {
  public:
   /// `known`: of this pair, from any placement; null where nothing is.
   PairAdvance(const Body& P, const Track& tp, const Body& F, const Track& tf, double clearance,
-              const KnownGap* known)
-      : P_(P), F_(F), tp_(tp), tf_(tf), clearance_(clearance)
+              const KnownGap* known, const std::function<bool()>* keep_going)
+      : P_(P), F_(F), tp_(tp), tf_(tf), clearance_(clearance), keep_going_(keep_going)
   {
     if (known != nullptr) gap_ = *known;
   }
@@ -233,6 +234,7 @@ class PairAdvance {
     if (verdict == Verdict::holds) return leave(true);
     const std::array<PanelField, 2> half = split(probe, p);
     evaluations_ += 2;
+    poll(keep_going_, ++splits_);
     const std::size_t first = half[1].f.m.phi < half[0].f.m.phi ? 1 : 0;  // nearer first
     const bool held = holds(probe, half[first], bound, tau, keep);
     if (held) return holds(probe, half[1 - first], bound, tau, keep);
@@ -363,7 +365,8 @@ class PairAdvance {
   const Track& tp_;
   const Track& tf_;
   double clearance_;
-  long evaluations_ = 0;
+  const std::function<bool()>* keep_going_;
+  long evaluations_ = 0, splits_ = 0;
   KnownGap gap_;           ///< where `begin` was last, which `certified` makes better
   long before_ = 0;        ///< evaluations at the last search from scratch
   double least_seen_ = 0;  ///< smallest gap at a centre of a panel that was looked at since `begin`

@@ -1,17 +1,21 @@
 #include "run/interrupt.hpp"
 
+#include <unistd.h>
 #include <atomic>
 #include <csignal>
 
 namespace hauberk {
 namespace {
 
-// The one piece of global state: a signal handler has no other way to say that it ran.
-std::atomic<bool> asked{false};
+// The one piece of global state: a signal handler has no other way to say that it ran, nor to know what it
+// may do.
+std::atomic<bool> asked{false}, nothing_to_lose{false};
+constexpr int interrupted_code = 130;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void on_signal(int signal)
 {
+  if (nothing_to_lose) ::_exit(interrupted_code);
   if (asked.exchange(true)) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -39,6 +43,9 @@ void catch_interrupts()
 }
 
 bool interrupted() { return asked.load(); }
+
+NothingToLose::NothingToLose() { nothing_to_lose = true; }
+NothingToLose::~NothingToLose() { nothing_to_lose = false; }
 
 namespace {
 constexpr std::array<int, 5> caught{SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGPIPE};

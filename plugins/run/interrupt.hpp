@@ -15,6 +15,16 @@ void catch_interrupts();
 /// True after the first of them. Thread safe.
 bool interrupted();
 
+/// While there is one, nothing is lost by ending: an interrupt ends the process at once, with exit code 130.
+/// One at a time.
+class NothingToLose {
+ public:
+  NothingToLose();
+  ~NothingToLose();
+  NothingToLose(const NothingToLose&) = delete;
+  NothingToLose& operator=(const NothingToLose&) = delete;
+};
+
 /// The same for as long as it lives, for programs that outlive a run: at its end signals do what they did
 /// before, and nothing is interrupted any more. One at a time.
 class InterruptScope {

@@ -54,7 +54,7 @@ def main():
     parser.add_argument("--times", type=int, default=4, help="interrupts per scene")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("files", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     random.seed(options.seed)
     answers, scenes = [], 0
     with tempfile.TemporaryDirectory() as folder:

@@ -127,7 +127,10 @@ int gather_command(const std::vector<std::string>& words)
   const Division division = read_division(request.folder);
   const std::string experiment =
       options.has("experiment") ? options.get<std::string>("experiment") : division.experiment;
-  Job job = open_division(division, experiment);
+  Job job = [&] {
+    const NothingToLose scope;
+    return open_division(division, experiment);
+  }();
   refuse_whole(job);
   SearchLogs logs(identity_of(job), [](const std::string& warning) { say_error("hauberk: {}\n", warning); });
   const PartsThere there = read_parts(request.folder, division, logs);

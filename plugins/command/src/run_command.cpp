@@ -123,7 +123,10 @@ int run_command(const std::vector<std::string>& words)
   if (options.has("take-over")) request.take_over = options.get<std::string>("take-over");
   std::optional<Share> share;
   if (options.has("part")) share = part_of(options);
-  Job job = open_job(options);
+  Job job = [&options] {
+    const NothingToLose scope;
+    return open_job(options);
+  }();
   warn_of_plugins(*job.prepared);
   if (!options.has("yes"))
     refuse_beyond(budget_of(options),

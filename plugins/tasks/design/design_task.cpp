@@ -297,8 +297,10 @@ class DesignTask final : public TaskRun {
     const TappedOptimizer optimizer(*section.optimizer, section.max_iterations, [](const DesignPoint&) {});
     try {
       search_start(prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings,
-                   spec_, optimizer, context_->threads, start, observer, memory);
+                   spec_, optimizer, context_->threads, start, observer, memory,
+                   [] { return !interrupted(); });
     } catch (const SearchInterrupted&) {
+    } catch (const Interrupted&) {
     } catch (const InputError&) {
     } catch (const ComputationError&) {
     }
@@ -441,11 +443,11 @@ class DesignTask final : public TaskRun {
             run_.design->evaluations = log.closest_points();
             return observe(p);
           },
-          &log);
+          &log, [] { return !interrupted(); });
     } catch (const SearchInterrupted&) {
-      context_->progress.clear();
-      run_.design->evaluations = log.closest_points();
-      return;  // the best so far is in `run_`
+      return stopped(log);
+    } catch (const Interrupted&) {
+      return stopped(log);
     }
     context_->progress.clear();
     const DesignResult partial = *run_.design;
@@ -464,6 +466,13 @@ class DesignTask final : public TaskRun {
     }
     d.objective = std::numeric_limits<double>::quiet_NaN();  // until limits are recomputed
     context_->save();
+  }
+
+  /// The best so far is in `run_`.
+  void stopped(const EvaluationLog& log)
+  {
+    context_->progress.clear();
+    run_.design->evaluations = log.closest_points();
   }
 
   /// Limits of the design from its rest state, with all stages and starts.

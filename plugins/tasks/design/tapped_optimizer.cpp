@@ -8,6 +8,18 @@
 namespace hauberk {
 namespace {
 
+/// An evaluation that was given up ends the minimisation, whatever an optimizer makes of exceptions that it
+/// knows.
+template <class Question>
+auto asked(const Question& question)
+{
+  try {
+    return question();
+  } catch (const Interrupted&) {
+    throw SearchInterrupted{};
+  }
+}
+
 void stop_if_interrupted()
 {
   if (interrupted()) throw SearchInterrupted{};
@@ -25,7 +37,7 @@ class InterruptibleProblem final : public OptimizationProblem {
   Evaluation evaluate(std::span<const double> x, bool want_gradient) override
   {
     stop_if_interrupted();
-    return problem_.evaluate(x, want_gradient);
+    return asked([&] { return problem_.evaluate(x, want_gradient); });
   }
   std::vector<Evaluation> evaluate_batch(std::size_t count, std::span<const double> points,
                                          bool want_gradient) override
@@ -38,7 +50,8 @@ class InterruptibleProblem final : public OptimizationProblem {
     for (std::size_t k = 0; k < count; k += part) {
       stop_if_interrupted();
       const std::size_t here = std::min(part, count - k);
-      for (Evaluation& e : problem_.evaluate_batch(here, points.subspan(k * n, here * n), want_gradient))
+      for (Evaluation& e : asked(
+               [&] { return problem_.evaluate_batch(here, points.subspan(k * n, here * n), want_gradient); }))
         found.push_back(std::move(e));
     }
     return found;
@@ -46,7 +59,7 @@ class InterruptibleProblem final : public OptimizationProblem {
   int residual_count() const override { return problem_.residual_count(); }
   bool residuals(std::span<const double> x, std::span<double> r, std::span<double> jacobian) override
   {
-    return problem_.residuals(x, r, jacobian);
+    return asked([&] { return problem_.residuals(x, r, jacobian); });
   }
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
   {
@@ -64,7 +77,10 @@ class InterruptibleProblem final : public OptimizationProblem {
     stop_if_interrupted();
     return problem_.largest_safe_step(x, d);
   }
-  void accept(std::span<const double> x) override { problem_.accept(x); }
+  void accept(std::span<const double> x) override
+  {
+    asked([&] { problem_.accept(x); });
+  }
   std::uint64_t stream() const override { return problem_.stream(); }
 
  private:

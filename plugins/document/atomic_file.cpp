@@ -118,12 +118,20 @@ void remove_others(const fs::path& directory, std::span<const char* const> names
 /// Not a name that a user would give: what it holds is removed.
 fs::path previous_folder(const fs::path& directory) { return directory / ".hauberk-previous"; }
 
+/// A folder itself, not a link to one: what is in that is somebody else's.
+bool is_folder(const fs::path& path)
+{
+  std::error_code unknown;
+  return fs::symlink_status(path, unknown).type() == fs::file_type::directory;
+}
+
 /// Gives the results in `directory` a second name, which takes no room; they are there under one of the two
 /// at any time. The first name is the last one kept: once it is there, all are.
 void keep_previous(const fs::path& directory, std::span<const char* const> names)
 {
   std::error_code error;
   const fs::path folder = previous_folder(directory);
+  if (!is_folder(folder)) fs::remove(folder, error);  // a link makes way
   if (fs::exists(folder / names.front(), error)) return;
   for (std::size_t k = names.size(); k-- > 0;) {
     const char* name = names[k];
@@ -228,7 +236,7 @@ void prepare_output_directory(const fs::path& directory, bool force, std::span<c
 
 void drop_previous(const fs::path& directory, std::span<const char* const> names)
 {
-  remove_others(previous_folder(directory), names, {});
+  if (is_folder(previous_folder(directory))) remove_others(previous_folder(directory), names, {});
   std::error_code ignored;
   fs::remove(previous_folder(directory), ignored);  // unless somebody put more into it
 }

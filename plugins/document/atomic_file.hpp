@@ -47,7 +47,8 @@ void remove_abandoned(const std::filesystem::path& directory, std::span<const ch
 void prepare_output_directory(const std::filesystem::path& directory, bool force,
                               std::span<const char* const> names);
 
-/// Removes former results that were kept: to be called once a run is done. Files that cannot be removed stay.
+/// Removes former results that were kept: to be called once a run is done. Files that cannot be removed stay,
+/// and so does what a link of the folder's name leads to.
 void drop_previous(const std::filesystem::path& directory, std::span<const char* const> names);
 
 }  // namespace hauberk

@@ -1,15 +1,19 @@
 #include "run/run_folder.hpp"
 
+#include "document/json_text.hpp"
 #include "results/document.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/host/sha256.hpp>
 
 #include <fmt/format.h>
+#include <boost/json/object.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 
 namespace hauberk {
 namespace {
@@ -32,6 +36,21 @@ std::string rescue(const std::vector<NamedContent>& files)
     std::filesystem::remove(name, error);
     return "";
   }
+}
+
+/// Files that the results in a folder name as theirs; none where there are no results.
+std::vector<std::string> former_files(const std::filesystem::path& folder)
+{
+  std::vector<std::string> out;
+  std::error_code unknown;
+  if (!std::filesystem::exists(folder / results_file, unknown)) return out;
+  try {
+    const boost::json::value results = read_json_file((folder / results_file).string());
+    for (const auto& [what, name] : results.at("files").as_object()) out.emplace_back(name.as_string());
+  } catch (const std::exception&) {  // not ours
+    out.clear();
+  }
+  return out;
 }
 
 }  // namespace
@@ -63,6 +82,11 @@ RunFolder::RunFolder(std::filesystem::path directory, std::span<const char* cons
       content_(std::move(content)),
       own_(resuming)
 {
+  const std::vector<std::string> former = former_files(directory_);
+  std::copy_if(names_.begin(), names_.end(), std::back_inserter(ours_), [&former](const char* name) {
+    return name == std::string_view(results_file) ||
+           std::find(former.begin(), former.end(), name) != former.end();
+  });
   if (resuming) digest_ = sha256_of_file(directory_ / results_file);
 }
 
@@ -80,9 +104,14 @@ void RunFolder::replace(const std::vector<NamedContent>& files)
     now = hash.digest();
     all.insert(results, {digest_file, now + "\n" + digest_ + "\n"});
   }
-  write_files_atomically(directory_, all, names_, own_ ? FormerResults::replaced : FormerResults::kept);
+  write_files_atomically(directory_, all, ours_, own_ ? FormerResults::replaced : FormerResults::kept);
   digest_ = now;
   own_ = true;
+  for (const char* name : names_) {
+    const bool written =
+        std::any_of(all.begin(), all.end(), [name](const auto& file) { return file.name == name; });
+    if (written && std::find(ours_.begin(), ours_.end(), name) == ours_.end()) ours_.push_back(name);
+  }
 }
 
 void RunFolder::write()

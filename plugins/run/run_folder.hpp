@@ -58,6 +58,8 @@ class RunFolder {
 
   std::filesystem::path directory_;
   std::span<const char* const> names_;
+  /// Of these what runs have left, as far as results there say, and this run: nothing else is ever removed.
+  std::vector<const char*> ours_;
   Progress& progress_;
   Content content_;
   std::string digest_;  ///< of the results.json that was written last

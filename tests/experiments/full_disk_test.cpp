@@ -190,6 +190,57 @@ TEST(FoldersThatCannotBeWritten, AreBadInputBeforeAnythingIsComputed)
   }
 }
 
+/// What no results there name is somebody's own, whatever it is called.
+TEST(ForeignFiles, StayWhereTheyAre)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
+  fs::create_directories(out);
+  for (const char* name : {"sweep.svg", "designed.json", "notes.txt"})
+    folder.write(std::string("out/") + name, "mine");
+  ASSERT_EQ(run_program({"run", file, "-o", out, "--force"}).code, 0);
+  for (const char* name : {"sweep.svg", "designed.json", "notes.txt"})
+    EXPECT_EQ(read_text(fs::path(out) / name), "mine") << name;
+  // What runs left goes with their results.
+  const std::string sweep = folder.write("s.json", sweep_text());
+  fs::remove(fs::path(out) / "sweep.svg");
+  ASSERT_EQ(run_program({"run", sweep, "-o", out, "--force"}).code, 0);
+  EXPECT_FALSE(fs::exists(fs::path(out) / "profile.svg"));
+  ASSERT_EQ(run_program({"run", file, "-o", out, "--force"}).code, 0);
+  EXPECT_FALSE(fs::exists(fs::path(out) / "sweep.svg"));
+  EXPECT_EQ(read_text(fs::path(out) / "designed.json"), "mine");
+}
+
+/// Nor is anything removed that a link leads to.
+TEST(ForeignFiles, BehindALinkStay)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
+  ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
+  fs::create_directories(folder / "other");
+  folder.write("other/results.json", "mine");
+  folder.write("other/limits.csv", "mine");
+  fs::create_directory_symlink(folder / "other", fs::path(out) / ".hauberk-previous");
+  ASSERT_EQ(run_program({"run", file, "-o", out, "--force"}).code, 0);
+  EXPECT_EQ(read_text(folder / "other/results.json"), "mine");
+  EXPECT_EQ(read_text(folder / "other/limits.csv"), "mine");
+  EXPECT_EQ(contents(folder / "other").size(), 2U);
+  fs::create_directory_symlink(folder / "other", fs::path(out) / ".hauberk-previous");
+  ASSERT_EQ(run_program({"run", file, "-o", out, "--resume"}).code, 0) << "complete already";
+  EXPECT_EQ(contents(folder / "other").size(), 2U);
+}
+
+/// `...json` would be written to `out/..`.
+TEST(ForeignFiles, NamesThatAreNoFolders)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"...json", "..json"}) {
+    const Outcome o = run_program({"run", folder.write(name, chain_text())});
+    EXPECT_EQ(o.code, 2) << o.out;
+    EXPECT_NE(o.err.find("gives no folder for results; give one with -o"), std::string::npos) << o.err;
+  }
+}
+
 TEST(FoldersThatCannotBeWritten, WhatAKilledRunLeftIsRemoved)
 {
   const TemporaryFolder folder;

@@ -58,7 +58,8 @@ TEST_P(Kills, LeaveWholeResultsThatCanBeResumed)
         EXPECT_TRUE(signal == SIGKILL || left == before) << what;
       } else {
         EXPECT_TRUE(o.code == 0 || (signal == SIGTERM && o.code == 130)) << what << ' ' << o.code << o.err;
-        EXPECT_TRUE(left.contains("results.json")) << what;
+        // Before anything is computed there is nothing to write.
+        EXPECT_TRUE(left.contains("results.json") || (o.code == 130 && left == before)) << what;
         EXPECT_EQ(without_temporaries(left).size(), left.size()) << what;
       }
     }

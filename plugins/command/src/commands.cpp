@@ -72,17 +72,18 @@ std::string purpose()
 
 std::vector<ExitCode> exit_codes()
 {
-  return {{exit_done, "done",
-           "done; directions that links leave `unbounded` or `not_attained`, and patches that are "
-           "`not_a_sheet` before they lock, are answers"},
-          {exit_failed, "the computation failed, what was computed is on disk",
-           "the computation failed, or an `expect` of the experiment is missed, or `verify` or `plugins "
-           "conform` found something wrong, or `gather` lacks parts; what was computed is on disk"},
-          {exit_bad_input, "bad input, nothing written",
-           "bad input or a wrong command line; nothing was written"},
-          {exit_interrupted, "interrupted, partial results are on disk",
-           "interrupted; partial results are on disk. `room` then prints, and writes with `-o`, the best "
-           "state so far"}};
+  return {
+      {exit_done, "done",
+       "done; directions that links leave `unbounded` or `not_attained`, and patches that are "
+       "`not_a_sheet` before they lock, are answers"},
+      {exit_failed, "the computation failed, what was computed is on disk",
+       "the computation failed, or an `expect` of the experiment is missed, or `verify` or `plugins "
+       "conform` found something wrong, or `gather` lacks parts; what was computed is on disk"},
+      {exit_bad_input, "bad input, nothing written",
+       "bad input or a wrong command line; nothing was written"},
+      {exit_interrupted, "interrupted, partial results are on disk",
+       "interrupted; partial results are on disk, if anything was computed yet. `room` then prints, and writes with `-o`, the best "
+       "state so far"}};
 }
 
 std::vector<Entry> environment()

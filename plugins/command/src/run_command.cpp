@@ -45,7 +45,12 @@ std::filesystem::path output_folder(const Options& options)
       throw UsageError("--output: expected a folder", options.usage());
     return options.get<std::string>("output");
   }
-  return std::filesystem::path("out") / std::filesystem::path(options.positional()).stem();
+  const std::filesystem::path name = std::filesystem::path(options.positional()).stem();
+  if (name.empty() || name == "." || name == "..")
+    throw UsageError(
+        fmt::format("{}: its name gives no folder for results; give one with -o", options.positional()),
+        options.usage());
+  return std::filesystem::path("out") / name;
 }
 
 Description run_description()

@@ -216,8 +216,11 @@ TEST_F(SearchLog, WhatCannotBeKeptIsNot)
   SearchLogs out = logs();
   out.write_to(folder_, "searches", {"", "1-of-1", "P", "a:1"});
   out.record("s", l, 0.1);
+  ASSERT_TRUE(out.complete());
   SearchLogs in = logs();
-  EXPECT_EQ(in.read(folder_ / "searches-1.log")->searches, 0U);
+  const auto contents = in.read(folder_ / "searches-1.log");
+  ASSERT_TRUE(contents);
+  EXPECT_EQ(contents->searches, 0U);
 }
 
 }  // namespace

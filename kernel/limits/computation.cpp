@@ -60,40 +60,6 @@ TaskStarts starts_of(const Model& model, const LimitTask& task, const LimitSetti
   return {std::max(starts, static_cast<std::size_t>(std::max(1, most))) + 1, true};
 }
 
-bool is_of(const Model& model, const State& state)
-{
-  return state.macro.size() == model.macro_count &&
-         state.e.size() == static_cast<Eigen::Index>(model.element_count()) * model.coordinate_count &&
-         state.rotation.size() == static_cast<std::size_t>(model.element_count());
-}
-
-bool is_of(const Model& model, const ContactEnergy::Point& p)
-{
-  const auto within = [](int k, std::size_t count) { return k >= 0 && static_cast<std::size_t>(k) < count; };
-  if (p.wall >= 0) return within(p.wall, model.walls.size()) && within(p.a, model.rest.size());
-  return within(p.a, model.bodies.size()) && within(p.b, model.bodies.size());
-}
-
-bool is_of(const Model& model, const ContactEnergy& pressed)
-{
-  const auto parameters = std::max_element(model.parameter_count.begin(), model.parameter_count.end());
-  return pressed.gradient.size() == model.dofs() && pressed.parameters.cols() == model.element_count() &&
-         pressed.parameters.rows() == (parameters == model.parameter_count.end() ? 0 : *parameters) &&
-         std::all_of(pressed.points.begin(), pressed.points.end(),
-                     [&model](const ContactEnergy::Point& p) { return is_of(model, p); });
-}
-
-/// Whether states are of a model: what is remembered may come from a file.
-bool is_of(const Model& model, const Locked& locked)
-{
-  const auto fits = [&model](const State& state) { return is_of(model, state); };
-  if (locked.pressed && !is_of(model, *locked.pressed)) return false;
-  if (locked.stage.tether.size() > 0 && locked.stage.tether.rows() != model.macro_count) return false;
-  return fits(locked.state) && std::all_of(locked.trail.begin(), locked.trail.end(), fits) &&
-         std::all_of(locked.path.begin(), locked.path.end(), fits) &&
-         locked.trail.size() <= locked.stages.size();
-}
-
 /// A scene that another one contains, with what its limits came to.
 struct Solved {
   Model model;
@@ -264,7 +230,7 @@ class Computation {
   {
     SearchMemory* const memory = observer_.memory;
     if (memory != nullptr) {
-      if (std::optional<KnownSearch> known = memory->recall(name); known && is_of(model_, known->locked)) {
+      if (std::optional<KnownSearch> known = memory->recall(name); known && fits(model_, known->locked)) {
         seconds += known->seconds;
         return std::move(known->locked);
       }

@@ -58,6 +58,10 @@ struct Share {
   Share after(std::size_t items) const { return {(index + count - items % count) % count, count}; }
 };
 
+/// Whether what a search came to is of a model, in all sizes and indices: what is remembered may come from a
+/// file.
+bool fits(const Model& model, const Locked& locked);
+
 /// A name for a state: equal states have equal names, and others but for one in 2^64 have other ones.
 std::string name_of_state(const State& state);
 

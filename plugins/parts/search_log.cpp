@@ -1,5 +1,6 @@
 #include "parts/search_log.hpp"
 
+#include "numerics/fnv.hpp"
 #include "parts/locked_record.hpp"
 #include "parts/part_folder.hpp"
 
@@ -17,16 +18,13 @@ namespace fs = std::filesystem;
 
 constexpr char origin_mark = 'H', search_mark = 'S', end_mark = 'E';
 
-/// FNV-1a, 64 bits.
-std::uint64_t hash_of(std::string_view text)
-{
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
 /// The outcome of a search's record: all of it but the time, which comes last.
-std::uint64_t outcome_of(std::string_view record) { return hash_of(record.substr(0, record.rfind(' '))); }
+std::uint64_t outcome_of(std::string_view record)
+{
+  Fnv1a hash;
+  hash.add(record.substr(0, record.rfind(' ')));
+  return hash.value();
+}
 
 std::string origin_line(const LogOrigin& origin)
 {

@@ -1,5 +1,6 @@
 #include "run/prepared.hpp"
 
+#include "numerics/fnv.hpp"
 #include "run/nearest_node.hpp"
 #include "run/presets.hpp"
 
@@ -32,20 +33,15 @@ std::string kind_word(PluginKind kind)
 /// Looks plugins up and notes those that are used.
 PluginLookup recording_lookup(const Registry& registry, std::vector<Provenance::Plugin>& used)
 {
-  return [&registry, &used](PluginKind kind, const std::string& id,
-                            std::string& error) -> const PluginTable* {
-    try {
-      const PluginTable& table = registry.find(kind, id);
-      const bool known = std::any_of(used.begin(), used.end(), [&id](const auto& p) { return p.id == id; });
-      if (!known) {
-        const std::filesystem::path file = registry.files(id).front();
-        used.push_back({id, kind_word(kind), table.version, file.filename().string(), sha256_of_file(file)});
-      }
-      return &table;
-    } catch (const InputError& problem) {
-      error = problem.what();
-      return nullptr;
+  return [&registry, &used, lookup = lookup_in(registry)](PluginKind kind, const std::string& id,
+                                                          std::string& error) -> const PluginTable* {
+    const PluginTable* table = lookup(kind, id, error);
+    const bool known = std::any_of(used.begin(), used.end(), [&id](const auto& p) { return p.id == id; });
+    if (table != nullptr && !known) {
+      const std::filesystem::path file = registry.files(id).front();
+      used.push_back({id, kind_word(kind), table->version, file.filename().string(), sha256_of_file(file)});
     }
+    return table;
   };
 }
 
@@ -73,9 +69,10 @@ std::string fingerprint(const std::string& path)
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return {};
   std::ifstream file(path, std::ios::binary);
-  std::uint64_t hash = 0xcbf29ce484222325U, length = 0;
-  for (char c = 0; file.get(c); ++length) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return file.eof() ? fmt::format("{} bytes, {:016x}", length, hash) : std::string();
+  Fnv1a hash;
+  std::uint64_t length = 0;
+  for (char c = 0; file.get(c); ++length) hash.add(static_cast<unsigned char>(c));
+  return file.eof() ? fmt::format("{} bytes, {:016x}", length, hash.value()) : std::string();
 }
 
 /// Takes the fingerprint of every file once.
@@ -103,6 +100,18 @@ void prepare_scene(Prepared& prepared, Diagnostics& diagnostics)
 }
 
 }  // namespace
+
+PluginLookup lookup_in(const Registry& registry)
+{
+  return [&registry](PluginKind kind, const std::string& id, std::string& error) -> const PluginTable* {
+    try {
+      return &registry.find(kind, id);
+    } catch (const InputError& problem) {
+      error = problem.what();
+      return nullptr;
+    }
+  };
+}
 
 SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest)
 {

@@ -47,6 +47,9 @@ struct Prepared : SceneAtRest {
   Experiment experiment;
 };
 
+/// Finds plugins of a registry, which outlives it.
+PluginLookup lookup_in(const Registry& registry);
+
 /// Reads and checks an experiment up to its rest state, and lets `then` add what the task needs (which may
 /// read variants, with further plugins and files). `then` puts problems into the diagnostics. Throws
 /// ReportedProblems with a line per problem.

@@ -134,16 +134,7 @@ std::pair<bool, std::string> verify_text(const std::string& results, const std::
 {
   const py::gil_scoped_release free;
   const std::shared_ptr<const Registry> registry = registry_of(source);
-  const auto lookup = [registry](PluginKind kind, const std::string& id,
-                                 std::string& error) -> const PluginTable* {
-    try {
-      return &registry->find(kind, id);
-    } catch (const InputError& problem) {
-      error = problem.what();
-      return nullptr;
-    }
-  };
-  const VerifyReport report = verify(parse_json(results, file), {}, StoredShapes(lookup));
+  const VerifyReport report = verify(parse_json(results, file), {}, StoredShapes(lookup_in(*registry)));
   return {report.ok, report.text()};
 }
 

@@ -24,14 +24,6 @@ void wait_for(const fs::path& file)
   ASSERT_TRUE(fs::exists(file));
 }
 
-/// Bytes of results but for times.
-Contents results_in(const fs::path& folder)
-{
-  Contents files = contents(folder);
-  files.erase("timings.json");
-  return files;
-}
-
 /// The results are rescued, whole, and the run says where.
 TEST(Faults, TheFolderVanishes)
 {

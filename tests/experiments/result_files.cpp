@@ -37,6 +37,13 @@ Contents contents(const fs::path& folder)
   return out;
 }
 
+Contents results_in(const fs::path& folder)
+{
+  Contents files = contents(folder);
+  files.erase("timings.json");
+  return files;
+}
+
 Contents without_temporaries(Contents files)
 {
   std::erase_if(files, [](const auto& file) { return is_temporary(file.first); });

@@ -16,6 +16,9 @@ using Contents = std::map<std::string, std::string>;
 /// Files of a folder by name; none where there is no folder.
 Contents contents(const std::filesystem::path& folder);
 
+/// The same but for the times of the run.
+Contents results_in(const std::filesystem::path& folder);
+
 /// Without names that begin with a dot: what a killed program has not yet given its name.
 Contents without_temporaries(Contents files);
 

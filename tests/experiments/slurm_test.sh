@@ -5,6 +5,10 @@
 #
 # Submits the experiment with --array PARTS, kills one node half way, waits for the jobs and compares the results with
 # those of one run, byte for byte. Prints times. Exit code 77: Slurm is not there.
+#
+# KILL=parts (the default): the node's daemon and its parts are killed, and what watches over them tells the controller
+# that they ended; gathering submits them again. KILL=node: that is killed, too, as when the machine fails; Slurm puts
+# the part back into its queue by itself, after two minutes.
 set -euo pipefail
 hauberk=$(realpath "$1") folder=$2 experiment=$3 parts=$4
 shift 4
@@ -88,18 +92,25 @@ middle=$(date +%s.%N)
 logs() { find "$folder/out/parts" -name 'searches-*.log' | wc -l; }
 half() { (($(logs) * 2 >= parts)); }
 within 600 half
-# The node fails with what runs on it: its daemon, and every process that it has started.
 echo "killing node n2 with $(logs) of $parts parts begun: $(squeue -h -t R -o '%i on %N' | tr '\n' ';')"
 daemon=$(<"$folder/slurmd-n2.pid")
-kill -KILL "$daemon"
-on_n2() { grep -qz '^SLURMD_NODENAME=n2' "/proc/$1/environ" 2>/dev/null; }
-for process in $(pgrep -f "$folder" || true) $(pgrep slurmstepd || true); do
-  if [[ $process != $$ ]] && on_n2 "$process"; then kill -KILL "$process" 2>/dev/null || true; fi
-done
-# What the node was doing has no daemon that would tell of its end.
+below() {
+  local child
+  for child in $(pgrep -P "$1" || true); do
+    echo "$child"
+    below "$child"
+  done
+}
+victims=()
 for process in $(pgrep slurmstepd || true); do
-  if grep -qz "$folder/spool-n2" "/proc/$process/environ" 2>/dev/null; then kill -KILL "$process" 2>/dev/null || true; fi
+  # A job of n2 is below it.
+  for job in $(below "$process"); do
+    grep -qz '^SLURMD_NODENAME=n2' "/proc/$job/environ" 2>/dev/null || continue
+    victims+=("$job")
+    if [[ ${KILL:-parts} == node ]]; then victims+=("$process"); fi
+  done
 done
+kill -KILL "$daemon" "${victims[@]}" 2>/dev/null || true
 sleep 8  # the controller notices
 slurmd -N n2
 ended() { [[ -z $(squeue -h) ]]; }

@@ -34,17 +34,7 @@ const std::shared_ptr<const Registry>& registry()
   return shared;
 }
 
-PluginLookup lookup()
-{
-  return [](PluginKind kind, const std::string& id, std::string& error) -> const PluginTable* {
-    try {
-      return &registry()->find(kind, id);
-    } catch (const InputError& problem) {
-      error = problem.what();
-      return nullptr;
-    }
-  };
-}
+PluginLookup lookup() { return lookup_in(*registry()); }
 
 /// A message that says something, and of a problem where it is.
 void check_message(const std::string& text, const char* what)

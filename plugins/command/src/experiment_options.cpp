@@ -47,19 +47,10 @@ void read_alone(const Options& options)
 {
   const std::string& file = options.positional();
   const std::shared_ptr<const Registry> registry = open_registry(options);
-  const PluginLookup lookup = [&registry](PluginKind kind, const std::string& id,
-                                          std::string& error) -> const PluginTable* {
-    try {
-      return &registry->find(kind, id);
-    } catch (const InputError& problem) {
-      error = problem.what();
-      return nullptr;
-    }
-  };
   Diagnostics diagnostics;
   const std::optional<Experiment> experiment = read_experiment(
-      {file, read_text_file(file), options.list("set"), weave_lookup(file), {}, task_formats()}, lookup,
-      diagnostics);
+      {file, read_text_file(file), options.list("set"), weave_lookup(file), {}, task_formats()},
+      lookup_in(*registry), diagnostics);
   if (!experiment) throw ReportedProblems(diagnostics);
 }
 

@@ -7,7 +7,6 @@
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 

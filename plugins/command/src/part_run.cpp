@@ -4,7 +4,6 @@
 #include "run/code_digest.hpp"
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
-#include "run/memory.hpp"
 #include "run/provenance.hpp"
 #include "say.hpp"
 

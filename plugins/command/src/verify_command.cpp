@@ -3,6 +3,7 @@
 #include "experiment_options.hpp"
 #include "options.hpp"
 #include "results/document.hpp"
+#include "run/prepared.hpp"
 #include "say.hpp"
 
 #include <hauberk/error.hpp>
@@ -42,18 +43,6 @@ json::object as_json(const VerifyReport& report)
   return out;
 }
 
-PluginLookup plugins_of(const Registry& registry)
-{
-  return [&registry](PluginKind kind, const std::string& id, std::string& error) -> const PluginTable* {
-    try {
-      return &registry.find(kind, id);
-    } catch (const InputError& problem) {
-      error = problem.what();
-      return nullptr;
-    }
-  };
-}
-
 }  // namespace
 
 Description verify_description()
@@ -78,7 +67,7 @@ int verify_command(const std::vector<std::string>& words)
   std::error_code unknown;  // then reading tells
   if (std::filesystem::is_directory(file, unknown)) file /= results_file;
   const std::shared_ptr<const Registry> registry = open_registry(options);
-  const VerifyReport report = verify(read_json_file(file.string()), {}, StoredShapes(plugins_of(*registry)));
+  const VerifyReport report = verify(read_json_file(file.string()), {}, StoredShapes(lookup_in(*registry)));
   if (options.has("json"))
     say_json(write_json(as_json(report)));
   else

@@ -4,7 +4,6 @@
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
 #include "equilibrium/rest.hpp"
-#include "parts/part_folder.hpp"
 #include "results/designed_experiment.hpp"
 #include "run/interrupt.hpp"
 #include "run/limit_tasks.hpp"
@@ -17,7 +16,7 @@
 #include "tasks/design/design_section.hpp"
 #include "tasks/design/design_spec.hpp"
 #include "tasks/design/design_tables.hpp"
-#include "tasks/design/evaluation_log.hpp"
+#include "tasks/design/start_logs.hpp"
 #include "tasks/design/tapped_optimizer.hpp"
 #include "tasks/limits/kept_limits.hpp"
 #include "tasks/limits/limit_files.hpp"
@@ -46,23 +45,6 @@ bool ended_well(const std::string& status)
 {
   return status != "failed" && status != "interrupted" && status != "infeasible";
 }
-
-/// Notes the first evaluation of a search, and knows none.
-class FirstEvaluation final : public EvaluationMemory {
- public:
-  bool recall(DesignPoint& /*p*/, long& /*evaluations*/) override { return false; }
-  void record(const DesignPoint& p, long evaluations) override
-  {
-    if (record_.empty()) record_ = evaluation_record(p, evaluations);
-  }
-  bool recall_states(DesignPoint& /*p*/) override { return false; }
-  void record_states(const DesignPoint& /*p*/) override {}
-
-  const std::string& text() const { return record_; }
-
- private:
-  std::string record_;
-};
 
 class DesignTask final : public TaskRun {
  public:
@@ -194,9 +176,11 @@ class DesignTask final : public TaskRun {
                   {},
                   memory ? &*memory : nullptr},
                  context.progress, share);
+    const std::string identity = context.identity(), processor = this_machine().processor;
     for (int start = 0; start < spec_.starts && !interrupted(); ++start) {
       if (!share.has(static_cast<std::size_t>(start))) continue;
-      EvaluationLog log(next_log(start), part_identity(context.identity(), this_machine().processor), true,
+      EvaluationLog log(claim_start_log(context.folder, start, identity, processor),
+                        part_identity(identity, processor), true,
                         [&](const std::string& warning) { context.progress.warn(warning); });
       search(start, log, [&](const DesignProgress& p) {
         context.progress.design(p, spec_, false);
@@ -212,11 +196,7 @@ class DesignTask final : public TaskRun {
     context_ = &context;
     std::vector<StartLog> logs;
     for (int start = 0; start < spec_.starts && !interrupted(); ++start) {
-      std::vector<StartLog> of_start;
-      for (const std::filesystem::path& folder : folders) {
-        for (const std::filesystem::path& file : logs_in(folder, log_name(start)))
-          of_start.push_back(start_log(file, context.identity()));
-      }
+      const std::vector<StartLog> of_start = logs_of_start(folders, start, context.identity());
       if (of_start.empty()) break;  // searched now, as all that follow
       logs.push_back(
           longest_of(of_start, [&](const std::string& warning) { context.progress.warn(warning); }));
@@ -272,24 +252,6 @@ class DesignTask final : public TaskRun {
 
   static constexpr const char *limits_before = "limits before", *limits_after = "limits after";
 
-  static std::string log_name(int start) { return fmt::format("start-{}", start); }
-
-  /// A log of a start for this process alone, with what others have found of it.
-  std::filesystem::path next_log(int start) const
-  {
-    std::vector<StartLog> there;
-    for (const std::filesystem::path& file : logs_in(context_->folder, log_name(start))) {
-      if (std::filesystem::file_size(file) > 0) there.push_back(start_log(file, context_->identity()));
-    }
-    // Of this kind of processor: a search goes on from its own numbers.
-    std::erase_if(there, [](const StartLog& log) { return log.processor != this_machine().processor; });
-    const std::filesystem::path next = claim_log(context_->folder, log_name(start));
-    if (!there.empty())
-      std::filesystem::copy_file(longest_of(there, [](const std::string&) {}).file, next,
-                                 std::filesystem::copy_options::overwrite_existing);
-    return next;
-  }
-
   /// A search from one start, for its memory. What ends it early ends it again where it is asked for.
   void search(int start, EvaluationMemory& memory, const DesignObserver& observer) const
   {
@@ -311,8 +273,7 @@ class DesignTask final : public TaskRun {
   {
     FirstEvaluation first;
     search(start, first, [](const DesignProgress&) { return false; });
-    const std::string there = first_evaluation(log.file);
-    if (first.text().empty() || there.empty() || first.text() == there) return;
+    if (begins_with(log, first.text())) return;
     if (log.processor == this_machine().processor)
       throw ComputationError(fmt::format(
           "{}: its first evaluation is not what it is here, though the processors are of one kind: a file or a "

@@ -1,10 +1,6 @@
 #include "tasks/design/evaluation_log.hpp"
 
-#include "document/atomic_file.hpp"
-#include "document/read_file.hpp"
 #include "document/record_line.hpp"
-
-#include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 
@@ -23,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view format_name = "hauberk-evaluations/4 ";
 /// Limits that a design can have.
 constexpr int most_tasks = 1000000;
 constexpr char evaluation_mark = 'E';
@@ -46,6 +41,11 @@ Vector vector(const std::vector<double>& x)
 
 }  // namespace
 
+std::string EvaluationLog::first_line(std::string_view identity)
+{
+  return std::string("hauberk-evaluations/4 ") + std::string(identity);
+}
+
 EvaluationLog::EvaluationLog(fs::path file, std::string_view identity, bool go_on, Warn warn)
     : file_(std::move(file)), warn_(std::move(warn))
 {
@@ -60,7 +60,7 @@ EvaluationLog::EvaluationLog(fs::path file, std::string_view identity, bool go_o
     lines_.clear();
     known_ = 0;
     out_.open(file_, std::ios::binary | std::ios::trunc);
-    write(std::string(format_name) + std::string(identity));
+    write(first_line(identity));
   }
 }
 
@@ -70,8 +70,7 @@ bool EvaluationLog::read(std::string_view identity)
   if (!in) return false;
   std::size_t position = 0;
   std::string line;
-  if (!std::getline(in, line) || in.eof() || line != std::string(format_name) + std::string(identity))
-    return false;
+  if (!std::getline(in, line) || in.eof() || line != first_line(identity)) return false;
   position += line.size() + 1;
   while (std::getline(in, line) && !in.eof() && line.ends_with(end_of_record)) {
     const std::optional<std::string_view> text = undamaged_record(line);
@@ -153,6 +152,25 @@ bool EvaluationLog::recall(DesignPoint& p, long& evaluations)
   return true;
 }
 
+std::string evaluation_record(const DesignPoint& p, long evaluations)
+{
+  RecordWriter out(evaluation_mark);
+  out.numbers(p.x);
+  out.number(evaluations);
+  out.number(p.evaluated ? 1 : 0);
+  out.number(p.continued ? 1 : 0);
+  out.words(p.why);
+  out.numbers(std::vector<double>(p.changed.begin(), p.changed.end()));
+  out.numbers(p.values);
+  out.number(p.objective);
+  out.numbers(all_of(p.gradient));
+  if (p.evaluated)
+    out.numbers({p.value_gradients.data(), static_cast<std::size_t>(p.value_gradients.size())});
+  else
+    out.numbers(std::vector<double>(p.values.size() * p.x.size(), 0.0));
+  return out.text();
+}
+
 void EvaluationLog::record(const DesignPoint& p, long evaluations)
 {
   forget();
@@ -210,104 +228,6 @@ void EvaluationLog::record_states(const DesignPoint& p)
     }
   }
   write(std::move(out).line());
-}
-
-namespace {
-
-constexpr std::string_view on = " on ";
-
-std::string text_of_log(const fs::path& log) { return read_whole_file(log.string(), largest_results); }
-
-/// Without its first line, and without what a kill cut off.
-std::string lines_of_log(const fs::path& log)
-{
-  std::string text = text_of_log(log);
-  text.resize(text.rfind('\n') + 1);
-  return text.substr(std::min(text.size(), text.find('\n') + 1));
-}
-
-}  // namespace
-
-std::string part_identity(std::string_view identity, const std::string& processor)
-{
-  RecordWriter out('P');
-  out.words(processor);
-  return std::string(identity) + std::string(on) + out.text();
-}
-
-StartLog start_log(const fs::path& file, std::string_view identity)
-{
-  const std::string text = text_of_log(file), first = std::string(format_name) + std::string(identity);
-  const std::string_view line = std::string_view(text).substr(0, text.find('\n'));
-  if (line.starts_with(first) && line.substr(first.size()).starts_with(on)) {
-    RecordReader in(line.substr(first.size() + on.size() + 1));
-    StartLog log{file, in.words()};
-    if (in.good && in.ended()) return log;
-  }
-  throw ComputationError(fmt::format(
-      "{}: is of another experiment or build, or damaged; remove its folder and compute its part again",
-      file.string()));
-}
-
-StartLog longest_of(const std::vector<StartLog>& logs, const std::function<void(const std::string&)>& warn)
-{
-  StartLog best = logs.front();
-  std::string longest = lines_of_log(best.file);
-  for (auto log = logs.begin() + 1; log != logs.end(); ++log) {
-    std::string text = lines_of_log(log->file);
-    if (!text.starts_with(std::string_view(longest).substr(0, text.size()))) {
-      const std::string both = fmt::format("{} and {}", best.file.string(), log->file.string());
-      if (log->processor == best.processor)
-        throw ComputationError(fmt::format(
-            "{}: are of one search and differ, though the processors are of one kind: a file or a memory is "
-            "damaged; remove the folder and compute its part again",
-            both));
-      warn(fmt::format(
-          "warning: {}: are of one search and differ: processors of several kinds round differently", both));
-      continue;
-    }
-    if (text.size() <= longest.size()) continue;
-    best = *log;
-    longest = std::move(text);
-  }
-  return best;
-}
-
-std::string evaluation_record(const DesignPoint& p, long evaluations)
-{
-  RecordWriter out(evaluation_mark);
-  out.numbers(p.x);
-  out.number(evaluations);
-  out.number(p.evaluated ? 1 : 0);
-  out.number(p.continued ? 1 : 0);
-  out.words(p.why);
-  out.numbers(std::vector<double>(p.changed.begin(), p.changed.end()));
-  out.numbers(p.values);
-  out.number(p.objective);
-  out.numbers(all_of(p.gradient));
-  if (p.evaluated)
-    out.numbers({p.value_gradients.data(), static_cast<std::size_t>(p.value_gradients.size())});
-  else
-    out.numbers(std::vector<double>(p.values.size() * p.x.size(), 0.0));
-  return out.text();
-}
-
-std::string first_evaluation(const fs::path& log)
-{
-  const std::string lines = lines_of_log(log);
-  const auto record = undamaged_record(std::string_view(lines).substr(0, lines.find('\n')));
-  return record ? std::string(*record) : std::string();
-}
-
-void join_evaluations(const std::vector<StartLog>& logs, std::string_view identity, const fs::path& file)
-{
-  std::string joined = std::string(format_name) + std::string(identity) + "\n";
-  for (const StartLog& log : logs) joined += lines_of_log(log.file);
-  std::error_code unknown;
-  if (fs::symlink_status(file, unknown).type() == fs::file_type::regular &&
-      text_of_log(file).starts_with(joined))
-    return;
-  write_files_atomically(file.parent_path(), {{file.filename().string(), joined}}, {});
 }
 
 }  // namespace hauberk

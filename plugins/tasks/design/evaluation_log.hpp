@@ -25,6 +25,9 @@ class EvaluationLog final : public EvaluationMemory {
   /// the file has under the same identity are recalled; otherwise the file is begun anew.
   EvaluationLog(std::filesystem::path file, std::string_view identity, bool go_on, Warn warn);
 
+  /// The first line of a file, without its break.
+  static std::string first_line(std::string_view identity);
+
   /// Evaluations that the file held.
   std::size_t known() const { return known_; }
 
@@ -56,32 +59,7 @@ class EvaluationLog final : public EvaluationMemory {
   std::ofstream out_;
 };
 
-/// A log of a search from one start, which a part of a divided run has written: `identity` of its first line
-/// is part_identity.
-struct StartLog {
-  std::filesystem::path file;
-  std::string processor;
-};
-
-/// The identity that logs of parts have: with the kind of processor.
-std::string part_identity(std::string_view identity, const std::string& processor);
-
-/// Reads the first line. Throws ComputationError where it is of another identity, whatever the processor.
-StartLog start_log(const std::filesystem::path& file, std::string_view identity);
-
-/// Of several logs of one search the one with the most lines: what two have both is the same. Where it is
-/// not, throws ComputationError naming both if their processors are of one kind, else calls `warn` and takes
-/// the first.
-StartLog longest_of(const std::vector<StartLog>& logs, const std::function<void(const std::string&)>& warn);
-
-/// The record of an evaluation, and the first that a log has; empty: it has none.
+/// The record of an evaluation, without its checksum.
 std::string evaluation_record(const DesignPoint& p, long evaluations);
-std::string first_evaluation(const std::filesystem::path& log);
-
-/// Writes `file` as the log of one search from several starts out of logs of each of them, in this order. A
-/// file that begins with just that stays: it holds what a search went on to. Throws ComputationError where it
-/// cannot be written.
-void join_evaluations(const std::vector<StartLog>& logs, std::string_view identity,
-                      const std::filesystem::path& file);
 
 }  // namespace hauberk

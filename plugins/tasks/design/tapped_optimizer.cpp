@@ -64,18 +64,18 @@ class InterruptibleProblem final : public OptimizationProblem {
   void constraints(std::span<const double> x, std::span<double> c, std::span<double> jacobian) override
   {
     stop_if_interrupted();
-    problem_.constraints(x, c, jacobian);
+    asked([&] { problem_.constraints(x, c, jacobian); });
   }
   bool hessian_product(std::span<const double> x, double weight, std::span<const double> multipliers,
                        std::span<const double> v, std::span<double> out) override
   {
     stop_if_interrupted();
-    return problem_.hessian_product(x, weight, multipliers, v, out);
+    return asked([&] { return problem_.hessian_product(x, weight, multipliers, v, out); });
   }
   double largest_safe_step(std::span<const double> x, std::span<const double> d) override
   {
     stop_if_interrupted();
-    return problem_.largest_safe_step(x, d);
+    return asked([&] { return problem_.largest_safe_step(x, d); });
   }
   void accept(std::span<const double> x) override
   {

@@ -3,8 +3,8 @@
 
 #include "contact/side_terms.hpp"
 #include "geometry/panel_field.hpp"
+#include "numerics/interrupted.hpp"
 
-#include <exception>
 #include <functional>
 
 namespace hauberk {
@@ -57,19 +57,6 @@ struct ContactSettings {
   /// thrown. Null: never. Thread safe.
   const std::function<bool()>* keep_going = nullptr;
 };
-
-/// The evaluation of a pair was given up because `ContactSettings::keep_going` said so: there is no result.
-class Interrupted : public std::exception {
- public:
-  const char* what() const noexcept override { return "interrupted"; }
-};
-
-/// To be called at every evaluation within a pair: throws Interrupted. Asks at one in 256 of them, which are
-/// well below a tenth of a second.
-inline void poll(const std::function<bool()>* keep_going, long evaluation)
-{
-  if (keep_going != nullptr && (evaluation & 255) == 0 && !(*keep_going)()) throw Interrupted();
-}
 
 /// Throws ComputationError: what is sought between two bodies takes more evaluations than any pair is worth.
 [[noreturn]] void too_flat(const PairFrame& frame, const char* what, long evaluations);

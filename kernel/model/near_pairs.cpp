@@ -1,6 +1,7 @@
 #include "model/near_pairs.hpp"
 
 #include "model/model.hpp"
+#include "numerics/interrupted.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -97,12 +98,13 @@ bool counts(const Image& image) { return image > Image{}; }
 
 /// All pairs of a cell and its images, looked at one by one: those images of which x_i is within reach.
 std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const std::vector<Pose>& p,
-                                           double margin)
+                                           double margin, const std::function<bool()>* keep_going)
 {
   constexpr double slack = 1e-9;  // for rounding; distances decide
   const DeformedLattice lattice(m, s, p);
   std::vector<ElementPair> pairs;
   const int n = m.element_count();
+  long looked = 0;
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
       const std::size_t a = i, b = j;
@@ -125,6 +127,7 @@ std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const
       for (image[0] = first[0]; image[0] <= last[0]; ++image[0]) {
         for (image[1] = first[1]; image[1] <= last[1]; ++image[1]) {
           for (image[2] = first[2]; image[2] <= last[2]; ++image[2]) {
+            poll(keep_going, ++looked);
             if (i == j && !counts(image)) continue;
             const Vec3 x = image_pose(m, s, j, image).position;
             if ((p[a].position - x).norm() < r) pairs.push_back({i, j, image});
@@ -231,7 +234,8 @@ class LatticeBuckets {
 
 }  // namespace
 
-std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margin)
+std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margin,
+                                    const std::function<bool()>* keep_going)
 {
   const std::vector<Pose> p = poses(m, s);
   const bool finite = std::isfinite(margin) && s.macro.allFinite() && s.e.allFinite();
@@ -242,7 +246,7 @@ std::vector<ElementPair> near_pairs(const Model& m, const State& s, double margi
     LatticeBuckets buckets(m, s, p, margin);
     if (buckets.pay()) return buckets.pairs();
   }
-  return images_one_by_one(m, s, p, margin);
+  return images_one_by_one(m, s, p, margin, keep_going);
 }
 
 }  // namespace hauberk

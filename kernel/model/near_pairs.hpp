@@ -3,6 +3,7 @@
 
 #include "model/model.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace hauberk {
@@ -15,7 +16,8 @@ struct ElementPair {
 
 /// All element pairs whose bounding spheres are closer than `margin` in this state, in a fixed order.
 /// Images are found by reach: every lattice translation that the strained cell can bring that near is
-/// visited.
-std::vector<ElementPair> near_pairs(const Model& model, const State& state, double margin);
+/// visited. Where `keep_going`, if given, says no, Interrupted is thrown: a wide margin has millions of them.
+std::vector<ElementPair> near_pairs(const Model& model, const State& state, double margin,
+                                    const std::function<bool()>* keep_going = nullptr);
 
 }  // namespace hauberk

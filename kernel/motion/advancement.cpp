@@ -89,7 +89,7 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
 {
   SafeStep out;
   out.alpha = wall_step(m, from, dy, keep);
-  const std::vector<CandidatePair> candidates = candidate_pairs(m, from, dy);
+  const std::vector<CandidatePair> candidates = candidate_pairs(m, from, dy, keep_going);
   const std::vector<BodyPair> all = body_pairs(m, candidates);
   // What is found so far shortens the rest. In a large scene pairs are taken together, from the same alpha,
   // also by one thread, as the number of threads may not change what is found.
@@ -107,6 +107,7 @@ SafeStep largest_safe_step(const Model& m, const State& from, const Vector& dy, 
     tight.clear();
   };
   for (std::size_t k = 0; k < all.size() && out.alpha > 0.0; ++k) {
+    poll(keep_going, static_cast<long>(k));
     const BodyPair& bodies = all[k];
     const CandidatePair& pair = *bodies.pair;
     const Pose &pi = pair.ti.pose, &pj = pair.tj.pose;

@@ -1,7 +1,7 @@
 #include "motion/facet_advancement.hpp"
 
-#include "contact/formulation.hpp"
 #include "geometry/facets.hpp"
+#include "numerics/interrupted.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,11 +1,11 @@
 #pragma once
 /// How far two bodies go along a step while their gap stays open, certified panel by panel.
 
-#include "contact/formulation.hpp"
 #include "geometry/panel_field.hpp"
 #include "geometry/separation.hpp"
 #include "motion/gap_bounds.hpp"
 #include "motion/track.hpp"
+#include "numerics/interrupted.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "motion/track.hpp"
 
 #include "model/near_pairs.hpp"
+#include "numerics/interrupted.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -89,7 +90,8 @@ double margin_of_lattice(const Model& m, const State& from, const Vector& dy, do
 }
 
 /// Pairs of a periodic cell that the step may bring together.
-std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const Vector& dy)
+std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const Vector& dy,
+                                       const std::function<bool()>* keep_going)
 {
   // x_ij(s) = F(s) X + u_ij(s), X at rest. A pair that touches at s has |x_ij(s)| <= touching, so that
   //   |X| <= (touching + |u_ij(s)|)/s_min,   |x_ij(0)| <= touching + own + |dF| |X|,
@@ -113,7 +115,7 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
   // Where that is wide, elements have left their places in the lattice at rest, or the lattice was stretched
   // far. Beyond rounding: what is as far as it may be is told apart later.
   if (margin > 2.0 * widest) margin = std::min(margin, margin_of_lattice(m, from, dy, widest) * (1.0 + 1e-9));
-  return near_pairs(m, from, margin);
+  return near_pairs(m, from, margin, keep_going);
 }
 
 /// Pairs of a patch that the step may bring together: no element goes farther than the fastest one may.
@@ -130,11 +132,14 @@ std::vector<ElementPair> pairs_of_patch(const Model& m, const State& from, const
 
 }  // namespace
 
-std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy)
+std::vector<CandidatePair> candidate_pairs(const Model& m, const State& from, const Vector& dy,
+                                           const std::function<bool()>* keep_going)
 {
   std::vector<CandidatePair> out;
+  long looked = 0;
   for (const ElementPair& pair :
-       m.lattice.empty() ? pairs_of_patch(m, from, dy) : pairs_of_cell(m, from, dy)) {
+       m.lattice.empty() ? pairs_of_patch(m, from, dy) : pairs_of_cell(m, from, dy, keep_going)) {
+    poll(keep_going, ++looked);
     const Track ti(m, from, dy, pair.i, {0, 0}), tj(m, from, dy, pair.j, pair.image);
     const std::size_t i = pair.i, j = pair.j;
     const double approach = (ti.velocity - tj.velocity).norm() + 0.5 * (ti.acceleration + tj.acceleration);

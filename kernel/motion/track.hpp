@@ -3,6 +3,8 @@
 
 #include "model/model.hpp"
 
+#include <functional>
+
 namespace hauberk {
 
 /// Rigid motion of one element (image) over the step.
@@ -29,8 +31,10 @@ struct CandidatePair {
   double approach;  ///< bound of how far the origins come together over the whole step
 };
 
-/// Every pair that the whole step can bring together, in a fixed order (broad phase).
-std::vector<CandidatePair> candidate_pairs(const Model& model, const State& from, const Vector& dy);
+/// Every pair that the whole step can bring together, in a fixed order (broad phase). Where `keep_going`, if
+/// given, says no, Interrupted is thrown: steps far beyond any cell have millions of pairs.
+std::vector<CandidatePair> candidate_pairs(const Model& model, const State& from, const Vector& dy,
+                                           const std::function<bool()>* keep_going = nullptr);
 
 /// Fraction of the step that keeps `keep` of the gap to every wall. Walls are linear: exact.
 double wall_step(const Model& model, const State& from, const Vector& dy, double keep);

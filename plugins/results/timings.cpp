@@ -89,7 +89,8 @@ void enter_timings(json::value& results, const json::value& timings)
   }
 }
 
-json::value read_timed_results(const std::filesystem::path& file)
+json::value read_timed_results(const std::filesystem::path& file,
+                               const std::function<void(const std::string&)>& lost)
 {
   json::value results = read_json_file(file.string());
   const std::filesystem::path timings = file.parent_path() / timings_file;
@@ -97,8 +98,8 @@ json::value read_timed_results(const std::filesystem::path& file)
   if (!std::filesystem::exists(timings, unknown)) return results;
   try {
     enter_timings(results, read_json_file(timings.string()));
-  } catch (const InputError&) {  // what is left of times is no reason to lose results
-    return results;
+  } catch (const InputError& error) {  // what is left of times is no reason to lose results
+    lost(error.what());
   }
   return results;
 }

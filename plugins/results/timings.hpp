@@ -6,6 +6,8 @@
 #include <boost/json/value.hpp>
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 namespace hauberk {
 
@@ -22,7 +24,9 @@ boost::json::object take_timings(boost::json::object& results);
 void enter_timings(boost::json::value& results, const boost::json::value& timings);
 
 /// The results of a file, with what the file of timings beside it holds; without that file, or where it
-/// cannot be read, results alone. Throws InputError where the results cannot be read.
-boost::json::value read_timed_results(const std::filesystem::path& file);
+/// cannot be read, results alone, and `lost` is told why it cannot. Throws InputError where the results
+/// cannot be read.
+boost::json::value read_timed_results(const std::filesystem::path& file,
+                                      const std::function<void(const std::string&)>& lost);
 
 }  // namespace hauberk

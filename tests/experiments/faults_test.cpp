@@ -46,6 +46,48 @@ TEST(Faults, TheFolderVanishes)
   EXPECT_EQ(results_in(rescued), results_in(folder / "whole"));
 }
 
+/// The results are rescued likewise, and what the folder holds stays as it is. Nobody is refused a folder
+/// when the superuser runs the tests, who is refused none.
+TEST(Faults, TheFolderBecomesReadOnly)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("m.json", chainmail_text()), out = folder / "out";
+  fs::permissions(file, fs::perms::others_read, fs::perm_options::add);
+  const std::string spare = folder / "spare";
+  std::string run_as_nobody;
+  if (::geteuid() == 0) {
+    if (std::system("setpriv --reuid=65534 --regid=65534 --clear-groups true 2> /dev/null") != 0)
+      GTEST_SKIP() << "no setpriv here";
+    run_as_nobody = "setpriv --reuid=65534 --regid=65534 --clear-groups ";
+  }
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "whole"}).code, 0);
+  for (const std::string& one : {out, spare}) {
+    fs::create_directory(one);
+    fs::permissions(one, fs::perms::all);
+  }
+  fs::permissions(folder.path(), fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
+  const std::string command = fmt::format("TMPDIR='{}' {}'{}' run '{}' -o '{}' --quiet > /dev/null 2> '{}'",
+                                          spare, run_as_nobody, HAUBERK_PROGRAM, file, out, folder / "err");
+  int code = -1;
+  std::thread run([&] { code = WEXITSTATUS(std::system(command.c_str())); });
+  wait_for(out + "/.hauberk-lock");
+  fs::permissions(out, fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write,
+                  fs::perm_options::remove);
+  const Contents then = contents(out);
+  run.join();
+  const std::string error = read_text(folder / "err");
+  EXPECT_EQ(code, 1) << error;
+  const std::string said = "the results are in ";
+  const std::size_t at = error.find(said);
+  ASSERT_NE(at, std::string::npos) << error;
+  const std::size_t begin = at + said.size();
+  const fs::path rescued = error.substr(begin, error.find(':', begin) - begin);
+  EXPECT_EQ(rescued.parent_path(), spare) << error;
+  EXPECT_EQ(results_in(rescued), results_in(folder / "whole"));
+  EXPECT_EQ(without_temporaries(contents(out)), without_temporaries(then));
+  fs::permissions(out, fs::perms::all);  // so that it can be removed
+}
+
 #ifdef HAUBERK_CLOCK_BACK
 /// Nothing depends on the wall clock: a run that is killed and resumed under one that goes back ends the
 /// same.

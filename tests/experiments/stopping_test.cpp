@@ -101,6 +101,18 @@ TEST(Resuming, GivesTheSameResultsAsOneRun)
   resumed.at_pointer("/limits/0/message") = whole.at_pointer("/limits/0/message");
   EXPECT_EQ(write_json(timeless(resumed)), write_json(timeless(whole)));
 
+  // Times that cannot be read are no reason to lose results, and are not lost in silence.
+  std::ofstream(out + "/timings.json") << "{ \"format\"";
+  write_partial_results(out, partial);
+  const Outcome timeless_run = run_program({"run", file, "-o", out, "--resume"});
+  EXPECT_EQ(timeless_run.code, 0) << timeless_run.err;
+  EXPECT_NE(timeless_run.err.find("timings.json:"), std::string::npos) << timeless_run.err;
+  EXPECT_NE(timeless_run.err.find("; the times of that run are left out\n"), std::string::npos)
+      << timeless_run.err;
+  json::value untimed = read_results(out);
+  untimed.at_pointer("/limits/0/message") = whole.at_pointer("/limits/0/message");
+  EXPECT_EQ(write_json(timeless(untimed)), write_json(timeless(whole)));
+
   // What a kill after the last result leaves: a file without its name, and results of the run before.
   const pid_t killed = ::fork();
   if (killed == 0) ::_exit(0);

@@ -26,7 +26,7 @@ fs::path file_of(const std::string& result)
 /// Reads a file; where that fails, also says what would do.
 boost::json::value read_result(const fs::path& file)
 try {
-  return read_timed_results(file);
+  return read_timed_results(file, say_times_lost);
 } catch (const InputError& error) {
   throw InputError(
       fmt::format("{}; give the {} that `hauberk run` wrote, or its folder", error.what(), results_file));

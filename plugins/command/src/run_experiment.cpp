@@ -62,7 +62,7 @@ Former resume(const std::filesystem::path& folder, Job& job, Provenance& provena
   const std::filesystem::path file = folder / results_file;
   if (!std::filesystem::exists(file)) return former;
   try {
-    former.document = read_timed_results(file);
+    former.document = read_timed_results(file, say_times_lost);
     check_origin(former.document, *job.prepared);
     const std::optional<bool> as_written = is_as_written(folder);
     if (as_written == false)

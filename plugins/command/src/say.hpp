@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +29,12 @@ void say_error(fmt::format_string<T...> format, T&&... arguments)
 {
   std::fputs(plain_text(fmt::format(format, std::forward<T>(arguments)...), LineBreaks::kept).c_str(),
              stderr);
+}
+
+/// That the times of a run cannot be read, and what that means.
+inline void say_times_lost(const std::string& reason)
+{
+  say_error("hauberk: warning: {}; the times of that run are left out\n", reason);
 }
 
 }  // namespace hauberk::command

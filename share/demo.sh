@@ -16,7 +16,7 @@ if command -v npm >/dev/null; then viewer=(--viewer); fi
 "$here/setup.sh" "${viewer[@]}"
 hauberk=$(dirname "$here")/build/release/bin/hauberk
 status=0
-"$hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force "$@" || status=$?
+"$hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force ${viewer[@]:+--html} "$@" || status=$?
 
 out=$(cd "$out" 2>/dev/null && pwd) || exit "$status"
 echo
@@ -24,8 +24,7 @@ for plot in "$out"/*.svg; do
   [[ -e $plot ]] && echo "demo: limits before and after, as a polar plot: $plot"
 done
 [[ -e $out/results.json ]] && echo "demo: everything that was computed:             $out/results.json"
-if ((${#viewer[@]} > 0)) && [[ -e $out/results.json ]]; then
-  "$hauberk" export "$out" -o "$out/fabric.html" --force >/dev/null &&
-    echo "demo: the fabric, at rest and locked, to turn by hand: $out/fabric.html"
+if [[ -e $out/report.html ]]; then
+  echo "demo: the fabric, at rest and locked, to turn by hand: $out/report.html"
 fi
 exit "$status"

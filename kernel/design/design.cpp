@@ -47,6 +47,7 @@ class Recorder final : public OptimizerObserver {
     d.min_gap = problem_.rest_distance();
     d.links_kept = links_kept(p.model, p.rest);
     d.seconds = seconds_since(t0_);
+    d.variables = p.x;
     d.values = p.values;
     const auto senses = p.model.load->sense_names();
     for (const int k : p.changed) {

@@ -31,7 +31,8 @@ struct DesignIterate {
   double min_gap = 0.0;  ///< smallest surface distance at the relaxed rest state
   bool links_kept = true;
   double seconds = 0.0;
-  std::vector<double> values;  ///< the designed quantity per target
+  std::vector<double> variables;  ///< in the order of the design's
+  std::vector<double> values;     ///< the designed quantity per target
   /// Limits whose locked state is not the continuation of the iterate before, e.g. "30 degrees, stretch".
   std::vector<std::string> changed;
 };

@@ -1,6 +1,5 @@
 #include "export/fabric.hpp"
 
-#include "document/json_place.hpp"
 #include "geometry/body.hpp"
 #include "geometry/separation.hpp"
 
@@ -62,17 +61,21 @@ Mat3 deformation(const JsonPlace& macro)
   return F;
 }
 
+std::vector<ElementType>::const_iterator type_of(const Fabric::Element& element, const SceneSpec& scene)
+{
+  return std::find_if(scene.types.begin(), scene.types.end(),
+                      [&](const ElementType& type) { return type.name == element.type; });
+}
+
 Fabric::Element element_at(const JsonPlace& place, const SceneSpec& scene)
 {
   Fabric::Element element;
   element.type = place.at("type").text();
-  const auto type = std::find_if(scene.types.begin(), scene.types.end(),
-                                 [&](const ElementType& t) { return t.name == element.type; });
+  const auto type = type_of(element, scene);
   if (type == scene.types.end()) place.at("type").fail("the experiment in the results has no such element");
-  std::vector<double> parameters;
   for (const ParameterInfo& info : type->shape->parameters())
-    parameters.push_back(place.at("parameters").at(info.name.c_str()).number());
-  element.primitives = type->shape->primitives(parameters);
+    element.parameters.push_back(place.at("parameters").at(info.name.c_str()).number());
+  element.primitives = type->shape->primitives(element.parameters);
   element.rest = element.pose = pose_at(place.at("rest"));
   return element;
 }
@@ -208,8 +211,8 @@ Fabric fabric_of(const SceneSpec& scene, const std::string& name, const std::str
   fabric.lattice = fabric.rest_lattice = scene.lattice;
   for (const PlacedElement& element : scene.elements) {
     const ElementType& type = scene.types[static_cast<std::size_t>(element.type)];
-    fabric.elements.push_back(
-        {type.name, type.shape->primitives(element.parameters), element.rest, element.rest});
+    fabric.elements.push_back({type.name, element.parameters, type.shape->primitives(element.parameters),
+                               element.rest, element.rest});
   }
   return fabric;
 }
@@ -237,6 +240,38 @@ Fabric fabric_in_results(const boost::json::value& results, const std::string& f
     move_to_limit(limit, fabric);
   }
   return fabric;
+}
+
+Fabric at_limit(const Fabric& rest, const JsonPlace& limit)
+{
+  Fabric out = rest;
+  move_to_limit(limit, out);
+  return out;
+}
+
+Fabric with_design_values(const Fabric& initial, const JsonPlace& variables, const JsonPlace& values,
+                          const SceneSpec& scene)
+{
+  Fabric out = initial;
+  const auto named = variables.items(), numbers = values.items();
+  if (named.size() != numbers.size())
+    values.fail(fmt::format("expected {} numbers, found {}", named.size(), numbers.size()));
+  for (std::size_t k = 0; k < named.size(); ++k) {
+    const std::string name = named[k].at("name").text(), parameter = name.substr(name.find('/') + 1);
+    for (const JsonPlace& number : named[k].at("elements").items()) {
+      const auto at = static_cast<std::size_t>(number.integer());
+      if (at >= out.elements.size()) number.fail("there is no such element");
+      Fabric::Element& element = out.elements[at];
+      const std::vector<ParameterInfo> infos = type_of(element, scene)->shape->parameters();
+      const auto info = std::find_if(infos.begin(), infos.end(),
+                                     [&](const ParameterInfo& one) { return one.name == parameter; });
+      if (info == infos.end()) named[k].at("name").fail("its elements have no such parameter");
+      element.parameters[static_cast<std::size_t>(info - infos.begin())] = numbers[k].number();
+    }
+  }
+  for (Fabric::Element& element : out.elements)
+    element.primitives = type_of(element, scene)->shape->primitives(element.parameters);
+  return out;
 }
 
 Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::optional<Outline>& outline,

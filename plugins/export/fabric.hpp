@@ -1,6 +1,7 @@
 #pragma once
 /// A fabric as it is to be shown or printed: which surfaces, and where their copies lie.
 
+#include "document/json_place.hpp"
 #include "export/mesh.hpp"
 #include "geometry/pose.hpp"
 #include "model/scene.hpp"
@@ -18,6 +19,7 @@ namespace hauberk::exporting {
 struct Fabric {
   struct Element {
     std::string type;
+    std::vector<double> parameters;
     std::vector<Primitive> primitives;  ///< in the element's frame
     Pose pose;
     Pose rest;
@@ -36,6 +38,15 @@ Fabric fabric_of(const SceneSpec& scene, const std::string& name, const std::str
 /// read. `file` is named in messages. Throws InputError naming the state and what there is.
 Fabric fabric_in_results(const boost::json::value& results, const std::string& file, const SceneSpec& scene,
                          const std::string& state);
+
+/// A fabric at rest, moved to a limit of its results. Throws InputError where that has other poses.
+Fabric at_limit(const Fabric& rest, const detail::JsonPlace& limit);
+
+/// A design's initial fabric with the values of an iterate, at the same places. `variables`: those of the
+/// design in results; `values`: in their order. Throws InputError where these do not fit, or where shapes
+/// refuse them.
+Fabric with_design_values(const Fabric& initial, const detail::JsonPlace& variables,
+                          const detail::JsonPlace& values, const SceneSpec& scene);
 
 /// Which part of a periodic fabric is kept: elements whose middle is within, about the middle of all.
 struct Outline {

@@ -13,9 +13,11 @@
 #include <boost/json/serialize.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 namespace hauberk::exporting {
 namespace {
@@ -120,14 +122,15 @@ std::string label_of(const JsonPlace& limit, std::size_t number)
                    : fmt::format("{}, limit {}", sense, number);
 }
 
-/// Enters the limits of results, and those that have poses as states.
-void enter_limits(const JsonPlace& document, const Assembly& rest, const std::string& file,
-                  const SceneSpec& scene, json::object& out)
+/// The limits of `from`, a document or the initial design in it, as rows of the table; those that have poses
+/// become states of the fabric, which is `moved` there.
+template <class Moved>
+void enter_limits(const JsonPlace& from, const Assembly& rest, const Moved& moved, json::object& fabric)
 {
-  const auto limits = document.find("limits");
+  const auto limits = from.find("limits");
   if (!limits) return;
-  json::array& states = out["states"].as_array();
-  json::array& table = out["limits"].as_array();
+  json::array& states = fabric["states"].as_array();
+  json::array& table = fabric["limits"].as_array();
   std::size_t number = 0;
   for (const JsonPlace& limit : limits->items()) {
     const std::string sense = limit.at("sense").text(), status = limit.at("status").text();
@@ -141,12 +144,8 @@ void enter_limits(const JsonPlace& document, const Assembly& rest, const std::st
                      {"status", status},
                      {"confidence", confidence ? confidence->at("word").text() : ""},
                      {"state", 0}};
-    if (sense == "up" || sense == "down") {
-      out["bends"] = true;
-      out["words"] = json::array{"up", "down"};
-    }
-    if (value && poses && poses->items().size() == scene.elements.size()) {
-      const Fabric there = fabric_in_results(document.value(), file, scene, fmt::format("limit:{}", number));
+    if (value && poses && !poses->items().empty()) {
+      const Fabric there = moved(limit);
       row["state"] = states.size();
       states.push_back(json::object{{"label", row["label"]},
                                     {"value", row["value"]},
@@ -159,20 +158,131 @@ void enter_limits(const JsonPlace& document, const Assembly& rest, const std::st
 }
 
 /// What stands below the table.
-json::array facts_of(const JsonPlace* document, const Assembly& rest)
+json::array facts_of(const JsonPlace& document, const std::string& unit)
 {
-  json::array facts{json::array{"elements shown", std::to_string(rest.copies.size())},
-                    json::array{"unit", rest.unit}};
-  if (document == nullptr) return facts;
-  const JsonPlace experiment = document->at("experiment");
+  json::array facts{json::array{"unit", unit}};
+  const JsonPlace experiment = document.at("experiment");
   facts.push_back(json::array{"load case", experiment.at("load_case").at("plugin").text()});
   if (const auto solver = experiment.find("solver")) {
     if (const auto clearance = solver->optional_number("clearance"))
-      facts.push_back(json::array{"clearance", fmt::format("{:g} {}", *clearance, rest.unit)});
+      facts.push_back(json::array{"clearance", fmt::format("{:g} {}", *clearance, unit)});
     if (const auto preset = solver->find("preset")) facts.push_back(json::array{"preset", preset->text()});
   }
-  facts.push_back(json::array{"computed by", "Hauberk " + document->at("provenance").at("version").text()});
+  facts.push_back(json::array{"computed by", "Hauberk " + document.at("provenance").at("version").text()});
   return facts;
+}
+
+/// Cells that a page shows where nobody asks for other.
+std::array<int, 3> shown_cells(const Fabric& fabric)
+{
+  constexpr double elements = 24.0;
+  if (fabric.lattice.size() != 2) return {1, 1, 1};
+  const double cells = elements / static_cast<double>(fabric.elements.size());
+  const int along = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
+  return {along, along, 1};
+}
+
+/// A sixteenth of the thinnest wire's radius.
+double default_chord(const Fabric& fabric)
+{
+  double thin = std::numeric_limits<double>::infinity();
+  for (const Fabric::Element& element : fabric.elements) thin = std::min(thin, thinnest(element.primitives));
+  return thin / 16.0;
+}
+
+Assembly assembled(const Fabric& fabric, const PageView& view)
+{
+  return assemble(fabric, view.repeat.value_or(shown_cells(fabric)), view.outline,
+                  view.chord > 0.0 ? view.chord : default_chord(fabric));
+}
+
+/// Surfaces, copies, and the state at rest.
+json::object fabric_json(const Assembly& rest, const std::string& label)
+{
+  json::object out{{"label", label}};
+  json::array& meshes = out["meshes"].emplace_array();
+  for (std::size_t k = 0; k < rest.meshes.size(); ++k) meshes.push_back(mesh_json(rest, k));
+  double size = 0.0;
+  for (const Mesh& mesh : rest.meshes)
+    for (const Vec3& x : mesh.points) size = std::max(size, x.norm());
+  out["size"] = size;
+  json::array& copies = out["copies"].emplace_array();
+  json::array at_rest;
+  for (const Assembly::Copy& copy : rest.copies) {
+    copies.push_back(json::object{{"mesh", copy.mesh}, {"element", copy.element}, {"name", copy.name}});
+    at_rest.push_back(pose_json(copy.rest));
+  }
+  out["states"] = json::array{json::object{
+      {"label", "at rest"}, {"value", nullptr}, {"poses", std::move(at_rest)}, {"forces", json::array{}}}};
+  out["limits"].emplace_array();
+  return out;
+}
+
+json::object blank_entry(const std::string& name, const std::string& unit, const PageView& view)
+{
+  json::object out{{"name", name},
+                   {"unit", unit},
+                   {"bends", false},
+                   {"words", json::array{"stretch", "compression"}},
+                   {"targets", json::array{}},
+                   {"facts", json::array{json::array{"unit", unit}}}};
+  json::array& figures = out["figures"].emplace_array();
+  for (const Figure& figure : view.figures) {
+    const std::vector<char> bytes(figure.svg.begin(), figure.svg.end());
+    figures.push_back(json::object{{"name", figure.name}, {"svg", base64(bytes)}});
+  }
+  out["fabrics"].emplace_array();
+  return out;
+}
+
+/// Names what limits are of a load case that bends.
+void name_senses(json::object& entry)
+{
+  for (const json::value& fabric : entry["fabrics"].as_array()) {
+    for (const json::value& limit : fabric.at("limits").as_array()) {
+      const std::string label = limit.at("label").as_string().c_str();
+      if (!label.starts_with("up") && !label.starts_with("down")) continue;
+      entry["bends"] = true;
+      entry["words"] = json::array{"up", "down"};
+    }
+  }
+}
+
+/// An iterate with the same shapes would be the same picture again.
+constexpr std::size_t most_iterates = 40;
+
+/// Initial fabric, iterates in its places, and what the design is aimed at.
+void enter_design(const JsonPlace& design, const json::value& results, const std::string& file,
+                  const SceneSpec& scene, const PageView& view, json::object& entry)
+{
+  json::array& fabrics = entry["fabrics"].as_array();
+  const JsonPlace initial = design.at("initial");
+  const Fabric begin = fabric_in_results(results, file, scene, "initial");
+  const Assembly rest = assembled(begin, view);
+  json::object first = fabric_json(rest, "initial");
+  enter_limits(
+      initial, rest, [&](const JsonPlace& limit) { return at_limit(begin, limit); }, first);
+  fabrics.push_back(std::move(first));
+  const auto iterates = design.at("history").items();
+  PageView rough = view;  // each is seen for a moment
+  if (rough.chord == 0.0) rough.chord = 4.0 * default_chord(begin);
+  const std::size_t stride = iterates.size() / most_iterates + 1;
+  for (std::size_t k = stride; k + 1 < iterates.size(); k += stride) {
+    const auto variables = iterates[k].find("variables");
+    if (!variables) break;
+    const Fabric there = with_design_values(begin, design.at("variables"), *variables, scene);
+    fabrics.push_back(fabric_json(assembled(there, rough),
+                                  fmt::format("iterate {}", iterates[k].at("iteration").integer())));
+  }
+  json::array& targets = entry["targets"].as_array();
+  const std::string quantity = design.at("quantity").text();
+  if (quantity == "eta") return;  // no limit has that value
+  for (const JsonPlace& target : design.at("targets").items()) {
+    const auto direction = target.find("direction_deg");
+    if (direction)
+      targets.push_back(
+          json::object{{"direction", direction->number()}, {"value", target.at("target").number()}});
+  }
 }
 
 std::string replaced(std::string text, const std::string& mark, const std::string& by)
@@ -197,37 +307,42 @@ PageParts read_page_parts(const std::string& folder)
           read_whole_file(viewer.string(), largest_text)};
 }
 
-std::string page(const Assembly& rest, const json::value& results, const std::string& file,
-                 const SceneSpec& scene, const PageParts& parts)
+json::object page_entry(const Fabric& rest, const PageView& view)
 {
-  json::object out{{"name", rest.name},
-                   {"unit", rest.unit},
-                   {"bends", false},
-                   {"words", json::array{"stretch", "compression"}}};
-  json::array& meshes = out["meshes"].emplace_array();
-  for (std::size_t k = 0; k < rest.meshes.size(); ++k) meshes.push_back(mesh_json(rest, k));
+  json::object out = blank_entry(rest.name, rest.unit, view);
+  out["fabrics"].as_array().push_back(fabric_json(assembled(rest, view), ""));
+  return out;
+}
+
+json::object page_entry(const json::value& results, const std::string& file, const SceneSpec& scene,
+                        const PageView& view)
+{
+  const JsonPlace document(results, file);
+  const Fabric fabric = fabric_in_results(results, file, scene, "rest");
+  json::object out = blank_entry(fabric.name, fabric.unit, view);
+  if (const auto design = document.find("design")) enter_design(*design, results, file, scene, view, out);
+  const bool designed = !out["fabrics"].as_array().empty();
+  const Assembly rest = assembled(fabric, view);
+  json::object last = fabric_json(rest, designed ? "designed" : "");
+  enter_limits(
+      document, rest, [&](const JsonPlace& limit) { return at_limit(fabric, limit); }, last);
+  out["fabrics"].as_array().push_back(std::move(last));
+  name_senses(out);
+  out["facts"] = facts_of(document, fabric.unit);
+  return out;
+}
+
+std::string page(std::vector<json::object> entries, const PageParts& parts)
+{
+  json::object out;
   json::array& colours = out["colours"].emplace_array();
   constexpr int shades = 8;
   for (int k = 0; k < shades; ++k) {
     const auto c = colour_of(k);
     colours.push_back(json::array{c[0], c[1], c[2]});
   }
-  double size = 0.0;
-  for (const Mesh& mesh : rest.meshes)
-    for (const Vec3& x : mesh.points) size = std::max(size, x.norm());
-  out["size"] = size;
-  json::array& copies = out["copies"].emplace_array();
-  json::array at_rest;
-  for (const Assembly::Copy& copy : rest.copies) {
-    copies.push_back(json::object{{"mesh", copy.mesh}, {"element", copy.element}, {"name", copy.name}});
-    at_rest.push_back(pose_json(copy.rest));
-  }
-  out["states"] = json::array{json::object{
-      {"label", "at rest"}, {"value", nullptr}, {"poses", std::move(at_rest)}, {"forces", json::array{}}}};
-  out["limits"].emplace_array();
-  const JsonPlace document(results, file);
-  if (!results.is_null()) enter_limits(document, rest, file, scene, out);
-  out["facts"] = facts_of(results.is_null() ? nullptr : &document, rest);
+  json::array& results = out["results"].emplace_array();
+  for (json::object& entry : entries) results.push_back(std::move(entry));
   // A name that ends the script would end it: "<" is written so that it stays within the text.
   std::string data;
   for (const char c : json::serialize(out)) {

@@ -1,11 +1,16 @@
 #pragma once
-/// One page that shows a fabric in three dimensions, at rest and moved to each of its limits.
+/// One page that shows fabrics in three dimensions, at rest and moved to each of their limits; designs as
+/// they were, as they became and how they came there.
 
 #include "export/fabric.hpp"
 
+#include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace hauberk::exporting {
 
@@ -17,10 +22,33 @@ struct PageParts {
 /// Reads both from a folder. Throws InputError, with the way out, where the viewer was not built.
 PageParts read_page_parts(const std::string& folder);
 
-/// The page of an assembly at rest. `results`, if not null, are those that it comes from: every limit with
-/// poses is a state of the page, with its contact forces, and all limits are in its table; `scene` is that of
-/// their experiment. `file` is named in messages. One file that needs no network; thread safe.
-std::string page(const Assembly& rest, const boost::json::value& results, const std::string& file,
-                 const SceneSpec& scene, const PageParts& parts);
+/// A picture that stands below the table.
+struct Figure {
+  std::string name;  ///< what it is called: that of its file
+  std::string svg;
+};
+
+/// How a page shows the fabrics of an experiment or of results.
+struct PageView {
+  /// Copies of the cell; without: about two dozen elements of a sheet, so that one sees how they hold each
+  /// other, one cell of a solid.
+  std::optional<std::array<int, 3>> repeat = {};
+  std::optional<Outline> outline = {};
+  double chord = 0.0;  ///< see element_mesh; 0: a sixteenth of the thinnest wire's radius
+  std::vector<Figure> figures = {};
+};
+
+/// What a page shows of an experiment alone: its rest.
+boost::json::object page_entry(const Fabric& rest, const PageView& view);
+
+/// What a page shows of results: every limit with poses is a state, with its contact forces, and all limits
+/// are in the table; of a design its initial fabric, the shapes of its iterates, and the fabric that came of
+/// it. `scene` is that of their experiment; `file` is named in messages. Throws InputError where results are
+/// damaged, and what `assemble` throws. Thread safe.
+boost::json::object page_entry(const boost::json::value& results, const std::string& file,
+                               const SceneSpec& scene, const PageView& view);
+
+/// One file that needs no network, of one or more entries. Thread safe.
+std::string page(std::vector<boost::json::object> entries, const PageParts& parts);
 
 }  // namespace hauberk::exporting

@@ -3,6 +3,7 @@
 
 #include "design/run_result.hpp"
 #include "document/atomic_file.hpp"
+#include "results/document.hpp"
 
 #include <boost/json/value.hpp>
 
@@ -20,7 +21,7 @@ namespace hauberk {
 inline constexpr const char* report_text_file = "report.md";
 inline constexpr const char* report_table_file = "report.csv";
 inline constexpr const char* report_picture_file = "report.svg";
-inline constexpr std::array report_names{report_text_file, report_table_file, report_picture_file};
+inline constexpr std::array report_names{report_text_file, report_table_file, report_picture_file, page_file};
 
 /// One direction of a design; values in the unit of its quantity.
 struct ReportTarget {

@@ -103,7 +103,8 @@ json::array history_json(const std::vector<DesignIterate>& history)
 {
   json::array out;
   for (const DesignIterate& h : history) {
-    json::array values;
+    json::array variables, values;
+    for (const double x : h.variables) variables.push_back(number(x));
     for (const double value : h.values) values.push_back(number(value));
     out.push_back({{"iteration", h.iteration},
                    {"objective", number(h.objective)},
@@ -114,6 +115,7 @@ json::array history_json(const std::vector<DesignIterate>& history)
                    {"links_kept", h.links_kept},
                    {"changed", json::array(h.changed.begin(), h.changed.end())},
                    {"seconds", number(h.seconds)},
+                   {"variables", std::move(variables)},
                    {"values", std::move(values)}});
   }
   return out;

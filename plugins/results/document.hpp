@@ -16,6 +16,8 @@ namespace hauberk {
 inline constexpr const char* results_format = "hauberk-results/2";
 /// Its name in a folder of results.
 inline constexpr const char* results_file = "results.json";
+/// The page that a run leaves beside it where it is asked for one, and a report of many.
+inline constexpr const char* page_file = "report.html";
 
 /// What times depend on.
 struct Machine {

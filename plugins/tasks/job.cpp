@@ -40,12 +40,16 @@ boost::json::object blank_document(const Job& job, const Provenance& provenance)
 }
 
 std::vector<NamedContent> result_content(const Job& job, const std::filesystem::path& folder,
-                                         boost::json::object& document)
+                                         boost::json::object& document, const FurtherFiles& further)
 {
   job.task->enter(document);
   std::vector<NamedContent> out;
+  std::vector<ResultFile> files = job.task->files(folder);
+  if (further) {
+    for (ResultFile& file : further(document, files)) files.push_back(std::move(file));
+  }
   boost::json::object& names = document["files"].emplace_object();
-  for (ResultFile& file : job.task->files(folder)) {
+  for (ResultFile& file : files) {
     names[file.what] = file.name;
     out.push_back({std::move(file.name), std::move(file.content)});
   }

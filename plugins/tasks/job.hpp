@@ -4,6 +4,8 @@
 #include "document/atomic_file.hpp"
 #include "tasks/task.hpp"
 
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace hauberk {
@@ -24,9 +26,13 @@ boost::json::object plan_document(const Job& job);
 /// The document of results.json without results: what does not change while the task runs.
 boost::json::object blank_document(const Job& job, const Provenance& provenance);
 
+/// What a run leaves beside the files of its task, made from its document and from these.
+using FurtherFiles =
+    std::function<std::vector<ResultFile>(const boost::json::object&, std::span<const ResultFile>)>;
+
 /// Enters the job's results into a blank document, takes out what the run itself took (results/timings.hpp),
-/// and returns it with the files beside it, results.json last.
+/// and returns it with the files beside it, results.json last. `further`: may be empty.
 std::vector<NamedContent> result_content(const Job& job, const std::filesystem::path& folder,
-                                         boost::json::object& document);
+                                         boost::json::object& document, const FurtherFiles& further);
 
 }  // namespace hauberk

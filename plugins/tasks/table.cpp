@@ -53,7 +53,7 @@ const Task& task_named(std::string_view name)
 
 std::vector<const char*> result_names()
 {
-  std::vector<const char*> out{results_file, timings_file};
+  std::vector<const char*> out{results_file, timings_file, page_file};
   for (const Task& task : table) out.insert(out.end(), task.file_names.begin(), task.file_names.end());
   return out;
 }

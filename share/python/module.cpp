@@ -124,7 +124,7 @@ Outcome run(const Source& source, unsigned threads, const std::string& output, b
   progress.clear();
   boost::json::object document = blank_document(job, origin);
   std::vector<NamedContent> files =
-      result_content(job, output.empty() ? own.path() : fs::path(output), document);
+      result_content(job, output.empty() ? own.path() : fs::path(output), document, {});
   if (!output.empty()) write_files_atomically(output, files, names);
   return {files.back().content, job.task->summary(), job.task->failed(), interrupted()};
 }

@@ -1,12 +1,15 @@
-// Shows a fabric at rest and locked. The data is in the page (#fabric), written by plugins/export/page.cpp.
+// Shows fabrics at rest and locked. The data is in the page (#fabric), written by plugins/export/page.cpp: results, each
+// with its fabrics (of a design as it was, its iterates, as it became), each with its states.
 import {
   AmbientLight, ArrowHelper, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, InstancedMesh,
   Matrix4, MeshStandardMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-const fabric = JSON.parse(document.getElementById("fabric").textContent);
+const data = JSON.parse(document.getElementById("fabric").textContent);
 const byId = (id) => document.getElementById(id);
+let result = data.results[0];
+let fabric = result.fabrics[result.fabrics.length - 1];
 
 function bytes(base64) {
   const text = atob(base64);
@@ -20,7 +23,21 @@ const scene = new Scene();
 scene.background = new Color(0xf6f7f8);
 scene.add(new AmbientLight(0xffffff, 1.1));
 const sun = new DirectionalLight(0xffffff, 2.2);
-const groups = fabric.meshes.map((mesh, number) => {
+scene.add(sun);
+let groups = [];
+
+// The meshes of the fabric in place of those that were shown.
+function makeMeshes() {
+  for (const { instanced } of groups) {
+    scene.remove(instanced);
+    instanced.geometry.dispose();
+    instanced.material.dispose();
+    instanced.dispose();
+  }
+  groups = fabric.meshes.map(meshGroup);
+}
+
+function meshGroup(mesh, number) {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(bytes(mesh.points)), 3));
   geometry.setIndex(new BufferAttribute(new Uint32Array(bytes(mesh.triangles)), 1));
@@ -30,12 +47,12 @@ const groups = fabric.meshes.map((mesh, number) => {
     copies.length);
   instanced.frustumCulled = false;
   copies.forEach((copy, k) => {
-    const [r, g, b] = fabric.colours[copy.element % fabric.colours.length];
+    const [r, g, b] = data.colours[copy.element % data.colours.length];
     instanced.setColorAt(k, new Color().setRGB(r / 255, g / 255, b / 255, "srgb"));
   });
   scene.add(instanced);
   return { instanced, copies };
-});
+}
 
 const renderer = new WebGLRenderer({ canvas: byId("view"), antialias: true, preserveDrawingBuffer: true });
 const camera = new PerspectiveCamera(30, 1, 0.01, 1e6);
@@ -45,9 +62,11 @@ controls.listenToKeyEvents(renderer.domElement);
 const arrows = new Group();
 scene.add(arrows);
 
-let state = fabric.states.length > 1 ? 1 : 0;
+let state = 0;
 let part = 1;
-let playing = 0;
+let playing = false;
+let evolving = false;  // from design to design
+let shownAt = 0;  // when the last one of them was shown
 let dirty = true;
 
 function pose(numbers) {
@@ -108,7 +127,7 @@ function whole() {
 }
 
 function percent(value) {
-  return value === null ? "" : fabric.bends ? `${value.toPrecision(4)} /${fabric.unit}`
+  return value === null ? "" : result.bends ? `${value.toPrecision(4)} /${result.unit}`
     : `${value >= 0 ? "+" : ""}${(100 * value).toFixed(2)} %`;
 }
 
@@ -120,7 +139,8 @@ function choose(next) {
   byId("motion").disabled = state === 0;
   byId("play").disabled = state === 0;
   const chosen = fabric.states[state];
-  byId("label").textContent = state === 0 ? "at rest" : `${chosen.label}: ${percent(chosen.value)}`;
+  const where = state === 0 ? "at rest" : `${chosen.label}: ${percent(chosen.value)}`;
+  byId("label").textContent = fabric.label ? `${fabric.label}, ${where}` : where;
   for (const row of document.querySelectorAll("#limits tbody tr"))
     row.setAttribute("aria-selected", String(Number(row.dataset.state) === state));
   for (const mark of document.querySelectorAll("#plot .mark"))
@@ -146,10 +166,28 @@ function makeTable() {
     button.addEventListener("click", () => choose(Number(button.closest("tr").dataset.state)));
 }
 
+// A curve through the limits of one sense, and through their mirror images at the other half of the circle. Where
+// directions are far apart nothing is known between them, and nothing is drawn.
+function curve(limits, at, further, stroke) {
+  const some = limits.filter((limit) => limit.further === further).sort((a, b) => a.direction - b.direction);
+  const round = [...some.map((limit) => [limit.direction, at(limit, false)]),
+    ...some.map((limit) => [limit.direction + 180, at(limit, true)])];
+  let path = "";
+  round.forEach(([direction, point], k) => {
+    const [before] = k > 0 ? round[k - 1] : [-Infinity];
+    path += `${direction - before <= 35 ? "L" : "M"}${point.join(",")}`;
+  });
+  if (round.length > 2 && round[0][0] + 360 - round[round.length - 1][0] <= 35) path += `L${round[0][1].join(",")}`;
+  return `<path d="${path}" fill="none" stroke="${stroke}"${further ? "" : " stroke-dasharray=\"4 3\""}/>`;
+}
+
+// Limits of the fabric against direction; of a design also those of its other fabrics, pale, and its targets.
 function makePlot() {
-  const shown = fabric.limits.filter((limit) => limit.direction !== null && limit.value !== null);
-  if (shown.length < 3) return;
-  const most = Math.max(...shown.map((limit) => Math.abs(limit.value)));
+  const drawn = (one) => one.limits.filter((limit) => limit.direction !== null && limit.value !== null);
+  const all = [...result.fabrics.flatMap(drawn), ...result.targets];
+  byId("plot").replaceChildren();
+  if (all.length < 3) return;
+  const most = Math.max(...all.map((one) => Math.abs(one.value)));
   const at = (limit, half) => {
     const angle = limit.direction * Math.PI / 180 + (half ? Math.PI : 0);
     const radius = 88 * Math.abs(limit.value) / most;
@@ -159,20 +197,19 @@ function makePlot() {
   for (const fraction of [0.5, 1])
     drawing += `<circle cx="100" cy="100" r="${88 * fraction}" fill="none" stroke="#ddd"/>`;
   drawing += `<text x="190" y="97" text-anchor="end" font-size="7" fill="#666">${percent(most)}</text>`;
+  for (const other of result.fabrics.filter((one) => one !== fabric))
+    for (const further of [true, false]) drawing += curve(drawn(other), at, further, "#c9c9c9");
+  for (const target of result.targets) {
+    for (const half of [false, true]) {
+      const [x, y] = at(target, half);
+      drawing += `<path class="target" d="M${x - 3},${y - 3}L${x + 3},${y + 3}M${x - 3},${y + 3}L${x + 3},${
+        y - 3}" stroke="#444"><title>target: ${percent(target.value)}</title></path>`;
+    }
+  }
   for (const further of [true, false]) {
-    const some = shown.filter((limit) => limit.further === further).sort((a, b) => a.direction - b.direction);
-    // All the way round; where directions are far apart nothing is known between them, and nothing is drawn.
-    const round = [...some.map((limit) => [limit.direction, at(limit, false)]),
-      ...some.map((limit) => [limit.direction + 180, at(limit, true)])];
     const colour = further ? "#2b6cb0" : "#b7791f";
-    let path = "";
-    round.forEach(([direction, point], k) => {
-      const [before] = k > 0 ? round[k - 1] : [-Infinity];
-      path += `${direction - before <= 35 ? "L" : "M"}${point.join(",")}`;
-    });
-    if (round.length > 2 && round[0][0] + 360 - round[round.length - 1][0] <= 35) path += `L${round[0][1].join(",")}`;
-    drawing += `<path d="${path}" fill="none" stroke="${colour}"${further ? "" : " stroke-dasharray=\"4 3\""}/>`;
-    for (const limit of some.filter((one) => one.state > 0)) {
+    drawing += curve(drawn(fabric), at, further, colour);
+    for (const limit of drawn(fabric).filter((one) => one.state > 0 && one.further === further)) {
       for (const half of [false, true]) {
         const [x, y] = at(limit, half);
         drawing += `<circle class="mark" data-state="${limit.state}" cx="${x}" cy="${y}" r="3" fill="${colour}"><title>${
@@ -181,13 +218,76 @@ function makePlot() {
     }
   }
   byId("plot").innerHTML = `<svg viewBox="0 0 200 200" role="img" aria-label="Limits against direction: ${
-    safe(fabric.words[0])} as a line, ${safe(fabric.words[1])} dashed">${drawing}</svg>`;
+    safe(result.words[0])} as a line, ${safe(result.words[1])} dashed${
+    result.targets.length ? ", targets as crosses" : ""}">${drawing}</svg>`;
   for (const mark of document.querySelectorAll("#plot .mark"))
     mark.addEventListener("click", () => choose(Number(mark.dataset.state)));
 }
 
+// Extreme values of one sense, as a cell of the table of results.
+function range(limits, further) {
+  const values = limits.filter((limit) => limit.further === further && limit.value !== null)
+    .map((limit) => limit.value);
+  if (values.length === 0) return "";
+  const [least, most] = [Math.min(...values), Math.max(...values)].map(percent);
+  return least === most ? least : `${least.replace(" %", "")} to ${most}`;
+}
+
+// All results, to compare them; each is shown when its name is pressed.
+function makeResults() {
+  if (data.results.length < 2) return;
+  const rows = data.results.map((one, k) => {
+    const { limits } = one.fabrics[one.fabrics.length - 1];
+    return `<tr data-result="${k}"><td><button type="button">${safe(one.name)}</button></td><td class="number">${
+      range(limits, true)}</td><td class="number">${range(limits, false)}</td></tr>`;
+  });
+  const [further, back] = data.results[0].words;
+  byId("results").innerHTML = `<thead><tr><th>result</th><th>${safe(further)}</th><th>${
+    safe(back)}</th></tr></thead><tbody>${rows.join("")}</tbody>`;
+  for (const button of document.querySelectorAll("#results button"))
+    button.addEventListener("click", () => showResult(Number(button.closest("tr").dataset.result)));
+}
+
+// Another fabric of the result; the state stays that of the same name, if there is one.
+function showFabric(number) {
+  const name = fabric.states[state].label;
+  fabric = result.fabrics[number];
+  byId("design").value = number;
+  byId("design").setAttribute("aria-valuetext", fabric.label);
+  byId("state").replaceChildren(...fabric.states.map((one, k) => new Option(one.label, String(k))));
+  makeMeshes();
+  makeTable();
+  makePlot();
+  state = Math.max(0, fabric.states.findIndex((one) => one.label === name));
+  choose(state);
+}
+
+function showResult(number) {
+  result = data.results[number];
+  const last = result.fabrics.length - 1;
+  evolving = false;
+  playing = false;
+  document.title = `${result.name} - Hauberk`;
+  byId("title").textContent = result.name;
+  byId("designs").hidden = last === 0;
+  byId("design").max = last;
+  for (const row of document.querySelectorAll("#results tbody tr"))
+    row.setAttribute("aria-selected", String(Number(row.dataset.result) === number));
+  fabric = result.fabrics[last];
+  state = Math.min(1, fabric.states.length - 1);
+  showFabric(last);
+  makeFacts();
+  byId("figures").replaceChildren(...result.figures.map((figure) => {
+    const image = document.createElement("img");
+    image.src = `data:image/svg+xml;base64,${figure.svg}`;
+    image.alt = figure.name;
+    return image;
+  }));
+  whole();
+}
+
 function makeFacts() {
-  byId("facts").replaceChildren(...fabric.facts.flatMap(([name, value]) => {
+  byId("facts").replaceChildren(...[...result.facts, ["elements shown", fabric.copies.length]].flatMap(([name, value]) => {
     const term = document.createElement("dt");
     const text = document.createElement("dd");
     term.textContent = name;
@@ -225,8 +325,14 @@ function draw(now) {
   if (playing) {
     part = Math.min(1, part + (now - last) / 2000);
     byId("motion").value = part;
-    if (part === 1) playing = 0;
+    if (part === 1) playing = false;
     place();
+  }
+  if (evolving && now - shownAt > 600) {
+    shownAt = now;
+    const next = result.fabrics.indexOf(fabric) + 1;
+    if (next < result.fabrics.length) showFabric(next);
+    evolving = next + 1 < result.fabrics.length;
   }
   last = now;
   if (!dirty) return;
@@ -236,28 +342,30 @@ function draw(now) {
   document.documentElement.dataset.frames = String(++frames);
 }
 
-document.title = `${fabric.name} - Hauberk`;
-byId("title").textContent = fabric.name;
-byId("state").replaceChildren(...fabric.states.map((one, k) => new Option(one.label, String(k))));
 byId("state").addEventListener("change", () => choose(Number(byId("state").value)));
 byId("motion").addEventListener("input", () => {
-  playing = 0;
+  playing = false;
   part = Number(byId("motion").value);
   place();
 });
 byId("play").addEventListener("click", () => {
   part = 0;
-  playing = 1;
+  playing = true;
+});
+byId("design").addEventListener("input", () => {
+  evolving = false;
+  showFabric(Number(byId("design").value));
+});
+byId("evolve").addEventListener("click", () => {
+  showFabric(0);
+  evolving = true;
+  shownAt = performance.now();
 });
 byId("home").addEventListener("click", whole);
 byId("forces").addEventListener("change", place);
 controls.addEventListener("change", () => { dirty = true; });
 window.addEventListener("resize", resize);
-scene.add(sun);
-makeTable();
-makePlot();
-makeFacts();
+makeResults();
 resize();
-choose(state);
-whole();
+showResult(0);
 requestAnimationFrame(draw);

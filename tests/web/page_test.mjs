@@ -2,7 +2,7 @@
 //
 //   node page_test.mjs HAUBERK CHECKOUT
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import assert from "node:assert/strict";
@@ -121,13 +121,52 @@ try {
   assert.ok(difference(await picture(), here) > 0.005, "keys do not move it");
 
   // What a screen reader says of every control.
-  for (const id of ["view", "state", "motion", "play", "home", "forces"]) {
+  for (const id of ["view", "state", "motion", "play", "home", "forces", "design", "evolve"]) {
     const name = await page.evaluate((of) => {
       const control = document.getElementById(of);
       return (control.getAttribute("aria-label") ?? control.labels?.[0]?.textContent ?? control.textContent).trim();
     }, id);
     assert.ok(name.length > 3, `#${id} has no name`);
   }
+
+  // A run that leaves its page: a design as it was, on its way, and as it became.
+  const made = join(folder, "designed");
+  run("run", join(checkout, "optimizers/sqp/example.json"), "-o", made, "--html", "--quiet");
+  const history = JSON.parse(readFileSync(join(made, "results.json"), "utf8")).design.history;
+  assert.ok(history.length > 3 && history.every((iterate) => iterate.variables.length === 1));
+  await page.goto(`file://${join(made, "report.html")}`);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.frames) > 0);
+  assert.match(await label(), /^designed, stretch at 0°: \+50\.00 %$/);
+  const designed = await picture();
+  assert.equal(await page.getAttribute("#figures img", "alt"), "profile.svg");
+  assert.ok(await page.evaluate(() => document.querySelector("#figures img").naturalWidth > 100), "no picture");
+  assert.equal(await page.getAttribute("#design", "max"), String(history.length - 1), "initial, iterates, designed");
+  await page.focus("#design");
+  await page.keyboard.press("Home");
+  assert.match(await label(), /^initial, stretch at 0°: \+43\.33 %$/);
+  assert.equal(await page.getAttribute("#design", "aria-valuetext"), "initial");
+  assert.ok(difference(await picture(), designed) > 1e-3, "the design looks as it began");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await label(), `iterate ${history[1].iteration}, at rest`);
+  await page.click("#evolve");
+  await page.waitForFunction((last) => document.getElementById("design").value === last, String(history.length - 1));
+  assert.match(await label(), /^designed, at rest$/);
+
+  // A report of several, of which each is shown.
+  const reported = join(folder, "reported");
+  assert.match(run("report", sheet, made, "-o", reported), /report\.html$/m);
+  await page.goto(`file://${join(reported, "report.html")}`);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.frames) > 0);
+  assert.equal(await page.locator("#results tbody tr").count(), 2);
+  assert.equal(await page.textContent("#title"), "</script><b>sheet");
+  assert.ok(await page.isHidden("#designs"), "a sheet has no iterates");
+  await page.click("#results tbody tr:nth-child(2) button");
+  assert.equal(await page.textContent("#title"), "sqp_example");
+  assert.equal(await page.getAttribute("#results tbody tr:nth-child(2)", "aria-selected"), "true");
+  assert.ok(await page.isVisible("#design"));
+  assert.equal(await page.locator("#limits tbody tr").count(), 1);
+  await page.click("#results tbody tr:nth-child(1) button");
+  assert.equal(await page.locator("#plot .mark").count(), 12);
 
   // An experiment alone is a page of one state.
   run("export", join(checkout, "share/experiments/hook_and_eye.json"), "-o", join(folder, "one.html"));

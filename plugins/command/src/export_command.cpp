@@ -5,13 +5,12 @@
 #include "document/read_file.hpp"
 #include "experiment_options.hpp"
 #include "export/formats.hpp"
-#include "export/page.hpp"
 #include "export/picture.hpp"
+#include "page_files.hpp"
 #include "run/weave_library.hpp"
 #include "say.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/host/search_path.hpp>
 
 #include <fmt/format.h>
 
@@ -72,17 +71,6 @@ std::array<int, 3> repeat_of(const Options& options)
   return repeat;
 }
 
-/// Cells that a page shows of a sheet where nobody asks for other: about two dozen elements, so that one sees
-/// how they hold each other.
-std::array<int, 3> shown_cells(const Fabric& fabric)
-{
-  constexpr double elements = 24.0;
-  if (fabric.lattice.size() != 2) return {1, 1, 1};
-  const double cells = elements / static_cast<double>(fabric.elements.size());
-  const int along = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
-  return {along, along, 1};
-}
-
 std::optional<Outline> outline_of(const Options& options)
 {
   if (!options.has("outline")) return std::nullopt;
@@ -134,19 +122,23 @@ Opened open_fabric(const Options& options)
   }
   if (!options.list("set").empty()) throw InputError("--set: results are as they are; give an experiment");
   boost::json::value results = parse_json(text, file);
-  const detail::JsonPlace document(results, file);
-  Job job = prepare_job(open_registry(options),
-                        {file, write_json(document.at("experiment").value()), {}, weave_lookup(file)});
+  Job job = job_of_results(open_registry(options), results, file);
   Fabric fabric = fabric_in_results(results, file, job.prepared->scene, state);
   return {file, std::move(results), std::move(job), std::move(fabric)};
 }
 
-std::string content_of(const std::string& format, const Assembly& assembly, const Opened& opened,
-                       const Options& options)
+/// The page of all states.
+std::string page_content(const Opened& opened, const PageView& view)
 {
-  if (format == ".html")
-    return page(assembly, opened.results, opened.file, opened.job.prepared->scene,
-                read_page_parts((shared_data_folder() / "web").string()));
+  const PageParts parts = installed_page_parts();
+  return page(
+      {opened.results.is_null() ? page_entry(opened.fabric, view)
+                                : page_entry(opened.results, opened.file, opened.job.prepared->scene, view)},
+      parts);
+}
+
+std::string content_of(const std::string& format, const Assembly& assembly, const Options& options)
+{
   if (format == ".stl") return stl(assembly);
   if (format == ".obj") return obj(assembly);
   if (format == ".3mf") return three_mf(assembly);
@@ -271,12 +263,14 @@ int export_command(const std::vector<std::string>& words)
   if (format == ".html" && options.has("state"))
     throw UsageError("--state: a page has all states; leave it out", options.usage());
   const Opened opened = open_fabric(options);
-  const Assembly assembly = assemble(
-      opened.fabric, format == ".html" && !options.has("repeat") ? shown_cells(opened.fabric) : repeat,
-      outline, chord);
+  const Assembly assembly = assemble(opened.fabric, repeat, outline, chord);
   const auto nearest = nearest_copies(assembly, std::numeric_limits<double>::infinity());
   require_gap(assembly, nearest, gap);
-  const std::string content = content_of(format, assembly, opened, options);
+  const std::string content =
+      format == ".html"
+          ? page_content(opened,
+                         {options.has("repeat") ? std::optional(repeat) : std::nullopt, outline, chord, {}})
+          : content_of(format, assembly, options);
   if (options.has("force"))
     write_files_atomically(file.has_parent_path() ? file.parent_path() : ".",
                            {{file.filename().string(), content}}, {});

@@ -1,4 +1,5 @@
 #include "dispatch.hpp"
+#include "page_files.hpp"
 #include "part_run.hpp"
 #include "run/interrupt.hpp"
 #include "run/weave_library.hpp"
@@ -110,6 +111,7 @@ Description gather_description()
            .takes = Takes::integer,
            .value = "N",
            .help = "threads to use; default: all processors that the process may use"},
+          {.name = "html", .help = "leave also `report.html` (see `run`)"},
           {.name = "quiet", .help = "show no progress"}}};
 }
 
@@ -155,6 +157,7 @@ int gather_command(const std::vector<std::string>& words)
   note_processor(origin.processor, gathering.processors);
   if (gathering.processors.size() < 2) gathering.processors.clear();
   request.gathering = &gathering;
+  if (options.has("html")) request.further = page_of_run(job, installed_page_parts());
   // Results of an interrupted one are gone on from.
   request.force = options.has("force");
   request.resume = !request.force;

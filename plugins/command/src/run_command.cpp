@@ -1,4 +1,5 @@
 #include "dispatch.hpp"
+#include "page_files.hpp"
 #include "part_run.hpp"
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
@@ -110,6 +111,9 @@ Description run_description()
             .value = "N",
             .help = "the same of memory; default: what the machine has"},
            {.name = "yes", .help = "go on beyond the budget"},
+           {.name = "html",
+            .help = "leave also `report.html`, a page that shows the fabric and its limits, to turn by hand",
+            .more = "Its viewer is built by `share/setup.sh --viewer`, with node and npm."},
            {.name = "quiet", .help = "show no progress"}},
           experiment_options())};
 }
@@ -128,11 +132,14 @@ int run_command(const std::vector<std::string>& words)
   if (options.has("take-over")) request.take_over = options.get<std::string>("take-over");
   std::optional<Share> share;
   if (options.has("part")) share = part_of(options);
+  if (share && options.has("html"))
+    throw UsageError("--html: a part has no page; give it to `gather`", options.usage());
   Job job = [&options] {
     const NothingToLose scope;
     return open_job(options);
   }();
   warn_of_plugins(*job.prepared);
+  if (options.has("html")) request.further = page_of_run(job, installed_page_parts());
   if (!options.has("yes"))
     refuse_beyond(budget_of(options),
                   job.task->work(job.plan).times(share ? 1.0 / static_cast<double>(share->count) : 1.0));

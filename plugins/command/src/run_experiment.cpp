@@ -177,11 +177,12 @@ int run_experiment(Job& job, const RunRequest& request)
   const auto note_peak_memory = [&origin] {
     origin.peak_memory_bytes = std::max(origin.peak_memory_bytes, peak_memory_bytes());
   };
+  bool complete = false;
   RunFolder output(folder, names, resuming, progress, [&] {
     note_peak_memory();
     document = blank;
     document["provenance"] = provenance_json(origin);
-    return result_content(job, folder, document);
+    return result_content(job, folder, document, complete ? request.further : FurtherFiles());
   });
   RunContext context{request.threads,
                      progress,
@@ -205,6 +206,7 @@ int run_experiment(Job& job, const RunRequest& request)
       return exit_interrupted;
     }
   }
+  complete = !interrupted();
   output.write();
   return conclude(job, output, document,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - request.begin).count());

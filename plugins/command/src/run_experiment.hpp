@@ -25,6 +25,7 @@ struct RunRequest {
   std::filesystem::path folder;
   unsigned threads = 1;
   bool force = false, resume = false, quiet = false;
+  FurtherFiles further;  ///< left with final results
   std::string take_over;
   const Gathering* gathering = nullptr;
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();  ///< of the program

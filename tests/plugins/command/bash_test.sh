@@ -73,7 +73,7 @@ expect 'chain.so folder with space' hauberk plugins conform ''
 expect 'folder with space' hauberk plugins new --kind shape name ''
 expect '' hauberk plugins new --kind shape fo
 expect 'chain.json folder with space' hauberk report first second ''
-expect '--budget --budget-bytes --force --help --output --part --plugin-path --quiet --resume --set --take-over --threads --yes -h -o' hauberk run chain.json ''
+expect '--budget --budget-bytes --force --help --html --output --part --plugin-path --quiet --resume --set --take-over --threads --yes -h -o' hauberk run chain.json ''
 
 # Plugins, as the program finds them.
 ids=$("$program" plugins list --json |

@@ -131,7 +131,7 @@ Fabric chain()
     Pose pose;
     pose.position = {6.0 * k, 0.0, 0.0};
     if (k == 1) pose.rotation = Eigen::AngleAxisd(0.5 * pi, Vec3::UnitX()).toRotationMatrix();
-    fabric.elements.push_back({"link", {torus(5.0, 0.7, 0.7)}, pose, pose});
+    fabric.elements.push_back({"link", {5.0, 0.7, 0.7}, {torus(5.0, 0.7, 0.7)}, pose, pose});
   }
   return fabric;
 }

@@ -34,16 +34,19 @@ Pose pose_at(const JsonPlace& place)
   return pose;
 }
 
+Vec3 vector_at(const JsonPlace& place)
+{
+  Vec3 x = Vec3::Zero();
+  const auto entries = place.items();
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, entries.size()); ++k)
+    x[static_cast<Eigen::Index>(k)] = entries[k].number();
+  return x;
+}
+
 std::vector<Vec3> vectors_at(const JsonPlace& place)
 {
   std::vector<Vec3> out;
-  for (const JsonPlace& vector : place.items()) {
-    Vec3 x = Vec3::Zero();
-    const auto entries = vector.items();
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, entries.size()); ++k)
-      x[static_cast<Eigen::Index>(k)] = entries[k].number();
-    out.push_back(x);
-  }
+  for (const JsonPlace& vector : place.items()) out.push_back(vector_at(vector));
   return out;
 }
 
@@ -247,6 +250,32 @@ Fabric at_limit(const Fabric& rest, const JsonPlace& limit)
   Fabric out = rest;
   move_to_limit(limit, out);
   return out;
+}
+
+std::vector<ShownContact> contacts_of(const JsonPlace& limit)
+{
+  std::vector<ShownContact> out;
+  const auto contacts = limit.find("contacts");
+  if (!contacts) return out;
+  for (const JsonPlace& place : contacts->items()) {
+    const auto elements = place.at("elements").items();
+    const std::vector<Vec3> points = vectors_at(place.at("points"));
+    if (elements.size() != 2 || points.size() != 2) place.fail("expected 2 elements and 2 points");
+    const double size = place.at("force").number();
+    out.push_back({{static_cast<int>(elements[0].integer()), static_cast<int>(elements[1].integer())},
+                   {points[0], points[1]},
+                   size * vector_at(place.at("normal")),
+                   place.optional_number("gap").value_or(0.0)});
+  }
+  return out;
+}
+
+std::vector<ShownContact> contacts_in_results(const boost::json::value& results, const std::string& file,
+                                              const std::string& state)
+{
+  if (!state.starts_with("limit:"))
+    throw InputError(fmt::format("--state {}: only a limit has contact forces; give limit:K", state));
+  return contacts_of(limit_of(JsonPlace(results, file), file, state));
 }
 
 Fabric with_design_values(const Fabric& initial, const JsonPlace& variables, const JsonPlace& values,

@@ -42,6 +42,22 @@ Fabric fabric_in_results(const boost::json::value& results, const std::string& f
 /// A fabric at rest, moved to a limit of its results. Throws InputError where that has other poses.
 Fabric at_limit(const Fabric& rest, const detail::JsonPlace& limit);
 
+/// A contact of a limit, in the first cell.
+struct ShownContact {
+  std::array<int, 2> elements{};  ///< of the cell or patch; the second is -1 of a wall
+  std::array<Vec3, 2> at;         ///< on the surface of each
+  Vec3 force;                     ///< on the second; the first has its opposite. In 1/length: the load is one
+  double gap = 0.0;               ///< less the clearance
+};
+
+/// The contacts of a limit in results. Throws InputError where they are damaged.
+std::vector<ShownContact> contacts_of(const detail::JsonPlace& limit);
+
+/// The same of "limit:K", K being the number of one of the limits of results. Throws InputError where it is
+/// not.
+std::vector<ShownContact> contacts_in_results(const boost::json::value& results, const std::string& file,
+                                              const std::string& state);
+
 /// A design's initial fabric with the values of an iterate, at the same places. `variables`: those of the
 /// design in results; `values`: in their order. Throws InputError where these do not fit, or where shapes
 /// refuse them.

@@ -26,7 +26,9 @@ std::string three_mf(const Assembly& assembly);
 /// turns that change evenly: a picture of the motion, not the motion itself, which has contact.
 std::string glb(const Assembly& assembly);
 
-/// VTK XML of an unstructured grid: triangles of all copies with the number of their copy and mesh.
-std::string vtu(const Assembly& assembly);
+/// VTK XML of an unstructured grid: triangles of all copies with the number of their copy and mesh. Of each
+/// contact two vertices of kind -1, on either surface, with the number of its element (-1: of a wall) and, as
+/// data of points, the force on that element and the gap; points of triangles have zeros there.
+std::string vtu(const Assembly& assembly, const std::vector<ShownContact>& contacts);
 
 }  // namespace hauberk::exporting

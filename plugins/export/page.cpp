@@ -80,35 +80,23 @@ json::array poses_json(const Assembly& rest, const Fabric& state)
   return out;
 }
 
-Vec3 vector_at(const JsonPlace& place)
-{
-  Vec3 x = Vec3::Zero();
-  const auto entries = place.items();
-  for (std::size_t k = 0; k < std::min<std::size_t>(3, entries.size()); ++k)
-    x[static_cast<Eigen::Index>(k)] = entries[k].number();
-  return x;
-}
-
 /// Contact forces of a limit, as they push the first element of each pair, in the first cell that is shown.
 json::array forces_json(const JsonPlace& limit, const Fabric& fabric)
 {
+  const auto name = [&](int element) {
+    const auto at = static_cast<std::size_t>(element);
+    return element >= 0 && at < fabric.elements.size() ? fmt::format("{} {}", fabric.elements[at].type, at)
+                                                       : "wall";
+  };
+  const auto vector = [](const Vec3& x) { return json::array{x.x(), x.y(), x.z()}; };
   json::array out;
-  const auto contacts = limit.find("contacts");
-  if (!contacts) return out;
-  for (const JsonPlace& contact : contacts->items()) {
-    const double size = contact.at("force").number();
-    const auto elements = contact.at("elements").items(), points = contact.at("points").items();
-    if (!(size > 0.0) || elements.size() != 2 || points.empty()) continue;
-    const auto name = [&](std::size_t k) {
-      const auto element = static_cast<std::size_t>(elements[k].integer());
-      return element < fabric.elements.size() ? fmt::format("{} {}", fabric.elements[element].type, element)
-                                              : "";
-    };
-    const auto vector = [](const Vec3& x) { return json::array{x.x(), x.y(), x.z()}; };
-    out.push_back(json::object{{"at", vector(vector_at(points[0]))},
-                               {"normal", vector(-vector_at(contact.at("normal")))},
+  for (const ShownContact& contact : contacts_of(limit)) {
+    const double size = contact.force.norm();
+    if (!(size > 0.0)) continue;
+    out.push_back(json::object{{"at", vector(contact.at[0])},
+                               {"normal", vector(-contact.force / size)},
                                {"size", size},
-                               {"pair", name(0) + " on " + name(1)}});
+                               {"pair", name(contact.elements[0]) + " on " + name(contact.elements[1])}});
   }
   return out;
 }

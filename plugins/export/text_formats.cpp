@@ -91,10 +91,10 @@ std::string obj(const Assembly& assembly)
   return out;
 }
 
-std::string vtu(const Assembly& assembly)
+std::string vtu(const Assembly& assembly, const std::vector<ShownContact>& contacts)
 {
-  std::string points, triangles, offsets, types, copies, kinds;
-  std::size_t first = 0, cells = 0;
+  std::string points, triangles, offsets, types, copies, kinds, forces, gaps;
+  std::size_t first = 0, cells = 0, corners = 0;
   for (std::size_t k = 0; k < assembly.copies.size(); ++k) {
     const auto& copy = assembly.copies[k];
     const Mesh& mesh = assembly.meshes[copy.mesh];
@@ -104,12 +104,34 @@ std::string vtu(const Assembly& assembly)
     }
     for (const auto& t : mesh.triangles) {
       fmt::format_to(std::back_inserter(triangles), "{} {} {}\n", first + t[0], first + t[1], first + t[2]);
-      fmt::format_to(std::back_inserter(offsets), "{}\n", 3 * ++cells);
+      fmt::format_to(std::back_inserter(offsets), "{}\n", corners += 3);
+      ++cells;
       types += "5\n";
       fmt::format_to(std::back_inserter(copies), "{}\n", k);
       fmt::format_to(std::back_inserter(kinds), "{}\n", copy.mesh);
     }
     first += mesh.points.size();
+  }
+  if (!contacts.empty()) {
+    for (std::size_t k = 0; k < first; ++k) {
+      forces += "0 0 0\n";
+      gaps += "0\n";
+    }
+  }
+  for (const ShownContact& contact : contacts) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vec3& x = contact.at[k];
+      const Vec3 f = k == 0 ? Vec3(-contact.force) : contact.force;
+      fmt::format_to(std::back_inserter(points), "{} {} {}\n", x.x(), x.y(), x.z());
+      fmt::format_to(std::back_inserter(forces), "{} {} {}\n", f.x(), f.y(), f.z());
+      fmt::format_to(std::back_inserter(gaps), "{}\n", contact.gap);
+      fmt::format_to(std::back_inserter(triangles), "{}\n", first++);
+      fmt::format_to(std::back_inserter(offsets), "{}\n", ++corners);
+      fmt::format_to(std::back_inserter(copies), "{}\n", contact.elements[k]);
+      types += "1\n";
+      kinds += "-1\n";
+      ++cells;
+    }
   }
   const auto array = [](const char* type, const char* name, int components, const std::string& values) {
     return fmt::format(
@@ -124,7 +146,11 @@ std::string vtu(const Assembly& assembly)
          "<Points>\n" + array("Float64", "points", 3, points) + "</Points>\n<Cells>\n" +
          array("Int64", "connectivity", 1, triangles) + array("Int64", "offsets", 1, offsets) +
          array("UInt8", "types", 1, types) + "</Cells>\n<CellData>\n" + array("Int64", "element", 1, copies) +
-         array("Int64", "kind", 1, kinds) + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+         array("Int64", "kind", 1, kinds) + "</CellData>\n" +
+         (contacts.empty() ? ""
+                           : "<PointData>\n" + array("Float64", "force", 3, forces) +
+                                 array("Float64", "gap", 1, gaps) + "</PointData>\n") +
+         "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace hauberk::exporting

@@ -137,13 +137,17 @@ std::string page_content(const Opened& opened, const PageView& view)
       parts);
 }
 
-std::string content_of(const std::string& format, const Assembly& assembly, const Options& options)
+std::string content_of(const std::string& format, const Assembly& assembly, const Opened& opened,
+                       const Options& options)
 {
   if (format == ".stl") return stl(assembly);
   if (format == ".obj") return obj(assembly);
   if (format == ".3mf") return three_mf(assembly);
   if (format == ".glb") return glb(assembly);
-  if (format == ".vtu") return vtu(assembly);
+  if (format == ".vtu")
+    return vtu(assembly, options.has("forces") ? contacts_in_results(opened.results, opened.file,
+                                                                     options.get<std::string>("state"))
+                                               : std::vector<ShownContact>());
   const View view = view_of(options.has("view") ? options.get<std::string>("view") : "iso");
   std::vector<int> size{800, 600};
   if (options.has("size")) size = counts_of(options, "size", 8000, "800,600");
@@ -234,6 +238,8 @@ Description export_description()
             .takes = Takes::real,
             .value = "X",
             .help = "write nothing if two elements are nearer than this"},
+           {.name = "forces",
+            .help = "with `--state limit:K`, of .vtu: contact points with their forces and gaps"},
            {.name = "view",
             .takes = Takes::text,
             .value = "V",
@@ -260,6 +266,10 @@ int export_command(const std::vector<std::string>& words)
   const std::optional<Outline> outline = outline_of(options);
   const double chord = positive(options, "chord"), gap = positive(options, "require-gap");
   if (!options.has("force")) refuse_existing_file(file);
+  if (options.has("forces") && (format != ".vtu" || !options.has("state")))
+    throw UsageError(
+        "--forces: only of a limit (--state limit:K), and only .vtu holds them; a page shows them anyway",
+        options.usage());
   if (format == ".html" && options.has("state"))
     throw UsageError("--state: a page has all states; leave it out", options.usage());
   const Opened opened = open_fabric(options);
@@ -270,7 +280,7 @@ int export_command(const std::vector<std::string>& words)
       format == ".html"
           ? page_content(opened,
                          {options.has("repeat") ? std::optional(repeat) : std::nullopt, outline, chord, {}})
-          : content_of(format, assembly, options);
+          : content_of(format, assembly, opened, options);
   if (options.has("force"))
     write_files_atomically(file.has_parent_path() ? file.parent_path() : ".",
                            {{file.filename().string(), content}}, {});

@@ -144,6 +144,36 @@ piece = vtu.find("UnstructuredGrid/Piece")
 offsets = piece.find("Cells/DataArray[@Name='offsets']").text.split()
 assert len(offsets) == int(piece.get("NumberOfCells")) and int(offsets[-1]) == 3 * len(offsets)
 
+# Forces: those of the results, and in equilibrium on every ring (contacts with images count at their elements).
+locked = xml.parse(export(folder / "out", "forces.vtu", "--state", "limit:0", "--forces")[0]).getroot()
+
+
+def numbers(name, size):
+    x = [float(v) for v in locked.find(f".//DataArray[@Name='{name}']").text.split()]
+    return [tuple(x[k:k + size]) for k in range(0, len(x), size)]
+
+
+kinds, elements, corners = numbers("kind", 1), numbers("element", 1), numbers("connectivity", 1)
+vertices = [k for k, (kind,) in enumerate(kinds) if kind == -1]
+contacts = json.loads((folder / "out/results.json").read_text())["limits"][0]["contacts"]
+assert len(vertices) == 2 * len(contacts) > 0, (len(vertices), len(contacts))
+forces, points, gaps = numbers("force", 3), numbers("points", 3), numbers("gap", 1)
+assert len(forces) == len(points) == len(gaps)
+total = {}
+largest = 0.0
+for number, cell in enumerate(vertices):
+    contact = contacts[number // 2]
+    at = int(corners[3 * (len(kinds) - len(vertices)) + number][0])
+    assert math.dist(points[at], contact["points"][number % 2]) < 1e-12
+    close(math.hypot(*forces[at]), contact["force"], 1e-12)
+    assert gaps[at][0] == contact["gap"] and elements[cell][0] == contact["elements"][number % 2]
+    largest = max(largest, contact["force"])
+    sums = total.setdefault(elements[cell][0], [0.0, 0.0, 0.0])
+    for k in range(3):
+        sums[k] += forces[at][k]
+assert all(abs(x) < 1e-3 * largest for sums in total.values() for x in sums), total
+assert not any(any(force) for force in forces[:len(forces) - len(vertices)]), "surfaces bear no force"
+
 # Elements of several primitives are one closed surface.
 for name in ("hook_and_eye", "borromean", "octahedra_solid", "oval_links"):
     path, _ = export(experiments / f"{name}.json", f"{name}.stl", "--chord", "0.1")
@@ -162,7 +192,8 @@ assert "link 0 [0, 0] and link 0 [1, 0] are 0.6 mm apart" in said, said
 run("export", chain, "-o", folder / "yes.stl", "--require-gap", "0.59", "--repeat", "2,1")
 for words in (["no.ply"], ["no.stl", "--repeat", "0,1"], ["no.stl", "--repeat", "2,1,3"], ["no.stl", "--chord", "-1"],
               ["no.stl", "--state", "limit:0"], ["no.png", "--view", "up"], ["no.png", "--size", "0,9"],
-              ["no.stl", "--outline", "disk:0"], ["no.stl", "--chord", "1e-9"]):
+              ["no.stl", "--outline", "disk:0"], ["no.stl", "--chord", "1e-9"], ["no.vtu", "--forces"],
+              ["no.stl", "--state", "limit:0", "--forces"]):
     run("export", chain, "-o", folder / words[0], *words[1:], expected=2)
 for state in ("limit:7", "limit:", "final", "later"):
     assert state in run("export", folder / "out", "-o", folder / "no.stl", "--state", state, expected=2)

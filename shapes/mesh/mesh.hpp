@@ -1,7 +1,7 @@
 #pragma once
 /// An element of one closed surface of triangles.
 
-#include "mesh_file.hpp"
+#include "common/mesh_file.hpp"
 
 #include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>

@@ -1,4 +1,4 @@
-#include "mesh_file.hpp"
+#include "common/mesh_file.hpp"
 
 #include "common/text_file.hpp"
 
@@ -34,12 +34,11 @@ double float_at(const char* bytes)
   return value;
 }
 
-void check_count(std::size_t triangles, const std::string& name)
+void check_count(std::size_t triangles, const MeshLimits& limits, const std::string& name)
 {
-  if (triangles > TriangleSurface::most_triangles) {
-    throw InputError(fmt::format("{}: has more than {} triangles; make the mesh coarser", name,
-                                 TriangleSurface::most_triangles));
-  }
+  if (triangles > limits.triangles)
+    throw InputError(
+        fmt::format("{}: has more than {} triangles; make the mesh coarser", name, limits.triangles));
 }
 
 /// Every corner is a point of its own at first.
@@ -50,10 +49,10 @@ void add_corner(MeshFile& mesh, const Vec3& x)
   if (k % 3 == 2) mesh.triangles.push_back({k - 2, k - 1, k});
 }
 
-MeshFile read_binary(std::string_view bytes, const std::string& name)
+MeshFile read_binary(std::string_view bytes, const MeshLimits& limits, const std::string& name)
 {
   const std::uint32_t count = little_endian(bytes.data() + header);
-  check_count(count, name);
+  check_count(count, limits, name);
   MeshFile out;
   out.points.reserve(3 * static_cast<std::size_t>(count));
   out.triangles.reserve(count);
@@ -72,7 +71,10 @@ MeshFile read_binary(std::string_view bytes, const std::string& name)
 /// Reads the words of an STL text; blanks and ends of lines are the same.
 class TextReader {
  public:
-  TextReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  TextReader(std::string_view text, const MeshLimits& limits, const std::string& name)
+      : text_(text), limits_(limits), name_(name)
+  {
+  }
 
   MeshFile read()
   {
@@ -144,10 +146,11 @@ class TextReader {
     }
     expect("endloop");
     expect("endfacet");
-    check_count(out_.triangles.size(), name_);
+    check_count(out_.triangles.size(), limits_, name_);
   }
 
   std::string_view text_, line_;
+  const MeshLimits& limits_;
   const std::string& name_;
   int number_ = 0;
   MeshFile out_;
@@ -165,7 +168,7 @@ double diagonal(const std::vector<Vec3>& points)
 
 }  // namespace
 
-MeshFile read_stl(std::string_view bytes, const std::string& name)
+MeshFile read_stl(std::string_view bytes, const std::string& name, const MeshLimits& limits)
 {
   // The header of a binary file may begin with "solid" as well, so its size decides.
   const bool long_enough = bytes.size() >= header + 4;
@@ -180,7 +183,7 @@ MeshFile read_stl(std::string_view bytes, const std::string& name)
                   "{}: has {} bytes; expected an STL file, which begins with 'solid' or has 84 and more",
                   name, bytes.size()));
   }
-  MeshFile out = binary ? read_binary(bytes, name) : TextReader(bytes, name).read();
+  MeshFile out = binary ? read_binary(bytes, limits, name) : TextReader(bytes, limits, name).read();
   if (out.triangles.empty()) throw InputError(fmt::format("{}: has no triangles", name));
   detail::join_equal_points(out);
   if (!detail::has_pairs_of_edges(out)) detail::join_near_points(out, near * diagonal(out.points));

@@ -1,4 +1,4 @@
-#include "mesh_file.hpp"
+#include "common/mesh_file.hpp"
 
 #include "common/text_file.hpp"
 
@@ -16,8 +16,6 @@
 
 namespace hauberk {
 namespace {
-
-constexpr int largest_file = 64;  // MB
 
 /// Replaces points by those that `number` says, and leaves out triangles that have one twice.
 void renumber(MeshFile& mesh, const std::vector<int>& number)
@@ -127,16 +125,16 @@ bool has_pairs_of_edges(const MeshFile& mesh)
 
 }  // namespace detail
 
-MeshFile read_mesh_file(const std::string& path)
+MeshFile read_mesh_file(const std::string& path, const MeshLimits& limits)
 {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".obj" && extension != ".stl")
     throw InputError(fmt::format("{}: expected a file .obj or .stl", path));
-  const std::string bytes = detail::read_bytes(path, largest_file);
+  const std::string bytes = detail::read_bytes(path, limits.megabytes);
   if (bytes.empty()) throw InputError(fmt::format("{}: is empty", path));
-  return extension == ".obj" ? read_obj(bytes, path) : read_stl(bytes, path);
+  return extension == ".obj" ? read_obj(bytes, path) : read_stl(bytes, path, limits);
 }
 
 }  // namespace hauberk

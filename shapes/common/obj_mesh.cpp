@@ -1,4 +1,4 @@
-#include "mesh_file.hpp"
+#include "common/mesh_file.hpp"
 
 #include "common/obj_text.hpp"
 

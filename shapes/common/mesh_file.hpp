@@ -2,6 +2,7 @@
 /// Readers of triangle meshes.
 
 #include <hauberk/linalg.hpp>
+#include <hauberk/triangle_surface.hpp>
 
 #include <array>
 #include <string>
@@ -17,9 +18,15 @@ struct MeshFile {
   std::vector<std::array<int, 3>> triangles;
 };
 
+/// What is too large to be read.
+struct MeshLimits {
+  int megabytes = 64;
+  std::size_t triangles = TriangleSurface::most_triangles;  ///< of STL, which is counted while it is read
+};
+
 /// Reads a file whose name ends in .obj or .stl, in any case. Throws InputError that begins with the path,
 /// and the line where there is one.
-MeshFile read_mesh_file(const std::string& path);
+MeshFile read_mesh_file(const std::string& path, const MeshLimits& limits = {});
 
 /// Wavefront OBJ: lines `v` and `f`; everything else is passed over. Faces of more than three corners are cut
 /// from their first corner on, which suits convex ones. Points at the same place are one, and triangles that
@@ -28,7 +35,7 @@ MeshFile read_obj(std::string_view text, const std::string& name);
 
 /// STL, binary or text; normals are not read. Corners at the same place are one point; if edges stay without
 /// partner then, also corners that are nearer to each other than 1e-6 of the diagonal of the mesh's box.
-MeshFile read_stl(std::string_view bytes, const std::string& name);
+MeshFile read_stl(std::string_view bytes, const std::string& name, const MeshLimits& limits = {});
 
 namespace detail {
 

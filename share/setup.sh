@@ -17,7 +17,7 @@ packages=(
   libnlopt-dev                      # optimizers/nlopt
   libfmt-dev
   pybind11-dev python3-dev python3-numpy  # import hauberk; left out without them
-  libzip-dev libpng-dev             # export as 3MF and PNG; the program is built without them, too
+  libzip-dev libpng-dev libexpat1-dev # 3MF and PNG, written and read; the program is built without them, too
   libgtest-dev python3-jsonschema   # tests only
   libbenchmark-dev                  # tests/bench only
 )

@@ -36,6 +36,7 @@ PLAN = {
     "plugins/results": ["kernel", "plugins/document"],
     "plugins/pictures": ["kernel", "plugins/document"],
     "plugins/export": ["kernel", "plugins/document"],
+    "plugins/inspect": ["kernel", "shapes"],
     "plugins/report": ["kernel", "plugins/document", "plugins/results", "plugins/pictures"],
     "plugins/verify": ["kernel/api"],  # independent: it reads results by itself; the interface of primitives alone
     "plugins/conformance": ["kernel", "plugins/host", "plugins/document"],
@@ -58,7 +59,7 @@ PLAN = {
                       "plugins/tasks/chart", "plugins/tasks/stability", "plugins/tasks/transition"],
     "plugins/maker": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/run", "plugins/tasks"],
     "plugins/command": ["kernel", "plugins/host", "plugins/document", "plugins/experiment", "plugins/results",
-                        "plugins/report", "plugins/export", "plugins/maker", "plugins/verify", "plugins/conformance", "plugins/run",
+                        "plugins/report", "plugins/export", "plugins/inspect", "plugins/maker", "plugins/verify", "plugins/conformance", "plugins/run",
                         "plugins/parts", "plugins/tasks"],
 }
 

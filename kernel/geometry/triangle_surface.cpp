@@ -27,15 +27,15 @@ constexpr double smallest_size = 1e-75;
 
 std::string text_of(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()); }
 
-void check_indices(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles)
+void check_indices(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, std::size_t limit)
 {
   if (triangles.size() < 4)
     throw InputError(
         fmt::format("found {} triangles; a closed surface has at least 4: is the mesh empty, or cut short?",
                     triangles.size()));
-  if (triangles.size() > TriangleSurface::most_triangles) {
-    throw InputError(fmt::format("found {} triangles, more than {}; make the mesh coarser", triangles.size(),
-                                 TriangleSurface::most_triangles));
+  if (triangles.size() > limit) {
+    throw InputError(
+        fmt::format("found {} triangles, more than {}; make the mesh coarser", triangles.size(), limit));
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const int k : triangles[t]) {
@@ -202,10 +202,10 @@ void check_meetings(const std::vector<Vec3>& points, const std::vector<Triangle>
 
 }  // namespace
 
-TriangleSurface::TriangleSurface(std::vector<Vec3> points, std::vector<Triangle> triangles)
+TriangleSurface::TriangleSurface(std::vector<Vec3> points, std::vector<Triangle> triangles, std::size_t limit)
     : points_(std::move(points)), triangles_(std::move(triangles))
 {
-  check_indices(points_, triangles_);
+  check_indices(points_, triangles_, limit);
   drop_unused(points_, triangles_);
   for (const Vec3& x : points_) mean_distance_ += x.norm() / static_cast<double>(points_.size());
   if (!(mean_distance_ > smallest_size))

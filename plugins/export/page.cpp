@@ -1,6 +1,7 @@
 #include "export/page.hpp"
 
 #include "document/json_place.hpp"
+#include "document/plain_text.hpp"
 #include "document/read_file.hpp"
 #include "export/formats.hpp"
 
@@ -273,6 +274,18 @@ void enter_design(const JsonPlace& design, const json::value& results, const std
   }
 }
 
+/// Names come from files that anybody may have written, and must not turn the direction of what is read.
+void make_plain(json::value& value)
+{
+  if (json::string* text = value.if_string()) {
+    *text = plain_text(*text);
+  } else if (json::array* entries = value.if_array()) {
+    for (json::value& entry : *entries) make_plain(entry);
+  } else if (json::object* members = value.if_object()) {
+    for (auto& [key, member] : *members) make_plain(member);
+  }
+}
+
 std::string replaced(std::string text, const std::string& mark, const std::string& by)
 {
   const std::size_t at = text.find(mark);
@@ -330,7 +343,7 @@ std::string page(std::vector<json::object> entries, const PageParts& parts)
     colours.push_back(json::array{c[0], c[1], c[2]});
   }
   json::array& results = out["results"].emplace_array();
-  for (json::object& entry : entries) results.push_back(std::move(entry));
+  for (json::object& entry : entries) make_plain(results.emplace_back(std::move(entry)));
   // A name that ends the script would end it: "<" is written so that it stays within the text.
   std::string data;
   for (const char c : json::serialize(out)) {

@@ -134,7 +134,7 @@ MeshFile read_mesh_file(const std::string& path, const MeshLimits& limits)
     throw InputError(fmt::format("{}: expected a file .obj or .stl", path));
   const std::string bytes = detail::read_bytes(path, limits.megabytes);
   if (bytes.empty()) throw InputError(fmt::format("{}: is empty", path));
-  return extension == ".obj" ? read_obj(bytes, path) : read_stl(bytes, path, limits);
+  return extension == ".obj" ? read_obj(bytes, path, limits) : read_stl(bytes, path, limits);
 }
 
 }  // namespace hauberk

@@ -21,7 +21,7 @@ struct MeshFile {
 /// What is too large to be read.
 struct MeshLimits {
   int megabytes = 64;
-  std::size_t triangles = TriangleSurface::most_triangles;  ///< of STL, which is counted while it is read
+  std::size_t triangles = TriangleSurface::most_triangles;
 };
 
 /// Reads a file whose name ends in .obj or .stl, in any case. Throws InputError that begins with the path,
@@ -31,7 +31,7 @@ MeshFile read_mesh_file(const std::string& path, const MeshLimits& limits = {});
 /// Wavefront OBJ: lines `v` and `f`; everything else is passed over. Faces of more than three corners are cut
 /// from their first corner on, which suits convex ones. Points at the same place are one, and triangles that
 /// have one twice are left out. `name`: for messages.
-MeshFile read_obj(std::string_view text, const std::string& name);
+MeshFile read_obj(std::string_view text, const std::string& name, const MeshLimits& limits = {});
 
 /// STL, binary or text; normals are not read. Corners at the same place are one point; if edges stay without
 /// partner then, also corners that are nearer to each other than 1e-6 of the diagonal of the mesh's box.

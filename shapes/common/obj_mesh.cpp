@@ -12,7 +12,10 @@ namespace {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& name) : text_(text, name), name_(name) {}
+  ObjReader(std::string_view text, const MeshLimits& limits, const std::string& name)
+      : text_(text, name), limits_(limits), name_(name)
+  {
+  }
 
   MeshFile read()
   {
@@ -45,9 +48,8 @@ class ObjReader {
 
   void add(const std::array<int, 3>& t)
   {
-    if (out_.triangles.size() >= TriangleSurface::most_triangles)
-      text_.refuse(
-          fmt::format("more than {} triangles; make the mesh coarser", TriangleSurface::most_triangles));
+    if (out_.triangles.size() >= limits_.triangles)
+      text_.refuse(fmt::format("more than {} triangles; make the mesh coarser", limits_.triangles));
     out_.triangles.push_back(t);
     lines_.push_back(text_.line());
   }
@@ -65,6 +67,7 @@ class ObjReader {
   }
 
   detail::ObjText text_;
+  const MeshLimits& limits_;
   const std::string& name_;
   MeshFile out_;
   std::vector<int> lines_;  ///< of the triangles
@@ -72,6 +75,9 @@ class ObjReader {
 
 }  // namespace
 
-MeshFile read_obj(std::string_view text, const std::string& name) { return ObjReader(text, name).read(); }
+MeshFile read_obj(std::string_view text, const std::string& name, const MeshLimits& limits)
+{
+  return ObjReader(text, limits, name).read();
+}
 
 }  // namespace hauberk

@@ -27,13 +27,21 @@ std::string filled(const std::string& words, std::size_t width)
 const std::vector<Command>& commands()
 {
   static const std::vector<Command> table{
-      {run_description(), run_command},         {check_description(), check_command},
-      {plan_description(), plan_command},       {room_description(), room_command},
-      {gather_description(), gather_command},   {submit_description(), submit_command},
-      {verify_description(), verify_command},   {report_description(), report_command},
-      {export_description(), export_command},   {weave_description(), weave_command},
-      {plugins_description(), plugins_command}, {conform_description(), conform_command},
-      {new_description(), new_command},         {completion_description(), completion_command},
+      {run_description(), run_command},
+      {check_description(), check_command},
+      {plan_description(), plan_command},
+      {room_description(), room_command},
+      {gather_description(), gather_command},
+      {submit_description(), submit_command},
+      {verify_description(), verify_command},
+      {report_description(), report_command},
+      {export_description(), export_command},
+      {inspect_description(), inspect_command},
+      {weave_description(), weave_command},
+      {plugins_description(), plugins_command},
+      {conform_description(), conform_command},
+      {new_description(), new_command},
+      {completion_description(), completion_command},
       {man_description(), man_command},
   };
   return table;

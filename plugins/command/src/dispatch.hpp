@@ -44,6 +44,8 @@ int verify_command(const std::vector<std::string>& words);
 Description report_description();
 int report_command(const std::vector<std::string>& words);
 
+Description inspect_description();
+int inspect_command(const std::vector<std::string>& words);
 Description export_description();
 int export_command(const std::vector<std::string>& words);
 

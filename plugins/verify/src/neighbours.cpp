@@ -13,26 +13,27 @@
 namespace hauberk::verification {
 namespace {
 
-/// Every image of `second` that may be near `first`: with d = x_first - x_second and columns of A the
-/// deformed cell vectors, |A i - d| <= reach needs i within |row of A^-1| reach of A^-1 d.
-void add_images(std::vector<Neighbour>& out, const Mat3& A, const Mat3& inverse, const Vec3& d, double reach,
-                int first, int second, bool solid)
+/// Images of a second element that may be near a first one: with d = x_first - x_second and columns of A the
+/// deformed cell vectors, |A i - d| <= reach needs i within |row of A^-1| reach of A^-1 d. Least and largest,
+/// as numbers, since they may be beyond integers.
+std::array<Vec3, 2> images_within(const Mat3& inverse, const Vec3& d, double reach, bool solid)
 {
   const Vec3 centre = inverse * d;
-  Image low{}, high{};
+  std::array<Vec3, 2> out{Vec3::Zero(), Vec3::Zero()};
   for (int r = 0; r < (solid ? 3 : 2); ++r) {
     const double radius = inverse.row(r).norm() * reach;
-    low[r] = static_cast<int>(std::floor(centre[r] - radius));
-    high[r] = static_cast<int>(std::ceil(centre[r] + radius));
+    out[0][r] = std::floor(centre[r] - radius);
+    out[1][r] = std::ceil(centre[r] + radius);
   }
-  for (int i = low[0]; i <= high[0]; ++i)
-    for (int j = low[1]; j <= high[1]; ++j)
-      for (int k = low[2]; k <= high[2]; ++k) {
-        const Image image{i, j, k};
-        // An element and its own image are the same pair as with the opposite image.
-        if (first == second && image <= Image{}) continue;
-        if ((A * Vec3(i, j, k) - d).norm() <= reach) out.push_back({first, second, image});
-      }
+  return out;
+}
+
+/// The deformed cell vectors; the third image of a sheet is 0.
+Mat3 cell_matrix(const Scene& scene, const Mat3& F)
+{
+  Mat3 A = Mat3::Identity();
+  for (std::size_t k = 0; k < scene.cell.size(); ++k) A.col(static_cast<Eigen::Index>(k)) = F * scene.cell[k];
+  return A;
 }
 
 }  // namespace
@@ -51,6 +52,24 @@ std::string shown(const Image& image)
                        : fmt::format("({}, {}, {})", image[0], image[1], image[2]);
 }
 
+double images_near(const Scene& scene, const std::vector<Place>& places, const Mat3& F, double margin)
+{
+  if (scene.cell.empty()) return 0.0;
+  const Mat3 inverse = cell_matrix(scene, F).inverse();
+  double count = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t l = k; l < places.size(); ++l) {
+      const auto [low, high] =
+          images_within(inverse, places[k].position - places[l].position,
+                        scene.elements[k].reach + scene.elements[l].reach + margin, scene.cell.size() == 3);
+      count += (high - low + Vec3::Ones()).prod();
+      const bool beyond_integers = low.minCoeff() < -1e9 || high.maxCoeff() > 1e9;
+      if (beyond_integers) return std::numeric_limits<double>::infinity();
+    }
+  }
+  return count;
+}
+
 std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
                                   double margin)
 {
@@ -63,15 +82,29 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
           out.push_back({static_cast<int>(k), static_cast<int>(l), {}});
     return out;
   }
-  Mat3 A = Mat3::Identity();  // the third image of a sheet is 0
-  for (std::size_t k = 0; k < scene.cell.size(); ++k) A.col(static_cast<Eigen::Index>(k)) = F * scene.cell[k];
-  const Mat3 inverse = A.inverse();
+  if (!(images_near(scene, places, F, margin) <= most_images(places.size())))
+    throw Malformed(
+        fmt::format("more than {:g} images of elements may be near each other", most_images(places.size())));
+  const Mat3 A = cell_matrix(scene, F), inverse = A.inverse();
   const bool solid = scene.cell.size() == 3;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    for (std::size_t l = k; l < places.size(); ++l)
-      add_images(out, A, inverse, places[k].position - places[l].position,
-                 scene.elements[k].reach + scene.elements[l].reach + margin, static_cast<int>(k),
-                 static_cast<int>(l), solid);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t l = k; l < places.size(); ++l) {
+      const Vec3 d = places[k].position - places[l].position;
+      const double reach = scene.elements[k].reach + scene.elements[l].reach + margin;
+      const auto [low, high] = images_within(inverse, d, reach, solid);
+      for (double x = low[0]; x <= high[0]; ++x) {
+        for (double y = low[1]; y <= high[1]; ++y) {
+          for (double z = low[2]; z <= high[2]; ++z) {
+            const Image image{static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
+            // An element and its own image are the same pair as with the opposite image.
+            if (k == l && image <= Image{}) continue;
+            if ((A * Vec3(x, y, z) - d).norm() <= reach)
+              out.push_back({static_cast<int>(k), static_cast<int>(l), image});
+          }
+        }
+      }
+    }
+  }
   return out;
 }
 

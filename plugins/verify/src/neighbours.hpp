@@ -18,7 +18,18 @@ Vec3 translation(const Scene& scene, const Mat3& F, const Image& image);
 /// "(0, 1)", of solids "(0, 1, -1)"; the third number is left out where it is 0.
 std::string shown(const Image& image);
 
-/// All pairs whose bounding spheres are no farther apart than `margin`, in a fixed order.
+/// How many images `neighbours` would look at: of a cell that is small beside its elements millions.
+double images_near(const Scene& scene, const std::vector<Place>& places, const Mat3& F, double margin);
+
+/// No fabric has as many: a hundred for each pair of its elements, and some million for small cells.
+inline double most_images(std::size_t elements)
+{
+  const auto n = static_cast<double>(elements);
+  return 5e6 + 50.0 * n * n;
+}
+
+/// All pairs whose bounding spheres are no farther apart than `margin`, in a fixed order. Throws Malformed
+/// where these would be more than most_images().
 std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& places, const Mat3& F,
                                   double margin);
 

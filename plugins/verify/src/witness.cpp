@@ -74,6 +74,7 @@ class Piece {
   {
     for (int k = 0; k < samples; ++k) {
       looks_ = 0;
+      images_ = 0.0;
       if (around(static_cast<double>(k) / (samples - 1), 0.0) == Motion::meets) return true;
     }
     return false;
@@ -90,7 +91,8 @@ class Piece {
       case Motion::undecided:
         break;
     }
-    if (halvings >= most_halvings || looks_ > most_looks) return Motion::undecided;
+    if (halvings >= most_halvings || looks_ > most_looks || images_ > most_images_of_piece())
+      return Motion::undecided;
     const Motion first = over(from, from + half, halvings + 1);
     return first == Motion::free ? over(from + half, to, halvings + 1) : first;
   }
@@ -128,8 +130,12 @@ class Piece {
       least = std::min(least, 2.0 * scene_.elements[k].reach);
     }
     const double far = (reaches + relative * own + half * (change + turning)) / (1.0 - relative);
+    const double margin = std::max(0.0, far - least);
+    const double images = images_near(scene_, s.places, F, margin);
+    images_ += images;
+    if (!(images <= most_images(u_.size()) && images_ <= most_images_of_piece())) return Motion::undecided;
     Motion out = Motion::free;
-    for (const Neighbour& pair : neighbours(scene_, s.places, F, std::max(0.0, far - least))) {
+    for (const Neighbour& pair : neighbours(scene_, s.places, F, margin)) {
       const std::size_t i = pair.first, j = pair.second;
       const Element &a = scene_.elements[i], &b = scene_.elements[j];
       Place other = s.places[j];
@@ -147,6 +153,9 @@ class Piece {
     return out;
   }
 
+  /// Likewise a bound of what is looked at, of pairs that are far apart, too.
+  double most_images_of_piece() const { return 20.0 * most_images(u_.size()); }
+
   const Scene& scene_;
   const MovedState& from_;
   Mat3 dF_;
@@ -154,6 +163,7 @@ class Piece {
   std::vector<Vec3> u_, du_;
   std::vector<Eigen::AngleAxisd> turn_;
   int looks_ = 0;
+  double images_ = 0.0;  ///< of elements that were looked at
 };
 
 MovedState rest_state(const Scene& scene, const Macro& like)

@@ -66,7 +66,7 @@ TEST(Pages, CommandsOfTheProgram)
 {
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.about.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"run", "check", "plan", "room", "gather", "submit", "verify", "report", "export", "weave",
+  EXPECT_EQ(names, (std::vector<std::string>{"run", "check", "plan", "room", "gather", "submit", "verify", "report", "export", "inspect", "weave",
                                              "plugins", "plugins conform", "plugins new", "completion",
                                              "man"}));
 }

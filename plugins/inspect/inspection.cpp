@@ -43,12 +43,12 @@ double box_gap(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b)
 }
 
 /// A closed body as the kernel has it, about its own middle so that coordinates keep their digits.
-struct Solid3 {
+struct ClosedBody {
   Body body;
   std::vector<Vec3> samples;  ///< some of its points
 };
 
-Solid3 solid_of(const Part& part, int number)
+ClosedBody closed_body(const Part& part, int number)
 {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : part.points) middle += x / static_cast<double>(part.points.size());
@@ -63,7 +63,7 @@ Solid3 solid_of(const Part& part, int number)
   const TriangleSurface& surface = *primitive.surface;
   const double thick = surface.thickness() * surface.mean_distance();
   primitive.size = {surface.mean_distance(), thick, thick};
-  Solid3 out;
+  ClosedBody out;
   out.body = make_body(primitive, number, 0, 1.0);
   out.body.facets = std::make_shared<const Facets>(surface, out.body.R);
   const std::size_t stride = part.points.size() / most_samples + 1;
@@ -110,7 +110,7 @@ double thinnest_wall(const Part& part, bool inside_out, std::size_t rays)
 }
 
 /// Distance of two closed bodies that do not meet, as far as it is below `range`.
-double distance_of(const Solid3& a, const Solid3& b, double range)
+double distance_of(const ClosedBody& a, const ClosedBody& b, double range)
 {
   double least = range;
   for (const Vec3& x : a.samples)
@@ -168,10 +168,10 @@ std::vector<Candidate> pairs_between(const std::vector<InspectedBody>& bodies, c
 }
 
 /// Looks at one pair: how near, whether within each other, whether linked.
-void look_at_pair(const Candidate& candidate, const std::vector<std::optional<Solid3>>& solids, double gap,
-                  Inspection& out)
+void look_at_pair(const Candidate& candidate, const std::vector<std::optional<ClosedBody>>& solids,
+                  double gap, Inspection& out)
 {
-  const Solid3 &a = *solids[candidate.bodies[0]], &b = *solids[candidate.bodies[1]];
+  const ClosedBody &a = *solids[candidate.bodies[0]], &b = *solids[candidate.bodies[1]];
   NearBodies pair{candidate.bodies, 0.0};
   const PairFrame frame(a.body, Pose{}, b.body, Pose{});
   const bool boxes_meet = candidate.apart < 0.0, meet = boxes_meet && facets_intersect(frame);
@@ -185,7 +185,7 @@ void look_at_pair(const Candidate& candidate, const std::vector<std::optional<So
   if (number != 0) out.links.push_back({candidate.bodies, std::abs(number)});
 }
 
-void look_at_pairs(const std::vector<std::optional<Solid3>>& solids, double gap,
+void look_at_pairs(const std::vector<std::optional<ClosedBody>>& solids, double gap,
                    const std::function<void()>& keep_going, Inspection& out)
 {
   std::vector<int> order;
@@ -284,7 +284,7 @@ Inspection inspect(const ModelFile& model, const std::string& file, double gap,
   Inspection out;
   out.file = file;
   out.unit = model.unit;
-  std::vector<std::optional<Solid3>> solids(model.parts.size());
+  std::vector<std::optional<ClosedBody>> solids(model.parts.size());
   double squares = 0.0;
   for (const Part& part : model.parts) squares += static_cast<double>(part.triangles.size());
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
@@ -296,7 +296,7 @@ Inspection inspect(const ModelFile& model, const std::string& file, double gap,
     body.triangles = part.triangles.size();
     body.box = box_of(part.points);
     try {
-      solids[k] = solid_of(part, static_cast<int>(k));
+      solids[k] = closed_body(part, static_cast<int>(k));
     } catch (const InputError& error) {
       body.problem = error.what();
       continue;

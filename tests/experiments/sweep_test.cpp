@@ -57,6 +57,45 @@ TEST(SweepRun, ChainsFollowTheirFormula)
   EXPECT_NE(o.out.find("all 1 expected results are met\n"), std::string::npos) << o.out;
 }
 
+/// A value that is varied carries with it everything that is made of it: the same rows as one pointer for
+/// each.
+TEST(SweepRun, NamedValuesAreVariedWithAllThatIsMadeOfThem)
+{
+  const TemporaryFolder folder;
+  std::string text = with(sweep_text(), R"("cell": {)",
+                          R"("values": { "R": 5, "r": 0.7, "other": "$R / 2 + 2.5" }, "cell": {)");
+  const std::string sizes = R"("ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7)";
+  for (const char* R : {"$R", "$other"})  // of a, then of b
+    text.replace(text.find(sizes), sizes.size(),
+                 std::string(R"("ring.R": ")") + R + R"(", "ring.r0": "$r", "ring.r1": "$r")");
+  text = with(
+      text,
+      R"("/elements/a/parameters/ring.R", { "pointer": "/elements/b/parameters/ring.R", "factor": 0.5, "offset": 2.5 })",
+      R"("/values/R")");
+  text = with(
+      text,
+      R"("/elements/a/parameters/ring.r0", "/elements/a/parameters/ring.r1", "/elements/b/parameters/ring.r0", "/elements/b/parameters/ring.r1")",
+      R"("/values/r")");
+  const std::string file = folder.write("v.json", text), out = folder / "out";
+  const Outcome o = run_program({"run", file, "-o", out});
+  ASSERT_EQ(o.code, 0) << o.out << o.err;
+  ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", folder / "plain"}).code, 0);
+  const json::value r = read_results(out), plain = read_results(folder / "plain");
+  for (std::size_t k = 0; k < good_rows + bad_rows; ++k) {
+    EXPECT_EQ(row(r, k).at("measured"), row(plain, k).at("measured")) << k;
+    EXPECT_EQ(row(r, k).at("status"), row(plain, k).at("status")) << k;
+  }
+  const Outcome verified = run_program({"verify", out});
+  EXPECT_EQ(verified.code, 0) << verified.out;
+  // The experiment in the results still knows what is made of what.
+  EXPECT_EQ(r.at_pointer("/experiment/elements/b/parameters/ring.R").as_string(), "$other");
+  const std::string kept = folder.write("kept.json", write_json(r.at("experiment")));
+  ASSERT_EQ(run_program({"run", kept, "-o", folder / "kept"}).code, 0);
+  const json::value kept_rows = read_results(folder / "kept");
+  for (std::size_t k = 0; k < good_rows + bad_rows; ++k)
+    EXPECT_EQ(row(kept_rows, k).at("measured"), row(r, k).at("measured")) << k;
+}
+
 TEST(SweepRun, BadRowsAreRowsWithAMessage)
 {
   const TemporaryFolder folder;

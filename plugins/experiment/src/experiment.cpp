@@ -4,6 +4,7 @@
 #include "document/read_file.hpp"
 #include "scene_reader.hpp"
 #include "sections.hpp"
+#include "values.hpp"
 #include "weave.hpp"
 
 #include <hauberk/error.hpp>
@@ -101,6 +102,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
       std::any_of(lookups.formats.begin(), lookups.formats.end(),
                   [&root](const TaskFormat& f) { return f.makes_variants && root->find(f.name) != nullptr; });
   const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
+  const WrittenValues written = put_values(*root, problems);
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
   std::set<std::string> plugin_files;
@@ -154,7 +156,12 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   if (!problems.empty()) return std::nullopt;
   experiment.expanded = *root;
   // Variants are made from the weave again when this is read again.
-  if (has_variants) keep_weave(*root, base.file);
+  if (has_variants) {
+    keep_weave(*root, base.file);
+    std::vector<std::string> sections;
+    for (const TaskFormat& format : lookups.formats) sections.emplace_back(format.name);
+    keep_values(*root, written, sections);
+  }
   experiment.resolved = std::move(*root);
   experiment.folder = lookups.folder;
   experiment.plugin_files.assign(plugin_files.begin(), plugin_files.end());

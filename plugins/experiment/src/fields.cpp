@@ -1,5 +1,6 @@
 #include "document/field_helpers.hpp"
 #include "rotation.hpp"
+#include "values.hpp"
 #include "weave.hpp"
 
 #include <hauberk/experiment/fields.hpp>
@@ -239,8 +240,8 @@ Field experiment_fields(TaskFormats formats)
                            "what preset paper, whose lengths are absolute, converts by.",
                            {"m", "mm", "um"}),
                     "\"mm\""),
-       with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(), cell_field(),
-       load_case_field(), solver_field()});
+       values_field(), with_default(seed_field("seed", "Seed of everything random."), "1"), elements_field(),
+       cell_field(), load_case_field(), solver_field()});
   for (Field& section : sections) root.children.push_back(std::move(section));
   root.children.push_back(expect_field());
   return root;

@@ -63,11 +63,9 @@ class SchemaWriter {
     const auto type = [&](const char* name) { set_default(out, "type", string_node(name)); };
     switch (field.kind) {
       case Kind::number:
-        type("number");
-        return write_range(field, out);
+        return write_number("number", field, out);
       case Kind::integer:
-        type("integer");
-        return write_range(field, out);
+        return write_number("integer", field, out);
       case Kind::boolean:
         return type("boolean");
       case Kind::string:
@@ -93,6 +91,14 @@ class SchemaWriter {
     }
   }
 
+  /// A number, or a string that stands for one.
+  static void write_number(const char* type, const Field& field, Node& out)
+  {
+    set_default(out, "type", strings_node({type, "string"}));
+    set_default(out, "pattern", string_node("^[$=]"));
+    write_range(field, out);
+  }
+
   static void write_range(const Field& field, Node& out)
   {
     if (std::isfinite(field.minimum)) {
@@ -112,8 +118,7 @@ class SchemaWriter {
   static void write_numbers(const Field& field, Node& out)
   {
     Node item = object_node();
-    set_default(item, "type", string_node("number"));
-    write_range(field, item);
+    write_number("number", field, item);
     set_default(out, "items", std::move(item));
     write_count(field, out);
   }

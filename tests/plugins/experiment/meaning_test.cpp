@@ -189,11 +189,12 @@ TEST(Meaning, TaskAndLoadCase)
   EXPECT_EQ(after("\"pair\"", "\"\""), "t.json:2: /name: expected a name, found \"\"");
   const std::string text =
       with(valid_text(), "\"name\": \"pair\"", "\"name\": \"pair\", \"task\": \"design\"");
-  EXPECT_EQ(problems_of(with(text, "\"design\": {", "\"x\": {")),
-            "t.json:1: missing key 'design': task design needs it\n"
-            "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
-            "'seed', 'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
-            "'transition', 'expect'");
+  EXPECT_EQ(
+      problems_of(with(text, "\"design\": {", "\"x\": {")),
+      "t.json:1: missing key 'design': task design needs it\n"
+      "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
+      "'values', 'seed', 'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
+      "'transition', 'expect'");
 }
 
 TEST(Meaning, DesignQuantityAndTargets)

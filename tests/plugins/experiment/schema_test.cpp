@@ -147,15 +147,17 @@ TEST(Schema, HoldsWhatAFieldDeclares)
   ratio.minimum = 0.0;
   ratio.exclusive_minimum = true;
   ratio.maximum = 1.0;
-  EXPECT_EQ(write_json(field_schema(ratio)),
-            "{\n  \"description\": \"A ratio. Unit: 1.\",\n  \"default\": 0.5,\n  \"type\": \"number\",\n"
-            "  \"exclusiveMinimum\": 0,\n  \"maximum\": 1\n}");
+  EXPECT_EQ(
+      write_json(field_schema(ratio)),
+      "{\n  \"description\": \"A ratio. Unit: 1.\",\n  \"default\": 0.5,\n  \"type\": [\"number\", \"string\"],\n"
+      "  \"pattern\": \"^[$=]\",\n  \"exclusiveMinimum\": 0,\n  \"maximum\": 1\n}");
   Field pair;
   pair.kind = Field::Kind::numbers;
   pair.min_items = pair.max_items = 2;
-  EXPECT_EQ(write_json(field_schema(pair)),
-            "{\n  \"type\": \"array\",\n  \"items\": { \"type\": \"number\" },\n  \"minItems\": 2,\n  "
-            "\"maxItems\": 2\n}");
+  EXPECT_EQ(
+      write_json(field_schema(pair)),
+      "{\n  \"type\": \"array\",\n  \"items\": { \"type\": [\"number\", \"string\"], \"pattern\": \"^[$=]\" },\n  \"minItems\": 2,\n  "
+      "\"maxItems\": 2\n}");
 }
 
 TEST(Schema, ReferenceListsKeys)

@@ -148,7 +148,7 @@ TEST(Structure, ProblemsStayOnOneLineEach)
 {
   EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"a\\nb\\u001b\": 1"),
             "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; known: '$schema', 'name', 'description', "
-            "'task', 'length_unit', 'seed', "
+            "'task', 'length_unit', 'values', 'seed', "
             "'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
             "'transition', 'expect'");
 }

@@ -286,16 +286,26 @@ Fabric with_design_values(const Fabric& initial, const JsonPlace& variables, con
   if (named.size() != numbers.size())
     values.fail(fmt::format("expected {} numbers, found {}", named.size(), numbers.size()));
   for (std::size_t k = 0; k < named.size(); ++k) {
-    const std::string name = named[k].at("name").text(), parameter = name.substr(name.find('/') + 1);
+    // "3/ring.r0=ring.r1": two parameters that are one variable.
+    const std::string name = named[k].at("name").text();
+    std::vector<std::string> parameters{""};
+    for (const char c : name.substr(name.rfind('/') + 1)) {
+      if (c == '=')
+        parameters.emplace_back();
+      else
+        parameters.back() += c;
+    }
     for (const JsonPlace& number : named[k].at("elements").items()) {
       const auto at = static_cast<std::size_t>(number.integer());
       if (at >= out.elements.size()) number.fail("there is no such element");
       Fabric::Element& element = out.elements[at];
       const std::vector<ParameterInfo> infos = type_of(element, scene)->shape->parameters();
-      const auto info = std::find_if(infos.begin(), infos.end(),
-                                     [&](const ParameterInfo& one) { return one.name == parameter; });
-      if (info == infos.end()) named[k].at("name").fail("its elements have no such parameter");
-      element.parameters[static_cast<std::size_t>(info - infos.begin())] = numbers[k].number();
+      for (const std::string& parameter : parameters) {
+        const auto info = std::find_if(infos.begin(), infos.end(),
+                                       [&](const ParameterInfo& one) { return one.name == parameter; });
+        if (info == infos.end()) named[k].at("name").fail("its elements have no such parameter");
+        element.parameters[static_cast<std::size_t>(info - infos.begin())] = numbers[k].number();
+      }
     }
   }
   for (Fabric::Element& element : out.elements)

@@ -153,8 +153,9 @@ json::array facts_of(const JsonPlace& document, const std::string& unit)
   const JsonPlace experiment = document.at("experiment");
   facts.push_back(json::array{"load case", experiment.at("load_case").at("plugin").text()});
   if (const auto solver = experiment.find("solver")) {
-    if (const auto clearance = solver->optional_number("clearance"))
-      facts.push_back(json::array{"clearance", fmt::format("{:g} {}", *clearance, unit)});
+    // A named value stays its name where rows vary it.
+    if (const auto clearance = solver->find("clearance"); clearance && clearance->value().is_number())
+      facts.push_back(json::array{"clearance", fmt::format("{:g} {}", clearance->number(), unit)});
     if (const auto preset = solver->find("preset")) facts.push_back(json::array{"preset", preset->text()});
   }
   facts.push_back(json::array{"computed by", "Hauberk " + document.at("provenance").at("version").text()});
@@ -259,9 +260,13 @@ void enter_design(const JsonPlace& design, const json::value& results, const std
   for (std::size_t k = stride; k + 1 < iterates.size(); k += stride) {
     const auto variables = iterates[k].find("variables");
     if (!variables) break;
-    const Fabric there = with_design_values(begin, design.at("variables"), *variables, scene);
-    fabrics.push_back(fabric_json(assembled(there, rough),
-                                  fmt::format("iterate {}", iterates[k].at("iteration").integer())));
+    try {  // an iterate that cannot be drawn is left out
+      const Fabric there = with_design_values(begin, design.at("variables"), *variables, scene);
+      fabrics.push_back(fabric_json(assembled(there, rough),
+                                    fmt::format("iterate {}", iterates[k].at("iteration").integer())));
+    } catch (const InputError&) {
+      continue;
+    }
   }
   json::array& targets = entry["targets"].as_array();
   const std::string quantity = design.at("quantity").text();
@@ -352,7 +357,7 @@ std::string page(std::vector<json::object> entries, const PageParts& parts)
     else
       data += c;
   }
-  return replaced(replaced(parts.html, "@FABRIC@", data), "@VIEWER@", parts.viewer);
+  return replaced(replaced(parts.html, "@VIEWER@", parts.viewer), "@FABRIC@", data);
 }
 
 }  // namespace hauberk::exporting

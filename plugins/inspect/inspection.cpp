@@ -21,6 +21,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Rays through each body to find its thinnest wall; fewer where there are many triangles.
 constexpr double most_rays = 200.0, most_tests = 4e8;
+/// Part of their sizes below which two bodies touch, and the most pairs whose boxes are looked at.
+constexpr double touching = 1e-12;
+constexpr std::size_t most_pairs = 5000000;
 /// Points of each body that the first bound of a distance is taken from.
 constexpr std::size_t most_samples = 200;
 
@@ -161,6 +164,9 @@ std::vector<Candidate> pairs_between(const std::vector<InspectedBody>& bodies, c
       const double apart = box_gap(box, other);
       if (apart >= from && apart < reach)
         out.push_back({apart, {std::min(order[i], order[j]), std::max(order[i], order[j])}});
+      if (out.size() > most_pairs)
+        throw InputError(fmt::format(
+            "more than {} pairs of bodies are near each other; give a part of the model", most_pairs));
     }
   }
   std::sort(out.begin(), out.end());
@@ -174,13 +180,24 @@ void look_at_pair(const Candidate& candidate, const std::vector<std::optional<Cl
   const ClosedBody &a = *solids[candidate.bodies[0]], &b = *solids[candidate.bodies[1]];
   NearBodies pair{candidate.bodies, 0.0};
   const PairFrame frame(a.body, Pose{}, b.body, Pose{});
-  const bool boxes_meet = candidate.apart < 0.0, meet = boxes_meet && facets_intersect(frame);
+  const bool boxes_meet = candidate.apart < 0.0;
+  bool meet = boxes_meet && facets_intersect(frame);
+  if (!meet && boxes_meet && facets_inside(frame)) {
+    out.within.push_back(candidate.bodies);
+    for (const int k : candidate.bodies) {
+      if (!out.bodies[k].inside_out) continue;
+      out.bodies[k].hollow = true;  // what is between the two is wall, no gap
+      return;
+    }
+  }
   const double least = out.nearest ? out.nearest->distance : infinite;
   if (!meet) pair.distance = distance_of(a, b, std::max(gap, least));
+  // Where they touch, rounding decides what is left.
+  meet = meet || pair.distance <= touching * (a.body.bound + b.body.bound);
+  if (meet) pair.distance = 0.0;
   if (pair.distance < least) out.nearest = pair;
   if (meet || pair.distance < gap) out.too_near.push_back(pair);
   if (meet || !boxes_meet) return;
-  if (facets_inside(frame)) out.within.push_back(candidate.bodies);
   const int number = linking_number(a.body, Pose{}, b.body, Pose{});
   if (number != 0) out.links.push_back({candidate.bodies, std::abs(number)});
 }
@@ -207,7 +224,7 @@ void look_at_pairs(const std::vector<std::optional<ClosedBody>>& solids, double 
   while (from <= across) {
     for (const Candidate& candidate : pairs_between(out.bodies, order, from, reach)) {
       const double least = out.nearest ? out.nearest->distance : infinite;
-      if (candidate.apart >= std::max({gap, least, 0.0})) break;
+      if (candidate.apart > std::max({gap, least, 0.0})) break;
       keep_going();
       look_at_pair(candidate, solids, gap, out);
     }
@@ -230,6 +247,11 @@ void count_pieces(Inspection& out)
     out.bodies[link.bodies[0]].linked.push_back(link.bodies[1]);
     out.bodies[link.bodies[1]].linked.push_back(link.bodies[0]);
     const int a = pieces.root(link.bodies[0]), b = pieces.root(link.bodies[1]);
+    pieces.parent[std::max(a, b)] = std::min(a, b);
+  }
+  for (const auto& [first, second] : out.within) {
+    if (!out.bodies[first].hollow && !out.bodies[second].hollow) continue;
+    const int a = pieces.root(first), b = pieces.root(second);
     pieces.parent[std::max(a, b)] = std::min(a, b);
   }
   std::vector<int> number(out.bodies.size(), -1);
@@ -261,7 +283,7 @@ void look_at_printing(const ModelFile& model, Inspection& out)
     const Part& part = model.parts[k];
     for (const auto& t : part.triangles) {
       const Vec3 &a = part.points[t[0]], &b = part.points[t[1]], &c = part.points[t[2]];
-      const Vec3 twice = (body.inside_out ? -1.0 : 1.0) * (b - a).cross(c - a);
+      const Vec3 twice = (body.inside_out && !body.hollow ? -1.0 : 1.0) * (b - a).cross(c - a);
       area += twice.norm();
       const double highest_corner = std::max({a.z(), b.z(), c.z()});
       if (twice.z() < -std::sqrt(0.5) * twice.norm() && highest_corner > on_bed) steep += twice.norm();
@@ -299,6 +321,11 @@ Inspection inspect(const ModelFile& model, const std::string& file, double gap,
       solids[k] = closed_body(part, static_cast<int>(k));
     } catch (const InputError& error) {
       body.problem = error.what();
+      try {  // the same with the places that the file has
+        const TriangleSurface as_it_lies(part.points, part.triangles, most_triangles);
+      } catch (const InputError& placed) {
+        body.problem = placed.what();
+      }
       continue;
     }
     const double volume = signed_volume(part, part.points.front());

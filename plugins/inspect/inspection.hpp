@@ -23,6 +23,7 @@ struct InspectedBody {
   double volume = 0.0;      ///< enclosed; 0 of what is not closed
   std::size_t handles = 0;  ///< of the surface: 1 of a ring, 0 of a ball
   bool inside_out = false;  ///< its triangles face inwards
+  bool hollow = false;      ///< and it is within another body: the wall of a cavity
   double thinnest_wall =
       0.0;  ///< least way through the body from the middles of triangles that were looked at; 0: none
   std::vector<int> linked;  ///< bodies that it is linked with

@@ -69,7 +69,7 @@ std::string links_text(const Inspection& inspection)
   std::vector<const InspectedBody*> loose;
   std::size_t closed = 0, least = std::numeric_limits<std::size_t>::max(), most = 0;
   for (const InspectedBody& body : inspection.bodies) {
-    if (!body.problem.empty()) continue;
+    if (!body.problem.empty() || body.hollow) continue;
     ++closed;
     if (body.linked.empty()) loose.push_back(&body);
     least = std::min(least, body.linked.size());
@@ -145,8 +145,10 @@ std::string inspection_text(const Inspection& inspection, double gap)
     out += lines(damaged, [](const InspectedBody* body) { return body->name + ": " + body->problem; });
   }
   if (!inside_out.empty()) {
-    out += "inside out, as a hollow is:\n";
-    out += lines(inside_out, [](const InspectedBody* body) { return body->name; });
+    out += "inside out:\n";
+    out += lines(inside_out, [](const InspectedBody* body) {
+      return body->name + (body->hollow ? ", the wall of a hollow" : "");
+    });
   }
   out += gaps_text(inspection, gap, unit);
   out += links_text(inspection);
@@ -173,6 +175,7 @@ json::object inspection_json(const Inspection& inspection, double gap)
       one["volume"] = body.volume;
       one["holes"] = body.handles;
       one["inside_out"] = body.inside_out;
+      one["hollow"] = body.hollow;
       one["thinnest_wall"] = body.thinnest_wall;
       one["linked"] = json::array(body.linked.begin(), body.linked.end());
       one["piece"] = body.piece;

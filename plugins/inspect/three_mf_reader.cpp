@@ -45,11 +45,20 @@ struct Object {
   std::vector<Placed> components;
 };
 
-/// What XML names without the prefix of its namespace.
+/// The name of an element of the core of 3MF, or of one without a namespace; empty: of an extension.
 std::string_view local(std::string_view name)
 {
-  const std::size_t colon = name.find(':');
-  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+  constexpr std::string_view core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+  const std::size_t bar = name.rfind('|');
+  if (bar == std::string_view::npos) return name;
+  return name.substr(0, bar) == core ? name.substr(bar + 1) : std::string_view();
+}
+
+/// The name of an attribute without its namespace.
+std::string_view attribute_name(std::string_view name)
+{
+  const std::size_t bar = name.rfind('|');
+  return bar == std::string_view::npos ? name : name.substr(bar + 1);
 }
 
 /// The document 3D/3dmodel.model, as far as shapes go, while it is read.
@@ -71,6 +80,9 @@ class Model {
       } catch (const InputError& error) {  // nothing may be thrown through a library of C
         model->stop(error);
       }
+    });
+    XML_SetEndElementHandler(parser_, [](void* self, const char* tag) {
+      if (local(tag) == "object") static_cast<Model*>(self)->object_ = nullptr;
     });
     // Entities have no place in such a file, and can make it endless.
     XML_SetEntityDeclHandler(parser_, [](void* self, const char*, int, const char*, int, const char*,
@@ -166,7 +178,7 @@ class Model {
   void begin(std::string_view tag, const char** pairs)
   {
     Attributes attributes;
-    for (; *pairs != nullptr; pairs += 2) attributes[std::string(local(pairs[0]))] = pairs[1];
+    for (; *pairs != nullptr; pairs += 2) attributes[std::string(attribute_name(pairs[0]))] = pairs[1];
     if (tag == "model") {
       const auto unit = attributes.find("unit");
       const std::string named = unit == attributes.end() ? "millimeter" : unit->second;

@@ -126,8 +126,8 @@ function whole() {
   dirty = true;
 }
 
-function percent(value) {
-  return value === null ? "" : result.bends ? `${value.toPrecision(4)} /${result.unit}`
+function percent(value, of = result) {
+  return value === null ? "" : of.bends ? `${value.toPrecision(4)} /${of.unit}`
     : `${value >= 0 ? "+" : ""}${(100 * value).toFixed(2)} %`;
 }
 
@@ -142,7 +142,7 @@ function choose(next) {
   const where = state === 0 ? "at rest" : `${chosen.label}: ${percent(chosen.value)}`;
   byId("label").textContent = fabric.label ? `${fabric.label}, ${where}` : where;
   for (const row of document.querySelectorAll("#limits tbody tr"))
-    row.setAttribute("aria-selected", String(Number(row.dataset.state) === state));
+    row.setAttribute("aria-selected", String(state > 0 && Number(row.dataset.state) === state));
   for (const mark of document.querySelectorAll("#plot .mark"))
     mark.setAttribute("r", Number(mark.dataset.state) === state ? 5 : 3);
   makeArrows();
@@ -225,11 +225,12 @@ function makePlot() {
 }
 
 // Extreme values of one sense, as a cell of the table of results.
-function range(limits, further) {
+function range(one, further) {
+  const { limits } = one.fabrics[one.fabrics.length - 1];
   const values = limits.filter((limit) => limit.further === further && limit.value !== null)
     .map((limit) => limit.value);
   if (values.length === 0) return "";
-  const [least, most] = [Math.min(...values), Math.max(...values)].map(percent);
+  const [least, most] = [Math.min(...values), Math.max(...values)].map((value) => percent(value, one));
   return least === most ? least : `${least.replace(" %", "")} to ${most}`;
 }
 
@@ -237,11 +238,11 @@ function range(limits, further) {
 function makeResults() {
   if (data.results.length < 2) return;
   const rows = data.results.map((one, k) => {
-    const { limits } = one.fabrics[one.fabrics.length - 1];
     return `<tr data-result="${k}"><td><button type="button">${safe(one.name)}</button></td><td class="number">${
-      range(limits, true)}</td><td class="number">${range(limits, false)}</td></tr>`;
+      range(one, true)}</td><td class="number">${range(one, false)}</td></tr>`;
   });
-  const [further, back] = data.results[0].words;
+  const named = (k) => [...new Set(data.results.map((one) => one.words[k]))].join(", ");
+  const [further, back] = [named(0), named(1)];
   byId("results").innerHTML = `<thead><tr><th>result</th><th>${safe(further)}</th><th>${
     safe(back)}</th></tr></thead><tbody>${rows.join("")}</tbody>`;
   for (const button of document.querySelectorAll("#results button"))

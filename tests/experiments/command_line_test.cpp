@@ -90,6 +90,8 @@ Usage:
       a table and a page of plots of many results
   hauberk export FILE.json -o OUT.{stl,obj,3mf,glb,vtu,html,png} [--state S]
       a fabric to print, to look at or to compute with
+  hauberk inspect MODEL.{stl,obj,3mf} [--gap X] [--json]
+      what a printed model is: bodies, gaps, links
   hauberk weave NAME --inner LENGTH --wire LENGTH
       a maker's answers: room, stretch, weight of a weave
   hauberk plugins [list | describe ID | conform FILE.so | new NAME DIR]

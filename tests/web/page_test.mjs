@@ -28,6 +28,15 @@ function write(name, experiment) {
 }
 
 // A sheet with limits all the way round, whose name would end the script if it were not written with care.
+const rolled = write("rolled", {
+  name: "@VIEWER@", task: "limits", length_unit: "mm",
+  elements: { link: { shape: "torus_union", tori: [{ name: "ring" }],
+    parameters: { "ring.R": 5, "ring.r0": 2.4, "ring.r1": 2.4 } } },
+  cell: { patch: { vectors: [[100, 0], [0, 100]], outline: { rectangle: [1, 1] } }, place: [
+    { element: "link", position: [0, 0, 0] },
+    { element: "link", position: [4.330127018922193, 2.5, 0], rotation: { axis: [4.330127018922193, 2.5, 0], degrees: 90 } }] },
+  load_case: { plugin: "cylinder_roll", directions_deg: [30], hold: ["places", "twist", "transverse"] },
+});
 const sheet = write("sheet", {
   name: "</script><b>sheet", task: "limits", length_unit: "mm", cell: { weave: { name: "european_4in1" } },
   load_case: { plugin: "in_plane_periodic", directions_deg: [0, 30, 60, 90, 120, 150], senses: ["stretch"] },
@@ -154,10 +163,13 @@ try {
 
   // A report of several, of which each is shown.
   const reported = join(folder, "reported");
-  assert.match(run("report", sheet, made, "-o", reported), /report\.html$/m);
+  assert.match(run("report", sheet, made, rolled, "-o", reported), /report\.html$/m);
   await page.goto(`file://${join(reported, "report.html")}`);
   await page.waitForFunction(() => Number(document.documentElement.dataset.frames) > 0);
-  assert.equal(await page.locator("#results tbody tr").count(), 2);
+  assert.equal(await page.locator("#results tbody tr").count(), 3);
+  assert.match(await page.textContent("#results tbody tr:nth-child(1) td:nth-child(2)"), /^\+.* to \+.* %$/);
+  assert.equal(await page.textContent("#results tbody tr:nth-child(3) td:nth-child(2)"), "0.1972 /mm");
+  assert.equal(await page.textContent("#results tbody tr:nth-child(3) button"), "@VIEWER@");
   assert.equal(await page.textContent("#title"), "</script><b>sheet");
   assert.ok(await page.isHidden("#designs"), "a sheet has no iterates");
   await page.click("#results tbody tr:nth-child(2) button");

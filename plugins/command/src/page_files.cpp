@@ -38,9 +38,7 @@ FurtherFiles page_of_run(const Job& job, exporting::PageParts parts)
       out.push_back(
           {"page", page_file,
            page({page_entry(boost::json::value(document), results_file, job.prepared->scene, view)}, parts)});
-    } catch (const InputError& error) {
-      say_error("hauberk: warning: {}: {}\n", page_file, error.what());
-    } catch (const ComputationError& error) {
+    } catch (const std::exception& error) {
       say_error("hauberk: warning: {}: {}\n", page_file, error.what());
     }
     return out;

@@ -160,7 +160,8 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
     keep_weave(*root, base.file);
     std::vector<std::string> sections;
     for (const TaskFormat& format : lookups.formats) sections.emplace_back(format.name);
-    keep_values(*root, written, sections);
+    const TaskFormat* const own = format_named(lookups.formats, experiment.task);
+    if (own != nullptr && own->makes_variants) keep_values(*root, written, sections);
   }
   experiment.resolved = std::move(*root);
   experiment.folder = lookups.folder;

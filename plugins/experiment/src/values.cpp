@@ -25,6 +25,7 @@ namespace {
 /// Longer or deeper ones are no formula that somebody wrote.
 constexpr std::size_t longest = 1000;
 constexpr int deepest = 50;
+constexpr std::size_t most_open = 50;
 
 /// What is wrong with an expression.
 struct Mistake : std::runtime_error {
@@ -201,16 +202,20 @@ class Values {
       throw Mistake(fmt::format("there is no value '{}'{}", name, suggestion(name, names_)));
     const Node& node = *found->second;
     if (node.is(Node::Type::number)) return node.number;
+    if (const auto known = known_.find(name); known != known_.end()) return known->second;
     if (!is_expression(node)) throw Mistake(fmt::format("the value '{}' is no number", name));
     if (std::find(open_.begin(), open_.end(), name) != open_.end())
       throw Mistake(fmt::format("the value '{}' depends on itself", name));
+    if (open_.size() >= most_open)
+      throw Mistake(fmt::format("depends on more than {} values in a row", most_open));
     open_.push_back(name);
     const double x = of(node);
     open_.pop_back();
-    return x;
+    return known_[name] = x;
   }
 
   std::map<std::string, const Node*> given_;
+  std::map<std::string, double> known_;
   std::vector<std::string> names_, open_;
 };
 
@@ -231,7 +236,9 @@ void replace(Node& node, Values& values, WrittenValues& written, Problems& probl
     return;
   }
   for (Node& item : node.items) replace(item, values, written, problems);
-  for (auto& [name, member] : node.members) replace(member, values, written, problems);
+  for (auto& [name, member] : node.members) {
+    if (name != "name") replace(member, values, written, problems);  // what it is called is no number
+  }
 }
 
 /// The place that a pointer names, if there is one.

@@ -17,8 +17,9 @@ Field values_field();
 using WrittenValues = std::vector<std::pair<std::string, Node>>;
 
 /// Replaces every string of the tree that begins with "$", or with "=" that is not read, by the number that
-/// it comes to; the section `values` keeps its names, with numbers. Not touched: name, description, `$schema`
-/// and `expect`. Mistakes are reported.
+/// it comes to; the section `values` keeps its names, with numbers. Not touched: what a key `name` has,
+/// description,
+/// `$schema` and `expect`. Mistakes are reported.
 ///
 /// expression = term {(+ | -) term}, term = factor {(* | /) factor}, factor = [-] power, power = atom [^
 /// factor], atom = number | $name | pi | (expression) | f(expression), f = sqrt, sin, cos, tan, asin, acos,

@@ -196,6 +196,8 @@ void check_limits(const json::value& experiment, const json::value& asked, const
     const json::value* list = load.as_object().if_contains(key);
     if (list == nullptr || !list->is_array()) return true;
     return std::any_of(list->as_array().begin(), list->as_array().end(), [&](const json::value& x) {
+      const bool named = x.is_string() && (x.as_string().starts_with('$') || x.as_string().starts_with('='));
+      if (named && wanted.is_number()) return true;  // a named value, which rows may vary
       return x.is_number() && wanted.is_number() ? x.to_number<double>() == wanted.to_number<double>()
                                                  : x == wanted;
     });

@@ -89,9 +89,25 @@ TEST(Values, MistakesAreNamedWithTheirPlace)
   EXPECT_NE(problems_of(text_of("", "$L")).find("there is no value 'L'"), std::string::npos);
 }
 
+/// Each value is worked out once, and a long row of them does not exhaust the stack.
+TEST(Values, ManyOnesAreNoWork)
+{
+  std::string doubled = R"({ "a0": 1)", chain = "{ ";
+  for (int k = 1; k <= 45; ++k)
+    doubled += ", \"a" + std::to_string(k) + "\": \"$a" + std::to_string(k - 1) + "+$a" +
+               std::to_string(k - 1) + "\"";
+  const Experiment e = read_ok(text_of(doubled + " }", "$a45 / 2 ^ 42"));
+  EXPECT_EQ(e.scene.lattice.at(0).x(), 8.0);
+  for (int k = 0; k < 20000; ++k)
+    chain += "\"b" + std::to_string(k) + "\": \"$b" + std::to_string(k + 1) + "\", ";
+  EXPECT_NE(message(chain + R"("b20000": 1 })", "$b0").find("depends on more than 50 values in a row"),
+            std::string::npos);
+}
+
 TEST(Values, NamesAreLeftAlone)
 {
   EXPECT_EQ(problems_of(with(valid_text(), "\"name\": \"", "\"name\": \"$")), "");
+  EXPECT_EQ(problems_of(with(valid_text(), "\"name\": \"", "\"name\": \"=")), "");
 }
 
 }  // namespace

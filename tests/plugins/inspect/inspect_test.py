@@ -212,6 +212,24 @@ answer, text = inspect(write_obj("within.obj", ball((0, 0, 0), 3.0), ball((0.5, 
 assert answer["within"] == [[0, 1]] and [b["holes"] for b in answer["bodies"]] == [0, 0]
 assert abs(answer["nearest"]["distance"] - 1.5) < 0.1, text
 
+# Two that touch along a face, without a common point; and a hollow, whose wall is no gap.
+def box(low, high):
+    points = [tuple((low, high)[k >> axis & 1][axis] for axis in range(3)) for k in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+
+answer, text = inspect(write_obj("touching.obj", box((0, 0, 0), (20, 20, 2)), box((7, 6, 2), (12, 11, 10))), code=1)
+assert [p["bodies"] for p in answer["too_near"]] == [[0, 1]] and answer["bodies"][0]["volume"] == 800.0, text
+inner = ball((0, 0, 0), 2.7)
+answer, text = inspect(write_obj("hollow.obj", ball((0, 0, 0), 3.0), (inner[0], [(a, c, b) for a, b, c in inner[1]])),
+                       "--gap", "0.4")
+assert answer["pieces"] == 1 and answer["bodies"][1]["hollow"] and answer["nearest"] is None, text
+assert "the wall of a hollow" in text and "linked with nothing" not in text, text
+open_box = box((10, 10, 10), (20, 20, 20))
+answer, _ = inspect(write_obj("open_box.obj", (open_box[0], open_box[1][1:])), code=1)
+assert "(10, 10, 10)" in answer["bodies"][0]["problem"] or "20" in answer["bodies"][0]["problem"], answer["bodies"][0]
+
 # Files that are no models.
 cut = (folder / "hopf.stl").read_bytes()[:-20]
 (folder / "cut.stl").write_bytes(cut)
@@ -255,6 +273,12 @@ if not without_3mf:
     assert answer["unit"] == "in" and pairs(answer) == [((0, 1), 1), ((2, 3), 1)] and answer["pieces"] == 2
     assert not any(b["inside_out"] for b in answer["bodies"])
     assert abs(answer["nearest"]["distance"] - hopf["nearest"]["distance"]) < chords
+    # What an extension names like the core is not the core's.
+    slices = ('<s:slicestack xmlns:s="http://schemas.microsoft.com/3dmanufacturing/slice/2015/07" id="9"><s:slice ztop="1">'
+              '<s:vertices><s:vertex x="1" y="2"/></s:vertices></s:slice></s:slicestack>')
+    answer, _ = inspect(write_3mf("slices.3mf", f'{head}<object id="1">{mesh}</object>{slices}'
+                                                '</resources><build><item objectid="1"/></build></model>'))
+    assert len(answer["bodies"]) == 1
     itself = '<object id="2"><components><component objectid="2"/></components></object>'
     assert "hold itself" in inspect(write_3mf("itself.3mf", head + itself + build), code=2)[1]
     bomb = '<?xml version="1.0"?><!DOCTYPE m [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><model>&b;</model>'

@@ -162,16 +162,6 @@ json::array facts_of(const JsonPlace& document, const std::string& unit)
   return facts;
 }
 
-/// Cells that a page shows where nobody asks for other.
-std::array<int, 3> shown_cells(const Fabric& fabric)
-{
-  constexpr double elements = 24.0;
-  if (fabric.lattice.size() != 2) return {1, 1, 1};
-  const double cells = elements / static_cast<double>(fabric.elements.size());
-  const int along = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
-  return {along, along, 1};
-}
-
 /// A sixteenth of the thinnest wire's radius.
 double default_chord(const Fabric& fabric)
 {
@@ -300,6 +290,15 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 }
 
 }  // namespace
+
+std::array<int, 3> shown_cells(const Fabric& fabric)
+{
+  constexpr double elements = 24.0;
+  if (fabric.lattice.size() != 2) return {1, 1, 1};
+  const double cells = elements / static_cast<double>(fabric.elements.size());
+  const int along = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
+  return {along, along, 1};
+}
 
 PageParts read_page_parts(const std::string& folder)
 {

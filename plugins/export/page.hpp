@@ -28,10 +28,13 @@ struct Figure {
   std::string svg;
 };
 
+/// Cells that a page shows where nobody asks for other: about two dozen elements of a sheet, so that one sees
+/// how they hold each other, one cell of a solid.
+std::array<int, 3> shown_cells(const Fabric& fabric);
+
 /// How a page shows the fabrics of an experiment or of results.
 struct PageView {
-  /// Copies of the cell; without: about two dozen elements of a sheet, so that one sees how they hold each
-  /// other, one cell of a solid.
+  /// Copies of the cell; without: shown_cells().
   std::optional<std::array<int, 3>> repeat = {};
   std::optional<Outline> outline = {};
   double chord = 0.0;  ///< see element_mesh; 0: a sixteenth of the thinnest wire's radius

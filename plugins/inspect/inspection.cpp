@@ -3,6 +3,7 @@
 #include "geometry/body.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
+#include "inspect/disjoint_sets.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/triangle_surface.hpp>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hauberk::inspecting {
 namespace {
@@ -127,18 +127,6 @@ double distance_of(const ClosedBody& a, const ClosedBody& b, double range)
   return std::min(found, least);
 }
 
-/// Union-find over links.
-struct Pieces {
-  std::vector<int> parent;
-
-  explicit Pieces(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
-  int root(int k)
-  {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-  }
-};
-
 /// Two bodies, and how far their boxes are apart.
 struct Candidate {
   double apart = 0.0;
@@ -242,17 +230,14 @@ void look_at_pairs(const std::vector<std::optional<ClosedBody>>& solids, double 
 
 void count_pieces(Inspection& out)
 {
-  Pieces pieces(out.bodies.size());
+  DisjointSets pieces(out.bodies.size());
   for (const LinkedBodies& link : out.links) {
     out.bodies[link.bodies[0]].linked.push_back(link.bodies[1]);
     out.bodies[link.bodies[1]].linked.push_back(link.bodies[0]);
-    const int a = pieces.root(link.bodies[0]), b = pieces.root(link.bodies[1]);
-    pieces.parent[std::max(a, b)] = std::min(a, b);
+    pieces.join(link.bodies[0], link.bodies[1]);
   }
   for (const auto& [first, second] : out.within) {
-    if (!out.bodies[first].hollow && !out.bodies[second].hollow) continue;
-    const int a = pieces.root(first), b = pieces.root(second);
-    pieces.parent[std::max(a, b)] = std::min(a, b);
+    if (out.bodies[first].hollow || out.bodies[second].hollow) pieces.join(first, second);
   }
   std::vector<int> number(out.bodies.size(), -1);
   for (std::size_t k = 0; k < out.bodies.size(); ++k) {

@@ -2,40 +2,24 @@
 
 #include "common/mesh_file.hpp"
 #include "common/text_file.hpp"
+#include "inspect/disjoint_sets.hpp"
 
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-#include <numeric>
-
 namespace hauberk::inspecting {
-namespace {
-
-/// The first of the points that hang together with this one.
-int root(std::vector<int>& parent, int k)
-{
-  while (parent[k] != k) k = parent[k] = parent[parent[k]];
-  return k;
-}
-
-}  // namespace
-
 void append_parts(const Part& mesh, std::vector<Part>& parts)
 {
-  std::vector<int> parent(mesh.points.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets together(mesh.points.size());
   for (const auto& t : mesh.triangles) {
-    parent[root(parent, t[1])] = root(parent, t[0]);
-    parent[root(parent, t[2])] = root(parent, t[0]);
+    together.join(t[0], t[1]);
+    together.join(t[0], t[2]);
   }
   const std::size_t before = parts.size();
   std::vector<int> part_of(mesh.points.size(), -1), number(mesh.points.size(), -1);
   for (const auto& t : mesh.triangles) {
-    int& part = part_of[root(parent, t[0])];
+    int& part = part_of[together.root(t[0])];
     if (part < 0) {
       part = static_cast<int>(parts.size() - before);
       parts.push_back({mesh.name, {}, {}});
@@ -56,9 +40,7 @@ void append_parts(const Part& mesh, std::vector<Part>& parts)
 
 ModelFile read_model_file(const std::string& path)
 {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = detail::ending_of(path);
   if (extension != ".stl" && extension != ".obj" && extension != ".3mf")
     throw InputError(fmt::format("{}: expected a file .stl, .obj or .3mf", path));
   ModelFile out;

@@ -42,6 +42,7 @@ struct Placed {
 struct Object {
   std::string name;
   MeshFile mesh;
+  std::vector<Part> parts;  ///< of the mesh, made when it is first placed
   std::vector<Placed> components;
 };
 
@@ -228,20 +229,23 @@ class Model {
                       name_, what.object, deepest));
     if (++placed_ > most_placed)
       throw InputError(fmt::format("{}: places more than {} objects", name_, most_placed));
-    const Object& object = found->second;
+    Object& object = found->second;
     const Placement placement = outer.after(what.placement);
     if (!object.mesh.triangles.empty()) {
-      placed_triangles_ += object.mesh.triangles.size();
+      detail::join_equal_points(object.mesh);
+      append_parts({object.name, std::move(object.mesh.points), std::move(object.mesh.triangles)},
+                   object.parts);
+      object.mesh = {};
+    }
+    for (const Part& own : object.parts) {
+      placed_triangles_ += own.triangles.size();
       if (placed_triangles_ > most_triangles)
         throw InputError(fmt::format("{}: its items have more than {} triangles", name_, most_triangles));
-      MeshFile mesh = object.mesh;
-      detail::join_equal_points(mesh);
-      for (Vec3& x : mesh.points) x = placement.A * x + placement.b;
+      Part& part = out.parts.emplace_back(own);
+      if (!what.name.empty()) part.name = what.name;
+      for (Vec3& x : part.points) x = placement.A * x + placement.b;
       if (placement.A.determinant() < 0.0)
-        for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-      append_parts(
-          {what.name.empty() ? object.name : what.name, std::move(mesh.points), std::move(mesh.triangles)},
-          out.parts);
+        for (auto& t : part.triangles) std::swap(t[1], t[2]);
     }
     for (Placed component : object.components) {
       component.name = what.name;

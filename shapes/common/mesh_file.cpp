@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -127,9 +125,7 @@ bool has_pairs_of_edges(const MeshFile& mesh)
 
 MeshFile read_mesh_file(const std::string& path, const MeshLimits& limits)
 {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = detail::ending_of(path);
   if (extension != ".obj" && extension != ".stl")
     throw InputError(fmt::format("{}: expected a file .obj or .stl", path));
   const std::string bytes = detail::read_bytes(path, limits.megabytes);

@@ -44,6 +44,14 @@ std::string read_bytes(const std::string& path, int megabytes)
   return bytes;
 }
 
+std::string ending_of(const std::string& path)
+{
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
 bool read_number(std::string_view word, double& value)
 {
   if (word.starts_with('+')) word.remove_prefix(1);

@@ -10,6 +10,9 @@ namespace hauberk::detail {
 /// read, is larger, or is not a regular file: a device or a pipe might never end.
 std::string read_bytes(const std::string& path, int megabytes);
 
+/// What the name of a file ends with, in small letters: ".obj"; empty where it has no dot.
+std::string ending_of(const std::string& path);
+
 /// Reads a number that is the whole of `word`; false if it is none, or not finite.
 bool read_number(std::string_view word, double& value);
 

@@ -22,13 +22,13 @@ class TriangleSurface {
   static constexpr std::size_t most_triangles = 100000;
   static constexpr std::size_t most_handles = 32;
 
-  /// Points in any unit, and triangles of their indices from 0. Points that no triangle has are left out.
+  /// Points in any unit, and triangles of their indices from 0, at most `limit`. Points that no triangle has
+  /// are left out.
   ///
   /// Throws InputError, which counts points and triangles from 1, unless points are finite, there are 4 to
   /// `limit` triangles, none of them without area, every edge belongs to two triangles that run
   /// along it in opposite senses, triangles around a point are one fan, no two triangles meet but in what
   /// they share, and there are at most `most_handles` handles.
-  /// `limit`: of triangles, where another one is wanted.
   TriangleSurface(std::vector<Vec3> points, std::vector<Triangle> triangles,
                   std::size_t limit = most_triangles);
 

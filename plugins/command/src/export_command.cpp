@@ -273,14 +273,13 @@ int export_command(const std::vector<std::string>& words)
   if (format == ".html" && options.has("state"))
     throw UsageError("--state: a page has all states; leave it out", options.usage());
   const Opened opened = open_fabric(options);
-  const Assembly assembly = assemble(opened.fabric, repeat, outline, chord);
+  const bool is_page = format == ".html";
+  const auto cells = is_page && !options.has("repeat") ? shown_cells(opened.fabric) : repeat;
+  const Assembly assembly = assemble(opened.fabric, cells, outline, chord);
   const auto nearest = nearest_copies(assembly, std::numeric_limits<double>::infinity());
   require_gap(assembly, nearest, gap);
-  const std::string content =
-      format == ".html"
-          ? page_content(opened,
-                         {options.has("repeat") ? std::optional(repeat) : std::nullopt, outline, chord, {}})
-          : content_of(format, assembly, opened, options);
+  const std::string content = is_page ? page_content(opened, {cells, outline, chord, {}})
+                                      : content_of(format, assembly, opened, options);
   if (options.has("force"))
     write_files_atomically(file.has_parent_path() ? file.parent_path() : ".",
                            {{file.filename().string(), content}}, {});

@@ -85,8 +85,9 @@ Former resume(const std::filesystem::path& folder, Job& job, Provenance& provena
 }
 
 /// Of a run that has nothing left to do.
-int already_complete(const Job& job, const boost::json::value& document, const std::filesystem::path& folder)
+int already_complete(const Job& job, const boost::json::value& document, const RunRequest& request)
 {
+  const std::filesystem::path& folder = request.folder;
   // The run may have been killed after its last result, before it had tidied up.
   const std::vector<const char*> names = result_names();
   remove_abandoned(folder, names);
@@ -96,6 +97,8 @@ int already_complete(const Job& job, const boost::json::value& document, const s
   std::error_code ignored;
   std::filesystem::remove(folder / digest_file, ignored);
   say("{}: complete already\n", (folder / results_file).string());
+  if (request.further && !std::filesystem::exists(folder / page_file, ignored))
+    say("it has no {0}; `hauberk export {1} -o {1}.html` makes a page of it\n", page_file, folder.string());
   const bool missed = report_expectations(job.prepared->experiment, document);
   return missed || job.task->failed() ? exit_failed : exit_done;
 }
@@ -161,7 +164,7 @@ int run_experiment(Job& job, const RunRequest& request)
   std::filesystem::create_directories(folder, ignored);
   const FolderLock lock(folder, request.take_over);
   const Former former = request.resume ? resume(folder, job, origin) : Former{};
-  if (former.left == Left::nothing) return already_complete(job, former.document, folder);
+  if (former.left == Left::nothing) return already_complete(job, former.document, request);
   const std::vector<const char*> names = result_names();
   // Killed before its first results.json, a run leaves other files: --resume starts anew over them.
   prepare_output_directory(folder, request.force || request.resume, names);

@@ -102,7 +102,7 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
       std::any_of(lookups.formats.begin(), lookups.formats.end(),
                   [&root](const TaskFormat& f) { return f.makes_variants && root->find(f.name) != nullptr; });
   const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
-  const WrittenValues written = put_values(*root, problems);
+  put_values(*root, problems);
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
   std::set<std::string> plugin_files;
@@ -158,10 +158,8 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   // Variants are made from the weave again when this is read again.
   if (has_variants) {
     keep_weave(*root, base.file);
-    std::vector<std::string> sections;
-    for (const TaskFormat& format : lookups.formats) sections.emplace_back(format.name);
     const TaskFormat* const own = format_named(lookups.formats, experiment.task);
-    if (own != nullptr && own->makes_variants) keep_values(*root, written, sections);
+    if (own != nullptr && own->makes_variants) keep_values(*root, base.file);
   }
   experiment.resolved = std::move(*root);
   experiment.folder = lookups.folder;

@@ -1,9 +1,9 @@
 #include "values.hpp"
 
-#include "document/diagnostics.hpp"
 #include "document/field_helpers.hpp"
 #include "document/node_access.hpp"
 
+#include <hauberk/linalg.hpp>
 #include <hauberk/suggestion.hpp>
 
 #include <fmt/format.h>
@@ -32,21 +32,18 @@ struct Mistake : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
 struct Function {
   const char* name;
   double (*value)(double);
 };
 constexpr std::array functions{
     Function{"sqrt", [](double x) { return std::sqrt(x); }},
-    Function{"sin", [](double x) { return std::sin(radians(x)); }},
-    Function{"cos", [](double x) { return std::cos(radians(x)); }},
-    Function{"tan", [](double x) { return std::tan(radians(x)); }},
-    Function{"asin", [](double x) { return degrees(std::asin(x)); }},
-    Function{"acos", [](double x) { return degrees(std::acos(x)); }},
-    Function{"atan", [](double x) { return degrees(std::atan(x)); }},
+    Function{"sin", [](double x) { return std::sin(x * degree); }},
+    Function{"cos", [](double x) { return std::cos(x * degree); }},
+    Function{"tan", [](double x) { return std::tan(x * degree); }},
+    Function{"asin", [](double x) { return std::asin(x) / degree; }},
+    Function{"acos", [](double x) { return std::acos(x) / degree; }},
+    Function{"atan", [](double x) { return std::atan(x) / degree; }},
 };
 
 class Expression {
@@ -219,7 +216,7 @@ class Values {
   std::vector<std::string> names_, open_;
 };
 
-void replace(Node& node, Values& values, WrittenValues& written, Problems& problems)
+void replace(Node& node, Values& values, Problems& problems)
 {
   if (is_expression(node)) {
     Node number = node;
@@ -227,7 +224,6 @@ void replace(Node& node, Values& values, WrittenValues& written, Problems& probl
     number.string.clear();
     try {
       number.number = values.of(node);
-      written.emplace_back(node.pointer, node);
     } catch (const Mistake& mistake) {
       problems.add(node, fmt::format("'{}' {}", node.string, mistake.what()));
       number.number = 1.0;  // so that it is told of once
@@ -235,32 +231,10 @@ void replace(Node& node, Values& values, WrittenValues& written, Problems& probl
     node = std::move(number);
     return;
   }
-  for (Node& item : node.items) replace(item, values, written, problems);
+  for (Node& item : node.items) replace(item, values, problems);
   for (auto& [name, member] : node.members) {
-    if (name != "name") replace(member, values, written, problems);  // what it is called is no number
+    if (name != "name") replace(member, values, problems);  // what it is called is no number
   }
-}
-
-/// The place that a pointer names, if there is one.
-Node* find_place(Node& root, const std::string& pointer)
-{
-  Node* node = &root;
-  std::size_t start = 1;
-  while (node != nullptr && start <= pointer.size()) {
-    const std::size_t stop = std::min(pointer.find('/', start), pointer.size());
-    const std::string key = pointer_key(std::string_view(pointer).substr(start, stop - start));
-    Node* next = nullptr;
-    for (auto& [name, member] : node->members)
-      if (name == key) next = &member;
-    std::size_t index = 0;
-    if (node->is(Node::Type::array) &&
-        std::from_chars(key.data(), key.data() + key.size(), index).ptr == key.data() + key.size() &&
-        index < node->items.size())
-      next = &node->items[index];
-    node = next;
-    start = stop + 1;
-  }
-  return node;
 }
 
 }  // namespace
@@ -276,28 +250,28 @@ Field values_field()
       number("value", "A number, in any unit.", "1"));
 }
 
-WrittenValues put_values(Node& root, Problems& problems)
+void put_values(Node& root, Problems& problems)
 {
-  WrittenValues written;
-  if (!root.is(Node::Type::object)) return written;
+  if (!root.is(Node::Type::object)) return;
   const Node* found = root.find("values");
   const Node section = found != nullptr ? *found : Node{};
   Values values(found != nullptr ? &section : nullptr);
   for (auto& [name, member] : root.members) {
-    if (name == "name" || name == "description" || name == "$schema" || name == "expect") continue;
-    replace(member, values, written, problems);
+    if (name != "name" && name != "description" && name != "$schema" && name != "expect")
+      replace(member, values, problems);
   }
-  return written;
 }
 
-void keep_values(Node& root, const WrittenValues& written, const std::vector<std::string>& not_within)
+void keep_values(Node& expanded, const Node& written)
 {
-  for (const auto& [pointer, node] : written) {
-    const bool within =
-        std::any_of(not_within.begin(), not_within.end(),
-                    [&p = pointer](const std::string& name) { return p.starts_with("/" + name + "/"); });
-    Node* place = within ? nullptr : find_place(root, pointer);
-    if (place != nullptr && place->is(Node::Type::number)) *place = node;
+  if (is_expression(written) && expanded.is(Node::Type::number)) {
+    expanded = written;
+    return;
+  }
+  for (std::size_t k = 0; k < std::min(expanded.items.size(), written.items.size()); ++k)
+    keep_values(expanded.items[k], written.items[k]);
+  for (auto& [name, member] : expanded.members) {
+    if (const Node* same = written.find(name)) keep_values(member, *same);
   }
 }
 

@@ -5,16 +5,10 @@
 
 #include <hauberk/section.hpp>
 
-#include <utility>
-#include <vector>
-
 namespace hauberk {
 
 /// values.
 Field values_field();
-
-/// The strings that were replaced by numbers, with their pointers.
-using WrittenValues = std::vector<std::pair<std::string, Node>>;
 
 /// Replaces every string of the tree that begins with "$", or with "=" that is not read, by the number that
 /// it comes to; the section `values` keeps its names, with numbers. Not touched: what a key `name` has,
@@ -24,10 +18,10 @@ using WrittenValues = std::vector<std::pair<std::string, Node>>;
 /// expression = term {(+ | -) term}, term = factor {(* | /) factor}, factor = [-] power, power = atom [^
 /// factor], atom = number | $name | pi | (expression) | f(expression), f = sqrt, sin, cos, tan, asin, acos,
 /// atan; angles in degrees.
-WrittenValues put_values(Node& root, Problems& problems);
+void put_values(Node& root, Problems& problems);
 
-/// Puts the strings back where there still is a number, but in `values` sections of tasks that make variants,
-/// whose names are given: variants begin from what is written.
-void keep_values(Node& root, const WrittenValues& written, const std::vector<std::string>& not_within);
+/// Puts the strings of `written` back where the tree has the numbers that they came to: variants begin from
+/// what is written.
+void keep_values(Node& expanded, const Node& written);
 
 }  // namespace hauberk

@@ -73,7 +73,6 @@ class Piece {
   bool meets_somewhere()
   {
     for (int k = 0; k < samples; ++k) {
-      looks_ = 0;
       images_ = 0.0;
       if (around(static_cast<double>(k) / (samples - 1), 0.0) == Motion::meets) return true;
     }
@@ -145,7 +144,7 @@ class Piece {
           half * ((dF_ * rest + du_[i] - du_[j]).norm() + std::abs(turn_[i].angle()) * a.reach +
                   std::abs(turn_[j].angle()) * b.reach);
       if ((s.places[i].position - other.position).norm() - a.reach - b.reach > comes) continue;
-      if (++looks_ > most_looks) return Motion::undecided;
+      if (half > 0.0 && ++looks_ > most_looks) return Motion::undecided;
       if (apart(a, s.places[i], b, other, comes)) continue;
       if (meet(a, s.places[i], b, other)) return Motion::meets;
       out = Motion::undecided;

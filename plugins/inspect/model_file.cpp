@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 namespace hauberk::inspecting {
 void append_parts(const Part& mesh, std::vector<Part>& parts)
 {
@@ -43,6 +46,9 @@ ModelFile read_model_file(const std::string& path)
   const std::string extension = detail::ending_of(path);
   if (extension != ".stl" && extension != ".obj" && extension != ".3mf")
     throw InputError(fmt::format("{}: expected a file .stl, .obj or .3mf", path));
+  std::error_code unknown;  // then reading tells
+  if (!std::filesystem::exists(path, unknown))
+    throw InputError(fmt::format("{}: there is no such file", path));
   ModelFile out;
   if (extension == ".3mf") {
     out = read_three_mf(detail::read_bytes(path, most_megabytes), path);

@@ -54,18 +54,18 @@ class Expression {
 
   double value()
   {
-    if (text_.size() > longest) throw Mistake(fmt::format("is longer than {} characters", longest));
+    if (text_.size() > longest) throw Mistake(fmt::format("longer than {} characters", longest));
     const double x = sum();
     blanks();
     if (at_ != text_.size()) throw Mistake(fmt::format("'{}' was not expected", text_.substr(at_)));
-    if (!std::isfinite(x)) throw Mistake("comes to no finite number");
+    if (!std::isfinite(x)) throw Mistake("it comes to no finite number");
     return x;
   }
 
  private:
   double sum()
   {
-    if (++depth_ > deepest) throw Mistake(fmt::format("is nested more than {} deep", deepest));
+    if (++depth_ > deepest) throw Mistake(fmt::format("nested more than {} deep", deepest));
     double x = product();
     for (;;) {
       if (take('+'))
@@ -94,7 +94,7 @@ class Expression {
 
   double factor()
   {
-    if (++depth_ > deepest) throw Mistake(fmt::format("is nested more than {} deep", deepest));
+    if (++depth_ > deepest) throw Mistake(fmt::format("nested more than {} deep", deepest));
     const double x = take('-') ? -factor() : power();
     --depth_;
     return x;
@@ -125,7 +125,7 @@ class Expression {
     const char* const end = text_.data() + text_.size();
     const auto read = std::from_chars(text_.data() + at_, end, x);
     if (read.ec != std::errc{})
-      throw Mistake(at_ == text_.size() ? "ends where a number is expected"
+      throw Mistake(at_ == text_.size() ? "it ends where a number is expected"
                                         : fmt::format("expected a number at '{}'", text_.substr(at_)));
     at_ = static_cast<std::size_t>(read.ptr - text_.data());
     return x;
@@ -134,7 +134,7 @@ class Expression {
   double closed()
   {
     const double x = sum();
-    if (!take(')')) throw Mistake("lacks ')'");
+    if (!take(')')) throw Mistake("')' is missing");
     return x;
   }
 
@@ -144,7 +144,7 @@ class Expression {
     while (at_ < text_.size() &&
            (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_'))
       ++at_;
-    if (at_ == begin) throw Mistake("has '$' without a name");
+    if (at_ == begin) throw Mistake("'$' without a name");
     return text_.substr(begin, at_ - begin);
   }
 
@@ -204,7 +204,7 @@ class Values {
     if (std::find(open_.begin(), open_.end(), name) != open_.end())
       throw Mistake(fmt::format("the value '{}' depends on itself", name));
     if (open_.size() >= most_open)
-      throw Mistake(fmt::format("depends on more than {} values in a row", most_open));
+      throw Mistake(fmt::format("it depends on more than {} values in a row", most_open));
     open_.push_back(name);
     const double x = of(node);
     open_.pop_back();
@@ -225,7 +225,7 @@ void replace(Node& node, Values& values, Problems& problems)
     try {
       number.number = values.of(node);
     } catch (const Mistake& mistake) {
-      problems.add(node, fmt::format("'{}' {}", node.string, mistake.what()));
+      problems.add(node, fmt::format("'{}': {}", node.string, mistake.what()));
       number.number = 1.0;  // so that it is told of once
     }
     node = std::move(number);

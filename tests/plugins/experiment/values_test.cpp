@@ -72,20 +72,20 @@ TEST(Values, MistakesAreNamedWithTheirPlace)
                        const std::string& values = R"({ "pitch": 12 })") {
     const std::string found = message(values, expression);
     EXPECT_NE(found.find("/cell/vectors/0/0"), std::string::npos) << found;
-    EXPECT_NE(found.find("'" + expression + "' " + what), std::string::npos) << found;
+    EXPECT_NE(found.find("'" + expression + "': " + what), std::string::npos) << found;
   };
   says("$pich", "there is no value 'pich'; did you mean 'pitch'?");
-  says("$pitch +", "ends where a number is expected");
+  says("$pitch +", "it ends where a number is expected");
   says("$pitch 2", "'2' was not expected");
-  says("$", "has '$' without a name");
-  says("$pitch * (2", "lacks ')'");
+  says("$", "'$' without a name");
+  says("$pitch * (2", "')' is missing");
   says("$pitch * pitch", "'pitch' is no function; a named value is written $pitch");
-  says("$pitch / 0", "comes to no finite number");
-  says("$pitch * sqrt(-1)", "comes to no finite number");
+  says("$pitch / 0", "it comes to no finite number");
+  says("$pitch * sqrt(-1)", "it comes to no finite number");
   says("$a", "the value 'a' depends on itself", R"({ "a": "$b", "b": "$a" })");
   says("$a", "the value 'a' is no number", R"({ "a": true })");
-  says("$" + std::string(2000, 'a'), "is longer than 1000 characters");
-  says("$pitch*" + std::string(100, '('), "is nested more than", R"({ "pitch": 1 })");
+  says("$" + std::string(2000, 'a'), "longer than 1000 characters");
+  says("$pitch*" + std::string(100, '('), "nested more than", R"({ "pitch": 1 })");
   EXPECT_NE(problems_of(text_of("", "$L")).find("there is no value 'L'"), std::string::npos);
 }
 

@@ -239,6 +239,7 @@ inspect(folder / "empty.obj", code=2)
 (folder / "model.ply").write_text("ply\n")
 assert "expected a file .stl, .obj or .3mf" in inspect(folder / "model.ply", code=2)[1]
 (folder / "no.3mf").write_bytes(b"PK\3\4 nothing")
+assert inspect(folder / "absent.stl", code=2)[1].endswith("absent.stl: there is no such file\n")
 without_3mf = "built without libzip" in inspect(folder / "no.3mf", code=2)[1]
 
 # What the program exports, of a cage of struts with five holes; and a whole sheet by every way.

@@ -3,6 +3,7 @@
 #include "contact/mesh.hpp"
 #include "contact/published.hpp"
 #include "geometry/panel_bound.hpp"
+#include "geometry/strip.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -37,6 +38,8 @@ void add_terms(const PairFrame& frame, const ContactSettings& settings, const Re
 {
   switch (settings.formulation) {
     case Formulation::arc:
+      if (dim == 2 && settings.sides == Sides::ribbon && has_strips(frame))
+        return add_ribbon(frame, settings, request, share, near, out);
       return add_arc<dim>(frame, settings, request, share, near, out);
     case Formulation::published:
       refuse_others(frame, "contact 'published'");

@@ -35,9 +35,12 @@ enum class MinimaSearch { certified, sampled };
 /// 2e-4 and 1e-2. Rough costs three quarters and a fifth, for stages wider than 3e-4 L.
 enum class Quadrature { fine, rough };
 
-/// Which of two equals an `arc` is integrated over: `both`, half each, so that labels do not matter; or
-/// `one`, the smaller ring (of two as large the first), at half the cost, for stages that only lead on.
-enum class Sides { both, one };
+/// What an `arc` is integrated over. Of two equals `both`, half each, so that labels do not matter; or `one`,
+/// the smaller ring (of two as large the first), at half the cost. `ribbon`: one of them, and of a flat tube
+/// the line of those places of its cross-sections that are nearest to the other body, instead of its surface:
+/// a tenth of the cost. Where a cross-section has two nearest places a ribbon jumps, and knows of one of
+/// them.
+enum class Sides { both, one, ribbon };
 
 /// Activation distance and clearance, scaled by L.
 struct ContactSettings {
@@ -77,6 +80,13 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
 template <int dim>
 void add_arc(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
              const NearPanels& near, SideTerms& out);
+
+/// Integral of the barrier of dimension 1 along the ribbon of P, a flat tube: over u the gap's least value
+/// around its cross-section, found by Newton's method from where the cross-section faces F. Derivatives
+/// follow as those of minima do: D_q = d_q, D_qq = d_qq - d_qv d_vq/d_vv. Needs has_strips(frame). Gaps below
+/// g_hat are in `near`.
+void add_ribbon(const PairFrame& frame, const ContactSettings& settings, const Request& request, double share,
+                const NearPanels& near, SideTerms& out);
 
 /// The published contact: the barrier of the squared gap of every local minimum, faded where the minimum is
 /// about to merge with another or to vanish (paper equations (4) and (9) to (11)); see published.hpp. In

@@ -125,7 +125,7 @@ class StationarySearch {
     // Turned by an arbitrary angle so that symmetric scenes have no minimum on a panel's end.
     constexpr double turn = 0.1234;
     const FirstPanels<dim> first(probe_, turn);
-    for (int k = 0; k < FirstPanels<dim>::rows; ++k)
+    for (int k = 0; k < first.rows(); ++k)
       if (first.meets(k, near_)) visit_all(first.row(k));
   }
 
@@ -147,16 +147,16 @@ class StationarySearch {
       if (near_.meet(p.s)) panels[found++] = p;
     const std::span<PanelField> near = std::span(panels).first(found);
     fill_fields(*probe_.f.F, near);
-    for (const PanelField& p : near) visit(p);
+    for (PanelField& p : near) visit(p);
   }
 
-  void visit(const PanelField& p)
+  void visit(PanelField& p)
   {
-    const Panel& s = p.s;
     if (++evaluations_ > last_) too_flat(probe_.f, "closest points", most_evaluations);
     poll(keep_going_, evaluations_);
+    if (bound_of(probe_, p, threshold_).bound >= threshold_) return;
+    const Panel s = p.near();
     const double d = probe_.Lu * s.hu + probe_.Lv * s.hv;
-    if (panel_bound(probe_, s, p.q, p.f, threshold_).bound > threshold_) return;
     const Local l = local_of(probe_, p.q, p.f);
     // Largest curvature of the field on the panel.
     const FieldCurvature field = field_curvature(*probe_.f.F, l.f, d);
@@ -187,7 +187,7 @@ class StationarySearch {
       descend(s, l);
       return;
     }
-    visit_all(located_halves(probe_, p, longer_along_u(probe_, s)));
+    visit_all(located_halves(probe_, p, longer_along_u(probe_, p)));
   }
 
   Minimum canonical(const Minimum& m) const

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -22,11 +24,11 @@ constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
 
 /// Distance to the value at g_hat = 0 from the last three stages of one formulation, when the differences
-/// shrink in proportion to g_hat.
-std::optional<double> estimate_error(const std::vector<StageRecord>& s)
+/// shrink in proportion to g_hat. Over other sides they shrink to the same, from another distance.
+std::optional<double> estimate_error(const std::vector<StageRecord>& s, const std::vector<Sides>& sides)
 {
   const std::size_t n = s.size();
-  if (n < 3) return std::nullopt;
+  if (n < 3 || sides[n - 1] != sides[n - 2] || sides[n - 2] != sides[n - 3]) return std::nullopt;
   const double ratio = s[n - 1].g_hat / s[n - 2].g_hat;
   if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation)
     return std::nullopt;
@@ -48,6 +50,7 @@ class Path {
         keep_going_(keep_going),
         size_(load_size(m, load))
   {
+    flat_tubes_ = std::any_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_ellipse(); });
     out_.state = start;
     if (schedule.keep_path) out_.path.push_back(start);
     arc_to_the_end_ = choice == ContactChoice::arc;
@@ -63,7 +66,7 @@ class Path {
     out_.status = LockStatus::locked;
     balance();
     if (out_.status != LockStatus::locked) return std::move(out_);
-    out_.error_estimate = estimate_error(out_.stages);
+    out_.error_estimate = estimate_error(out_.stages, sides_);
     return std::move(out_);
   }
 
@@ -79,6 +82,7 @@ class Path {
     const State before = out_.state;
     if (arc_to_the_end_) plan.formulation = Formulation::arc;
     StageResult r = attempt(before, plan);
+    if (plan.sides == Sides::ribbon) repeat_over_surfaces(before, plan, r);
     if (may_change(plan)) repeat_with_arc(before, plan, r);
     if (schedule_.keep_path) out_.path.insert(out_.path.end(), path_.begin(), path_.end());
     if (r.status != StageStatus::minimum) {
@@ -87,6 +91,8 @@ class Path {
       return false;
     }
     out_.stage = make_stage(plan);
+    sides_.resize(out_.stages.size());
+    sides_.push_back(plan.sides);
     out_.stages.push_back(
         {plan.g_hat, load_.dot(out_.state.macro), plan.formulation, r.iterations, r.residual, r.escapes});
     out_.trail.push_back(out_.state);
@@ -100,23 +106,50 @@ class Path {
     return choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest;
   }
 
+  /// A stage of `arc`: where there are flat tubes over ribbons, which is entered, unless that gives up or, as
+  /// the last stage, leaves forces that do not balance.
+  StageResult attempt_with_arc(const State& before, PlannedStage& arc)
+  {
+    if (!flat_tubes_) return attempt(before, arc);
+    const Sides surfaces = std::exchange(arc.sides, Sides::ribbon);
+    StageResult r = attempt(before, arc);
+    const bool balanced = r.status != StageStatus::minimum || !arc.last || !(r.residual > unbalanced);
+    if (!gave_up(r) && balanced) return r;
+    arc.sides = surfaces;
+    return attempt(before, arc);
+  }
+
+  static bool gave_up(const StageResult& r)
+  {
+    return r.status == StageStatus::merging || r.status == StageStatus::stalled ||
+           r.status == StageStatus::iteration_limit;
+  }
+
+  /// Runs a stage over ribbons again over surfaces, where it gave up: ribbons jump where a cross-section has
+  /// two nearest places.
+  void repeat_over_surfaces(const State& before, PlannedStage& plan, StageResult& r)
+  {
+    if (!flat_tubes_ || !gave_up(r)) return;
+    plan.sides = Sides::one;
+    r = attempt(before, plan);
+  }
+
   /// Runs a stage of `nearest` again with `arc`, where it gave up or its forces do not balance.
   void repeat_with_arc(const State& before, PlannedStage& plan, StageResult& r)
   {
     PlannedStage arc = plan;
     arc.formulation = Formulation::arc;
-    if (r.status == StageStatus::merging || r.status == StageStatus::stalled ||
-        r.status == StageStatus::iteration_limit) {
+    if (gave_up(r)) {
       arc_to_the_end_ = r.status != StageStatus::merging;
       plan = arc;
-      r = attempt(before, plan);
+      r = attempt_with_arc(before, plan);
       return;
     }
     if (!plan.last || r.status != StageStatus::minimum || !(r.residual > unbalanced)) return;
     // Contacts that merge can leave forces on points that do not balance; spread forces do.
     const State points = out_.state;
     const std::vector<State> path = path_;
-    const StageResult spread = attempt(before, arc);
+    const StageResult spread = attempt_with_arc(before, arc);
     if (spread.status == StageStatus::interrupted ||
         (spread.status == StageStatus::minimum && spread.residual < r.residual)) {
       plan = arc;
@@ -264,7 +297,9 @@ class Path {
   double size_;
   GapBounds bounds_;
   bool arc_to_the_end_ = false;
+  bool flat_tubes_ = false;  ///< there are some, which ribbons are of
   bool before_valid_ = false;
+  std::vector<Sides> sides_;       ///< of out_.stages
   std::vector<State> path_;        ///< of the last attempt, from where its stage began
   std::optional<State> previous_;  ///< end of the stage before the last finished one
   Locked out_;

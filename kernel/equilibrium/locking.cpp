@@ -160,7 +160,7 @@ PlannedStage planned_stage(ContactChoice choice, const Schedule& schedule, doubl
   // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
   const bool wide = g_hat > schedule.change;
   out.quadrature = wide ? Quadrature::rough : last ? schedule.last_quadrature : Quadrature::fine;
-  out.sides = wide && !last ? Sides::one : Sides::both;
+  out.sides = wide && !last ? Sides::ribbon : Sides::both;
   return out;
 }
 

@@ -43,7 +43,7 @@ class PanelSearch {
   Separation run()
   {
     const FirstPanels<dim> first(probe_);
-    for (int k = FirstPanels<dim>::rows; k-- > 0;) {
+    for (int k = first.rows(); k-- > 0;) {
       std::array<PanelField, most_together> row = first.row(k);
       fill_fields(*probe_.f.F, row);
       for (std::size_t j = row.size(); j-- > 0;)
@@ -58,9 +58,11 @@ class PanelSearch {
   double needed() const { return std::min(enough_, tightness_ * found_.upper); }
 
   /// False where the search is over: the bodies touch.
-  bool visit(const PanelField& p)
+  bool visit(PanelField& p)
   {
-    const PanelBound b = panel_bound(probe_, p.s, p.q, p.f, needed() + shift_);
+    // What is taken off for rounding in the end is asked for, too.
+    const double least = needed() + touching_;
+    const PanelBound b = bound_of(probe_, p, least + shift_);
     ++found_.evaluations;
     found_.upper = std::min(found_.upper, b.value - shift_);
     if (found_.upper <= touching_) {
@@ -72,7 +74,9 @@ class PanelSearch {
       found_.lower = std::min(found_.lower, lower);
       return true;
     }
-    const std::array<PanelField, 2> half = split(probe_, p);
+    // What of a strip is outside of its window.
+    if (p.half > 0.0 && p.half < all_around) found_.lower = std::min(found_.lower, least);
+    std::array<PanelField, 2> half = split(probe_, p);
     return visit(half[0]) && visit(half[1]);
   }
 

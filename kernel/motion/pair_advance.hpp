@@ -138,8 +138,8 @@ class PairAdvance {
   void look_everywhere(const Probe<dim>& probe)
   {
     const FirstPanels<dim> first(probe);
-    looked_.reserve(most_together * FirstPanels<dim>::rows);
-    for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+    looked_.reserve(most_together * static_cast<std::size_t>(first.rows()));
+    for (int k = 0; k < first.rows(); ++k) {
       std::array<PanelField, most_together> row = first.row(k);
       fill_fields(*frame_.F, row);
       looked_.insert(looked_.end(), row.begin(), row.end());
@@ -215,7 +215,7 @@ class PairAdvance {
 
   /// True where a panel, whose gap is at least `bound`, holds for the time tau, which it may halve. What it
   /// was split into, itself if it was not, is added to `split_` in any case.
-  bool holds(const Probe<dim>& probe, const PanelField& p, double bound, double& tau, double keep)
+  bool holds(const Probe<dim>& probe, PanelField& p, double bound, double& tau, double keep)
   {
     const double gap = gap_at(probe, p);
     least_seen_ = std::min(least_seen_, gap);
@@ -232,7 +232,9 @@ class PairAdvance {
       verdict = look(probe, p, tau, bound);
     }
     if (verdict == Verdict::holds) return leave(true);
-    const std::array<PanelField, 2> half = split(probe, p);
+    if (is_strip(p.s) && p.half < all_around && !longer_along_u(probe, p))
+      split_.push_back({rest_of(p), std::max(bound, target_)});
+    std::array<PanelField, 2> half = split(probe, p);
     evaluations_ += 2;
     poll(keep_going_, ++splits_);
     const std::size_t first = half[1].f.m.phi < half[0].f.m.phi ? 1 : 0;  // nearer first
@@ -246,11 +248,43 @@ class PairAdvance {
 
   enum class Verdict { holds, too_wide, too_long };
 
-  /// Whether a panel's gap stays above the target for the time tau. Raises `bound`, which its gap at the
-  /// beginning is not below.
-  Verdict look(const Probe<dim>& probe, const PanelField& p, double tau, double& bound) const
+  /// What of a strip is outside of its window.
+  static Panel rest_of(const PanelField& p)
   {
-    const Panel& s = p.s;
+    return {p.s.u, in_turn(p.s.v + std::numbers::pi), p.s.hu, all_around - p.half};
+  }
+
+  /// Whether a panel's gap stays above the target for the time tau. Raises `bound`, which its gap at the
+  /// beginning is not below. Of a strip only the window is left to be looked at, which is entered.
+  Verdict look(const Probe<dim>& probe, PanelField& p, double tau, double& bound) const
+  {
+    if constexpr (dim == 2) {
+      if (is_strip(p.s)) {
+        const double shift = probe.offset + clearance_;
+        const StripWindow window = strip_window(probe, p.s, p.q, p.f, target_ + shift, strip_motion(p, tau));
+        p.half = window.half;
+        bound = std::max(bound, StripBound<dim>(probe, p.s, p.q, p.f, StripMotion{}).bound() - shift);
+        if (window.half == 0.0) return Verdict::holds;
+        double inside = -std::numeric_limits<double>::infinity();
+        const Verdict verdict = look_at(probe, p, tau, inside);
+        bound = std::max(bound, window.half < all_around ? std::min(inside, target_) : inside);
+        return verdict;
+      }
+    }
+    return look_at(probe, p, tau, bound);
+  }
+
+  /// What the motion over the time tau may do to a strip's window.
+  StripMotion strip_motion(const PanelField& p, double tau) const
+  {
+    const Motion motion = motion_of(p.q, p.f);
+    return {tau * motion.velocity, tau * (wp_ - wf_), 0.5 * acceleration_ * tau * tau};
+  }
+
+  /// The same of the part of a panel that may be near.
+  Verdict look_at(const Probe<dim>& probe, const PanelField& p, double tau, double& bound) const
+  {
+    const Panel s = p.near();
     const ProbePoint& q = p.q;
     const FieldValue& f = p.f;
     const double g = gap_at(probe, p) - f.doubt;

@@ -128,7 +128,7 @@ Stage read_stage(RecordReader& in)
   s.contact.search = read_word(in, MinimaSearch::sampled);
   s.contact.panel_ratio = in.number<double>();
   s.contact.quadrature = read_word(in, Quadrature::rough);
-  s.contact.sides = read_word(in, Sides::one);
+  s.contact.sides = read_word(in, Sides::ribbon);
   s.mu = in.number<double>();
   s.ccd = read_word(in, CollisionCheck::sampled);
   s.target = in.number<double>();

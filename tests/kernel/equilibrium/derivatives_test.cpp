@@ -1,6 +1,7 @@
 /// Derivatives of the contact energy in all unknowns and parameters, for every formulation and all pairs of
 /// primitive kinds: central differences at several step sizes must converge with second order.
 
+#include "contact/barrier.hpp"
 #include "contact/body_pair.hpp"
 #include "differences.hpp"
 #include "equilibrium/newton.hpp"
@@ -8,6 +9,8 @@
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 namespace hauberk::test {
 namespace {
@@ -217,6 +220,49 @@ TEST(Sides, OneIsTheSmallerRingsAndBothAreTheMean)
   }
 }
 
+TEST(Arc, RibbonIsTheLeastGapAroundEachCrossSection)
+{
+  // Independent of the search for strips: the least gap around each of many cross-sections, by the
+  // trapezoidal rule.
+  Primitive small, large;
+  small.kind = large.kind = PrimitiveKind::revolved_ellipse;
+  small.size = {0.9, 0.12, 0.2};
+  large.size = {1.0, 0.18, 0.13};
+  const Body P = make_body(small, 0, 0, 1.0), F = make_body(large, 1, 0, 1.0);
+  Pose at;
+  at.position = Vec3(1.36, 0.1, 0.12);
+  at.rotation = Eigen::AngleAxisd(1.3, Vec3(1.0, 0.3, 0.2).normalized()).toRotationMatrix();
+  const PairFrame frame(P, Pose{}, F, at);
+  ContactSettings settings{Formulation::arc, 0.15, 0.0};
+  settings.sides = Sides::ribbon;
+  const Probe<2> probe(frame);
+  double sum = 0.0, least_gap = 1.0;
+  constexpr int n = 3000, around = 400;
+  for (int i = 0; i < n; ++i) {
+    const double u = 2.0 * std::numbers::pi * i / n;
+    const auto gap = [&](double v) { return field_at(F, probe.at(u, v).p).m.phi; };
+    double best = 0.0, least = gap(0.0);
+    for (int j = 1; j < around; ++j) {
+      const double v = 2.0 * std::numbers::pi * j / around;
+      if (gap(v) < least) least = gap(best = v);
+    }
+    double step = 2.0 * std::numbers::pi / around;
+    for (; step > 1e-9; step *= 0.5)
+      for (const double v : {best - step, best + step})
+        if (gap(v) < least) least = gap(best = v);
+    least_gap = std::min(least_gap, least);
+    if (least >= settings.g_hat) continue;
+    sum += barrier<1>(least, settings.g_hat).b * 2.0 * std::numbers::pi / n;
+  }
+  ASSERT_GT(least_gap, 0.01);
+  ASSERT_LT(least_gap, 0.1);
+  const double expected = sum / std::sqrt(settings.g_hat);
+  const SideTerms found = side_terms(frame, settings, Request{0, false, false}, 1.0);
+  EXPECT_NEAR(found.energy, expected, 1e-6 * expected);
+  settings.quadrature = Quadrature::rough;
+  EXPECT_NEAR(side_terms(frame, settings, Request{0, false, false}, 1.0).energy, expected, 1e-5 * expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Pairs, Derivatives,
     ::testing::Values(Case{"arc_circle_circle", Formulation::arc, 0.7, 0.7},
@@ -224,6 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"arc_ellipse_ellipse", Formulation::arc, 0.5, 0.95},
                       Case{"arc_over_one_circle", Formulation::arc, 0.7, 0.7, Sides::one},
                       Case{"arc_over_one_ellipse", Formulation::arc, 0.5, 0.95, Sides::one},
+                      Case{"arc_over_a_ribbon", Formulation::arc, 0.5, 0.95, Sides::ribbon},
                       Case{"nearest_circle_circle", Formulation::nearest, 0.7, 0.7},
                       Case{"nearest_circle_ellipse", Formulation::nearest, 0.7, 0.95},
                       Case{"nearest_ellipse_ellipse", Formulation::nearest, 0.5, 0.95},

@@ -1,6 +1,7 @@
 /// Bounds of the distance field: never violated, and of the order that makes them worth their cost.
 
 #include "geometry/panel_bound.hpp"
+#include "geometry/strip.hpp"
 
 #include <gtest/gtest.h>
 
@@ -146,6 +147,70 @@ void expect_below_samples(int count, std::uint64_t seed)
 
 TEST(PanelBound, CirclesStayAboveTheirBounds) { expect_below_samples<1>(20000, 2); }
 TEST(PanelBound, SurfacesStayAboveTheirBounds) { expect_below_samples<2>(3000, 3); }
+
+TEST(Strip, NothingOutsideOfItsWindowIsNearer)
+{
+  Random random(5);
+  int windows = 0, none = 0, moving = 0;
+  double narrowest = all_around, tightest = 0.0;
+  constexpr int count = 4000, samples = 60;
+  for (int i = 0; i < count; ++i) {
+    const Body F = torus(1.0, random.between(0.05, 0.3), random.between(0.05, 0.3));
+    const Body P = torus(1.0, random.between(0.05, 0.3), random.between(0.05, 0.3));
+    Pose pp;
+    pp.position = Vec3(random.between(0.5, 2.2 - P.r0 - F.r0), 0.0, 0.0) + 0.2 * random.direction();
+    pp.rotation = Eigen::AngleAxisd(random.between(0.0, 3.1), random.direction()).toRotationMatrix();
+    const PairFrame frame(P, pp, F, Pose{});
+    ASSERT_TRUE(has_strips(frame));
+    const Probe<2> probe(frame);
+    Panel s{random.between(0.0, 6.3), 0.0, random.power_of_ten(-4.0, -0.5), all_around};
+    s.v = facing_angle(frame, Angle(s.u)) + random.between(-0.2, 0.2);
+    const ProbePoint q = probe.at(s.u, s.v);
+    const FieldValue f = field_at(F, q.p);
+    if (f.m.phi < 0.0) continue;
+    StripMotion motion;
+    if (i % 2 == 0) {
+      const double size = random.power_of_ten(-4.0, -1.0);
+      motion.velocity = size * random.direction();
+      motion.turn = size * random.between(0.0, 1.0) * random.direction();
+      motion.bend = 0.1 * size * random.between(0.0, 1.0);
+      ++moving;
+    }
+    const double needed = f.m.phi + random.between(-0.5, 0.3) * random.power_of_ten(-3.0, -0.3);
+    const StripWindow window = strip_window(probe, s, q, f, needed, motion);
+    windows += window.half > 0.0 && window.half < all_around ? 1 : 0;
+    none += window.half == 0.0 ? 1 : 0;
+    if (window.half > 0.0) narrowest = std::min(narrowest, window.half);
+    const double bound = StripBound<2>(probe, s, q, f, motion).bound();
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < samples; ++k) {
+      const double u = s.u + s.hu * random.between(-1.0, 1.0);
+      // Around the border of the window as often as anywhere.
+      double dv = random.between(-all_around, all_around);
+      if (k % 2 == 0)
+        dv = std::copysign(std::min(window.half + random.power_of_ten(-5.0, 0.0), all_around), dv);
+      const Vec3 p = probe.at(u, s.v + dv).p;
+      const double t = random.between(0.0, 1.0);
+      const Vec3 there =
+          p + t * (motion.velocity + motion.turn.cross(p - q.p)) + motion.bend * random.direction();
+      const double phi = field_at(F, there).m.phi;
+      least = std::min(least, phi);
+      EXPECT_GE(phi, bound - 1e-14) << i;
+      if (std::abs(dv) > window.half) {
+        EXPECT_GE(phi, needed - 1e-14) << i;
+      }
+    }
+    if (window.half == 0.0) {
+      EXPECT_GE(window.bound, needed);
+    }
+    if (bound > 0.0) tightest = std::max(tightest, bound / least);
+  }
+  EXPECT_GT(windows, count / 10);
+  EXPECT_GT(none, count / 10);
+  EXPECT_GT(moving, count / 4);
+  EXPECT_LT(narrowest, 0.02);
+  EXPECT_GT(tightest, 0.99);
+}
 
 TEST(PanelBound, ErrorOfTheDearerBoundIsOfThirdOrder)
 {

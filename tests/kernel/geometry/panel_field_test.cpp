@@ -114,7 +114,7 @@ struct Scene {
 };
 
 template <int dim>
-void expect_panels_to_cover_and_to_keep_their_angles()
+void expect_panels_to_cover_and_to_keep_their_angles(Tiling tiling)
 {
   Primitive ring;
   ring.kind = dim == 1 ? PrimitiveKind::circle_tube : PrimitiveKind::revolved_ellipse;
@@ -124,10 +124,10 @@ void expect_panels_to_cover_and_to_keep_their_angles()
   const Scene scene(make_body(ring, 0, 0, 1.0), make_body(ring, 1, 0, 1.0), pose);
   const Probe<dim> probe(scene.frame);
   constexpr double turn = 0.1234;
-  const FirstPanels<dim> first(probe, turn);
+  const FirstPanels<dim> first(probe, turn, tiling);
   double area = 0.0;
   Numbers random;
-  for (int k = 0; k < FirstPanels<dim>::rows; ++k) {
+  for (int k = 0; k < first.rows(); ++k) {
     std::array<PanelField, 4> row = first.row(k);
     fill_fields(scene.F, row);
     for (PanelField p : row) {
@@ -148,12 +148,59 @@ void expect_panels_to_cover_and_to_keep_their_angles()
 
 TEST(PanelField, FirstPanelsCoverAndHalvesKeepTheirAnglesOnLines)
 {
-  expect_panels_to_cover_and_to_keep_their_angles<1>();
+  expect_panels_to_cover_and_to_keep_their_angles<1>(Tiling::panels);
 }
 
 TEST(PanelField, FirstPanelsCoverAndHalvesKeepTheirAnglesOnSurfaces)
 {
-  expect_panels_to_cover_and_to_keep_their_angles<2>();
+  expect_panels_to_cover_and_to_keep_their_angles<2>(Tiling::panels);
+}
+
+TEST(PanelField, StripsCoverAndFollowTheNearestPlace)
+{
+  Primitive ring;
+  ring.kind = PrimitiveKind::revolved_ellipse;
+  ring.size = {1.0, 0.2, 0.3};
+  Pose pose;
+  pose.position = Vec3(0.9, 0.1, 0.2);
+  pose.rotation = Eigen::AngleAxisd(1.2, Vec3(1.0, 0.3, 0.0).normalized()).toRotationMatrix();
+  const Scene scene(make_body(ring, 0, 0, 1.0), make_body(ring, 1, 0, 1.0), pose);
+  const Probe<2> probe(scene.frame);
+  const FirstPanels<2> first(probe, 0.1234);
+  ASSERT_EQ(first.rows(), 2);
+  double length = 0.0, off = 0.0;
+  int followed = 0;
+  for (int k = 0; k < first.rows(); ++k) {
+    std::array<PanelField, most_together> row = first.row(k);
+    fill_fields(scene.F, row);
+    for (const PanelField& p : row) {
+      ASSERT_TRUE(is_strip(p.s));
+      length += 2.0 * p.s.hu;
+      std::vector<PanelField> strips{p};
+      for (int depth = 0; depth < 5; ++depth) {
+        std::vector<PanelField> next;
+        for (const PanelField& s : strips) {
+          std::array<PanelField, 2> half = located_halves(probe, s, true);
+          fill_fields(scene.F, half);
+          EXPECT_TRUE(is_strip(half[0].s) && is_strip(half[1].s));
+          EXPECT_NEAR(half[0].s.u + half[0].s.hu, half[1].s.u - half[1].s.hu, 1e-15);
+          next.insert(next.end(), half.begin(), half.end());
+        }
+        strips = next;
+      }
+      for (const PanelField& s : strips) {
+        const ProbePoint exact = probe.at(s.s.u, s.s.v);
+        EXPECT_NEAR((s.q.p - exact.p).norm(), 0.0, 3e-14);
+        const SecondDerivatives h = surface_hessian(probe, s.q, s.f);
+        if (!(h.vv > 0.05)) continue;
+        off = std::max(off, std::abs(s.f.n.dot(s.q.pv) / h.vv));
+        ++followed;
+      }
+    }
+  }
+  EXPECT_NEAR(length, 2.0 * std::numbers::pi, 1e-13);
+  EXPECT_GT(followed, 100);
+  EXPECT_LT(off, 0.02) << "radians from the nearest place of a cross-section";
 }
 
 }  // namespace

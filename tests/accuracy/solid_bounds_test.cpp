@@ -166,7 +166,8 @@ TEST_P(SolidBounds, AreBelowSamplesAndAsTightAsTheKernels)
   EXPECT_EQ(kit.panels.panels, own.panels.panels);
   EXPECT_EQ(own.open, 0);
   EXPECT_LE(kit.open, static_cast<long>(kit.half.size() / 50));
-  // As tight in the middle, to a fifth. Where half is asked for, a search by strips comes to more than it was asked.
+  // As tight in the middle, to a fifth. Where half is asked for, a search by strips comes to more than it was
+  // asked.
   if (GetParam() == PairKind::round_round) {
     EXPECT_GT(kit.half.quantile(0.5), 0.8 * own.half.quantile(0.5));
   }

@@ -17,11 +17,6 @@ constexpr double surface_element = 0.25;
 /// The same of the product of two cores.
 constexpr double product_element = 1.0;
 
-constexpr double smallest_panel = 1e-12;
-/// Evaluations that the integral of one pair is worth, some seconds. Blades, with thousands of radii of
-/// curvature around them, would take hours.
-constexpr int most_evaluations = 30000000;
-
 /// `n`: points of the rule along a line of a panel; fewer where the integral is rough.
 template <int dim, int n>
 class ArcIntegral {
@@ -36,7 +31,7 @@ class ArcIntegral {
         request_(request),
         near_(near),
         out_(out),
-        last_(out.evaluations + most_evaluations),
+        last_(out.evaluations + most_integral_evaluations),
         weight_(share * (dim == 1 ? 1.0 / std::sqrt(2.0 * reference_radius * settings.g_hat)
                                   : (frame.difference != nullptr ? product_element : surface_element) /
                                         (2.0 * pi * reference_radius * settings.g_hat)))
@@ -76,14 +71,14 @@ class ArcIntegral {
     const ProbePoint& q = p.q;
     const FieldValue& f = p.f;
     const PanelBound b = panel_bound(probe_, s, q, f, settings_.g_hat + probe_.offset + settings_.clearance);
-    if (++out_.evaluations > last_) too_flat(frame_, "integrals over contacts", most_evaluations);
+    if (++out_.evaluations > last_) too_flat(frame_, "integrals over contacts", most_integral_evaluations);
     poll(settings_.keep_going, out_.evaluations);
     const double g = b.value - probe_.offset - settings_.clearance;
     out_.min_gap = std::min(out_.min_gap, g);
     if (b.bound - probe_.offset - settings_.clearance >= settings_.g_hat) return;
     if (g <= 0.0) return;  // min_gap tells
     const std::array<double, 2> size = sizes(s, q, f, std::min(g, 4.0 * settings_.g_hat));
-    if (std::max(size[0], size[1]) > 1.0 && std::max(s.hu, s.hv) > smallest_panel) {
+    if (std::max(size[0], size[1]) > 1.0 && std::max(s.hu, s.hv) > smallest_part) {
       // Far from contact a bound that is too low is to be raised, by panels that are small in both
       // directions.
       const bool along_u = g < 4.0 * settings_.g_hat ? size[0] >= size[1] : longer_along_u(probe_, p);
@@ -204,15 +199,7 @@ class ArcIntegral {
     out_.energy += w * b.b;
     if (request_.order >= 1) out_.add(f, q.on_p - frame_.o, w * b.db, w * b.ddb, request_.order);
     if (request_.parameters) out_.template add_parameters<dim>(frame_, f, q, w * b.db);
-    if (request_.points) {
-      ContactPoint c;
-      c.normal = f.n;
-      c.on_f = q.on_p - f.m.phi * f.n;
-      c.on_p = c.on_f + (g + settings_.clearance) * f.n;
-      c.gap = g;
-      c.force = -w * b.db;
-      nodes_.push_back(c);
-    }
+    if (request_.points) nodes_.push_back(zone_node(q, f, g, settings_.clearance, -w * b.db));
   }
 
   const PairFrame& frame_;

@@ -12,6 +12,17 @@ constexpr double negligible_zone = 1e-9;
 
 }  // namespace
 
+ContactPoint zone_node(const ProbePoint& q, const FieldValue& f, double gap, double clearance, double force)
+{
+  ContactPoint c;
+  c.normal = f.n;
+  c.on_f = q.on_p - f.m.phi * f.n;
+  c.on_p = c.on_f + (gap + clearance) * f.n;
+  c.gap = gap;
+  c.force = force;
+  return c;
+}
+
 void add_contact_zones(const PairFrame& frame, double g_hat, double clearance,
                        std::vector<ContactPoint> nodes, std::vector<ContactPoint>& out)
 {

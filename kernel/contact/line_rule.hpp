@@ -20,6 +20,12 @@ namespace hauberk {
 /// scales the stiffness, so that the three barriers push alike (see barrier.hpp). Unit: L.
 inline constexpr double reference_radius = 0.5;
 
+/// Half-width of panels that are not halved again, radians.
+inline constexpr double smallest_part = 1e-12;
+/// Evaluations that the integral of one pair is worth, some seconds. Blades, with thousands of radii of
+/// curvature around them, would take hours.
+inline constexpr int most_integral_evaluations = 30000000;
+
 template <int n>
 struct GaussRule {
   std::array<double, n> x, w;

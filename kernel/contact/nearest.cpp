@@ -50,11 +50,6 @@ struct Local {
   double gu = 0, gv = 0, huu = 0, huv = 0, hvv = 0;
 };
 
-Vec3 curvature(const FieldValue& f, const Vec3& x)
-{
-  return (f.m.k * f.meridian.dot(x)) * f.meridian + (f.k_azimuth * f.azimuth.dot(x)) * f.azimuth;
-}
-
 template <int dim>
 Local local_of(const Probe<dim>& probe, const ProbePoint& q, const FieldValue& f)
 {
@@ -62,13 +57,13 @@ Local local_of(const Probe<dim>& probe, const ProbePoint& q, const FieldValue& f
   l.q = q;
   l.f = f;
   l.gu = l.f.n.dot(l.q.pu);
-  const Vec3 Ku = curvature(l.f, l.q.pu);
+  const Vec3 Ku = field_hessian(l.f, l.q.pu);
   const SecondDerivatives own = probe.second(l.q, l.f.n);
   l.huu = Ku.dot(l.q.pu) + own.uu;
   if constexpr (dim == 2) {
     l.gv = l.f.n.dot(l.q.pv);
     l.huv = Ku.dot(l.q.pv) + own.uv;
-    l.hvv = curvature(l.f, l.q.pv).dot(l.q.pv) + own.vv;
+    l.hvv = field_hessian(l.f, l.q.pv).dot(l.q.pv) + own.vv;
   }
   return l;
 }
@@ -142,12 +137,7 @@ class StationarySearch {
   template <std::size_t count>
   void visit_all(std::array<PanelField, count> panels)
   {
-    std::size_t found = 0;
-    for (const PanelField& p : panels)
-      if (near_.meet(p.s)) panels[found++] = p;
-    const std::span<PanelField> near = std::span(panels).first(found);
-    fill_fields(*probe_.f.F, near);
-    for (PanelField& p : near) visit(p);
+    for (PanelField& p : fields_of_near(*probe_.f.F, near_, panels)) visit(p);
   }
 
   void visit(PanelField& p)
@@ -348,17 +338,7 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
     const Vec3 rho = l.q.on_p - frame.o;
     if (request.order >= 1) out.add(l.f, rho, b.db, b.ddb, request.order);
     if (request.order >= 2) {
-      // d g / d c of the gradient (n, rho x n), for c = u and v. On a difference v moves no point of P.
-      const auto mixed = [&](const Vec3& t, bool on_p) {
-        const Vec3 kn = curvature(l.f, t);
-        Vec6 x;
-        if (on_p)
-          x << kn, t.cross(l.f.n) + rho.cross(kn);
-        else
-          x << kn, rho.cross(kn);
-        return x;
-      };
-      const Vec6 xu = mixed(l.q.pu, true);
+      const Vec6 xu = gradient_along(l.f, rho, l.q.pu, true);
       // Of curves, whose speed changes along them, it is that of the place.
       const bool place = frame.P->curve || frame.P->solid;
       constexpr double slowest = 1e-3;  // of a solid, whose probe stands still at poles and ends
@@ -370,7 +350,8 @@ void add_nearest(const PairFrame& frame, const ContactSettings& settings, const 
         if (l.huu > 0.0) out.hessian.noalias() -= (b.db / l.huu) * xu * xu.transpose();
         out.regularity = std::min(out.regularity, l.huu / (speed_u * speed_u));
       } else {
-        const Vec6 xv = mixed(l.q.pv, frame.difference == nullptr);
+        // On a difference v moves no point of P.
+        const Vec6 xv = gradient_along(l.f, rho, l.q.pv, frame.difference == nullptr);
         const double det = l.huu * l.hvv - l.huv * l.huv;
         if (det > 0.0) {
           out.hessian.noalias() -= (b.db / det) * (l.hvv * xu * xu.transpose() + l.huu * xv * xv.transpose() -

@@ -26,9 +26,6 @@ struct RibbonPoint {
 /// `points`: of Gauss's rule, as many as an integral along a core has.
 template <int points>
 class RibbonIntegral {
-  static constexpr int most_evaluations_of_ribbon = 30000000;
-  static constexpr double smallest_strip = 1e-12;
-
  public:
   RibbonIntegral(const PairFrame& frame, const ContactSettings& settings, const Request& request,
                  double share, const NearPanels& near, SideTerms& out)
@@ -38,7 +35,7 @@ class RibbonIntegral {
         request_(request),
         near_(near),
         out_(out),
-        last_(out.evaluations + most_evaluations_of_ribbon),
+        last_(out.evaluations + most_integral_evaluations),
         weight_(share / std::sqrt(2.0 * reference_radius * settings.g_hat))
   {
   }
@@ -56,19 +53,14 @@ class RibbonIntegral {
   template <std::size_t count>
   void visit_all(std::array<PanelField, count> strips)
   {
-    std::size_t found = 0;
-    for (const PanelField& p : strips)
-      if (near_.meet(p.s)) strips[found++] = p;
-    const std::span<PanelField> near = std::span(strips).first(found);
-    fill_fields(*frame_.F, near);
-    for (PanelField& p : near) visit(p);
+    for (PanelField& p : fields_of_near(*frame_.F, near_, strips)) visit(p);
   }
 
   double gap(const FieldValue& f) const { return f.m.phi - settings_.clearance; }
 
   void visit(PanelField& p)
   {
-    if (++out_.evaluations > last_) too_flat(frame_, "integrals over contacts", most_evaluations_of_ribbon);
+    if (++out_.evaluations > last_) too_flat(frame_, "integrals over contacts", most_integral_evaluations);
     poll(settings_.keep_going, out_.evaluations);
     out_.min_gap = std::min(out_.min_gap, gap(p.f));
     if (bound_of(probe_, p, settings_.g_hat + settings_.clearance).bound - settings_.clearance >=
@@ -80,7 +72,7 @@ class RibbonIntegral {
     const double g = gap(middle.f);
     out_.min_gap = std::min(out_.min_gap, g);
     if (g <= 0.0) return;
-    if (size(p.s, middle, std::min(g, 4.0 * settings_.g_hat)) > 1.0 && p.s.hu > smallest_strip) {
+    if (size(p.s, middle, std::min(g, 4.0 * settings_.g_hat)) > 1.0 && p.s.hu > smallest_part) {
       visit_all(located_halves(probe_, p, true));
       return;
     }
@@ -181,23 +173,13 @@ class RibbonIntegral {
     const Vec3 rho = r.q.on_p - frame_.o;
     if (request_.order >= 1) out_.add(r.f, rho, w * b.db, w * b.ddb, request_.order);
     if (request_.order >= 2 && r.h.vv > 0.0) {
-      const Vec3 kn = (r.f.m.k * r.f.meridian.dot(r.q.pv)) * r.f.meridian +
-                      (r.f.k_azimuth * r.f.azimuth.dot(r.q.pv)) * r.f.azimuth;
-      Vec6 x;
-      x << kn, r.q.pv.cross(r.f.n) + rho.cross(kn);
+      const Vec6 x = gradient_along(r.f, rho, r.q.pv, true);
       const double by = w * b.db / r.h.vv;
       for (int j = 0; j < 6; ++j)
         for (int i = j; i < 6; ++i) out_.hessian(i, j) -= by * x[i] * x[j];
     }
     if (request_.parameters) out_.template add_parameters<2>(frame_, r.f, r.q, w * b.db);
-    if (!request_.points) return;
-    ContactPoint c;
-    c.normal = r.f.n;
-    c.on_f = r.q.on_p - r.f.m.phi * r.f.n;
-    c.on_p = r.q.on_p;
-    c.gap = g;
-    c.force = -w * b.db;
-    nodes_.push_back(c);
+    if (request_.points) nodes_.push_back(zone_node(r.q, r.f, g, settings_.clearance, -w * b.db));
   }
 
   /// Radians: the longest turn of one step around a cross-section, and the step that is not taken any more.

@@ -1,5 +1,7 @@
 #include "contact/side_terms.hpp"
 
+#include "geometry/panel_bound.hpp"
+
 #include <hauberk/solid.hpp>
 
 namespace hauberk {
@@ -118,6 +120,17 @@ void SideTerms::add_solid_probe(const Body& P, const ProbePoint& q, double w1, c
 
 template void SideTerms::add_parameters<1>(const PairFrame&, const FieldValue&, const ProbePoint&, double);
 template void SideTerms::add_parameters<2>(const PairFrame&, const FieldValue&, const ProbePoint&, double);
+
+Vec6 gradient_along(const FieldValue& f, const Vec3& rho, const Vec3& t, bool on_p)
+{
+  const Vec3 kn = field_hessian(f, t);
+  Vec6 x;
+  if (on_p)
+    x << kn, t.cross(f.n) + rho.cross(kn);
+  else
+    x << kn, rho.cross(kn);
+  return x;
+}
 
 PairTerms to_world(const SideTerms& side, const Mat3& M, const Vec3& xi, int order)
 {

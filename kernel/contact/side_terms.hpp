@@ -65,6 +65,10 @@ struct SideTerms {
   void add_solid_probe(const Body& P, const ProbePoint& q, double w1, const Vec3& n);
 };
 
+/// The change of a gap's gradient (n, rho x n) in the relative motion while its place moves along t, which
+/// moves the point of P, too, or that of F alone.
+Vec6 gradient_along(const FieldValue& f, const Vec3& rho, const Vec3& t, bool on_p);
+
 /// Terms in the world frame for (eta, w_P, w_F), eta = shift of P's element minus shift of F's.
 struct PairTerms {
   double energy = 0.0;

@@ -24,11 +24,11 @@ constexpr double steady_order =
     0.3;  ///< relative change of the convergence ratio that still counts as steady
 
 /// Distance to the value at g_hat = 0 from the last three stages of one formulation, when the differences
-/// shrink in proportion to g_hat. Over other sides they shrink to the same, from another distance.
-std::optional<double> estimate_error(const std::vector<StageRecord>& s, const std::vector<Sides>& sides)
+/// shrink in proportion to g_hat.
+std::optional<double> estimate_error(const std::vector<StageRecord>& s)
 {
   const std::size_t n = s.size();
-  if (n < 3 || sides[n - 1] != sides[n - 2] || sides[n - 2] != sides[n - 3]) return std::nullopt;
+  if (n < 3) return std::nullopt;
   const double ratio = s[n - 1].g_hat / s[n - 2].g_hat;
   if (s[n - 1].formulation != s[n - 3].formulation || s[n - 2].formulation != s[n - 1].formulation)
     return std::nullopt;
@@ -66,7 +66,7 @@ class Path {
     out_.status = LockStatus::locked;
     balance();
     if (out_.status != LockStatus::locked) return std::move(out_);
-    out_.error_estimate = estimate_error(out_.stages, sides_);
+    out_.error_estimate = ends_over_other_places() ? room_under_load() : estimate_error(out_.stages);
     return std::move(out_);
   }
 
@@ -82,7 +82,12 @@ class Path {
     const State before = out_.state;
     if (arc_to_the_end_) plan.formulation = Formulation::arc;
     StageResult r = attempt(before, plan);
-    if (plan.sides == Sides::ribbon) repeat_over_surfaces(before, plan, r);
+    const bool ribbons = flat_tubes_ && plan.formulation == Formulation::arc && plan.sides == Sides::ribbon;
+    if (ribbons && gave_up(r)) {
+      // Ribbons jump where a cross-section has two nearest places.
+      plan.sides = Sides::one;
+      r = attempt(before, plan);
+    }
     if (may_change(plan)) repeat_with_arc(before, plan, r);
     if (schedule_.keep_path) out_.path.insert(out_.path.end(), path_.begin(), path_.end());
     if (r.status != StageStatus::minimum) {
@@ -91,8 +96,6 @@ class Path {
       return false;
     }
     out_.stage = make_stage(plan);
-    sides_.resize(out_.stages.size());
-    sides_.push_back(plan.sides);
     out_.stages.push_back(
         {plan.g_hat, load_.dot(out_.state.macro), plan.formulation, r.iterations, r.residual, r.escapes});
     out_.trail.push_back(out_.state);
@@ -123,15 +126,6 @@ class Path {
   {
     return r.status == StageStatus::merging || r.status == StageStatus::stalled ||
            r.status == StageStatus::iteration_limit;
-  }
-
-  /// Runs a stage over ribbons again over surfaces, where it gave up: ribbons jump where a cross-section has
-  /// two nearest places.
-  void repeat_over_surfaces(const State& before, PlannedStage& plan, StageResult& r)
-  {
-    if (!flat_tubes_ || !gave_up(r)) return;
-    plan.sides = Sides::one;
-    r = attempt(before, plan);
   }
 
   /// Runs a stage of `nearest` again with `arc`, where it gave up or its forces do not balance.
@@ -243,6 +237,15 @@ class Path {
     out_.evaluations = evaluations;
   }
 
+  /// True where the last stage is one of `arc` over surfaces and those before it were over ribbons: the two
+  /// come to a limit from other distances.
+  bool ends_over_other_places() const
+  {
+    const std::size_t n = out_.stages.size();
+    return flat_tubes_ && n > 1 && out_.stages[n - 1].formulation == Formulation::arc &&
+           out_.stages[n - 2].formulation == Formulation::arc;
+  }
+
   /// By how much the value would rise if the gaps under load closed, to first order: a force is the value's
   /// derivative with respect to its gap, so this is the sum of force times gap.
   double room_under_load() const
@@ -299,7 +302,6 @@ class Path {
   bool arc_to_the_end_ = false;
   bool flat_tubes_ = false;  ///< there are some, which ribbons are of
   bool before_valid_ = false;
-  std::vector<Sides> sides_;       ///< of out_.stages
   std::vector<State> path_;        ///< of the last attempt, from where its stage began
   std::optional<State> previous_;  ///< end of the stage before the last finished one
   Locked out_;

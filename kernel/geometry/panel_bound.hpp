@@ -162,7 +162,13 @@ double taylor_bound(const Probe<dim>& probe, const Panel& s, double phi, double 
   return phi - std::min(size.first, slope + 0.5 * (size.first * size.first / rho_min + size.second));
 }
 
-/// D^2 phi[x, y] at the point where `f` was evaluated.
+/// D^2 phi[x], the change of the gradient along x, at the point where `f` was evaluated.
+inline Vec3 field_hessian(const FieldValue& f, const Vec3& x)
+{
+  return (f.m.k * f.meridian.dot(x)) * f.meridian + (f.k_azimuth * f.azimuth.dot(x)) * f.azimuth;
+}
+
+/// D^2 phi[x, y].
 inline double field_hessian(const FieldValue& f, const Vec3& x, const Vec3& y)
 {
   return f.m.k * f.meridian.dot(x) * f.meridian.dot(y) + f.k_azimuth * f.azimuth.dot(x) * f.azimuth.dot(y);

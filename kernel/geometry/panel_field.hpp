@@ -90,6 +90,18 @@ class NearPanels {
 /// How a probe set of dimension 2 is divided at first: where there are strips, into strips or not.
 enum class Tiling { strips, panels };
 
+/// Those of the panels, of which places are known and fields are not, that may be in range, with their
+/// fields, in front of the others.
+inline std::span<PanelField> fields_of_near(const Body& F, const NearPanels& near,
+                                            std::span<PanelField> panels)
+{
+  std::size_t found = 0;
+  for (const PanelField& p : panels)
+    if (near.meet(p.s)) panels[found++] = p;
+  fill_fields(F, panels.first(found));
+  return panels.first(found);
+}
+
 /// The first panels of a search, four at a time; from `turn` on, radians.
 template <int dim>
 class FirstPanels {
@@ -99,7 +111,7 @@ class FirstPanels {
         turn_(turn),
         across_(dim == 1 || (tiling == Tiling::strips && has_strips(probe.f)) ? 1 : most_across)
   {
-    for (int j = 0; dim == 2 && j < most_across; ++j) v_[j] = Angle(center(j, most_across));
+    for (int j = 0; across_ > 1 && j < across_; ++j) v_[j] = Angle(center(j, across_));
   }
 
   int rows() const { return along * across_ / static_cast<int>(most_together); }
@@ -185,8 +197,8 @@ std::array<PanelField, 2> located_halves(const Probe<dim>& probe, const PanelFie
   return out;
 }
 
-/// True where a panel is to be halved along u: where it is longer. A strip is as long as there is something
-/// to tell apart in its window: narrow ones have short windows, if they have any.
+/// True where a panel is to be halved along u: where it is longer. A strip is halved along v where its window
+/// is still many times as long as it is wide, which halving it along u does not change.
 template <int dim>
 bool longer_along_u(const Probe<dim>& probe, const PanelField& p)
 {
@@ -194,6 +206,13 @@ bool longer_along_u(const Probe<dim>& probe, const PanelField& p)
   constexpr double longest_window = 4.0;  // over the width of its strip
   const double along = probe.Lu * p.s.hu;
   return is_strip(p.s) ? longest_window * along >= probe.Lv * p.half : along >= probe.Lv * p.s.hv;
+}
+
+/// True where the halves of a panel will be those of a strip's window, and something of it is outside.
+template <int dim>
+bool leaves_a_rest(const Probe<dim>& probe, const PanelField& p)
+{
+  return is_strip(p.s) && p.half < all_around && !longer_along_u(probe, p);
 }
 
 /// The halves of a panel along its longer side, with their fields.

@@ -74,8 +74,7 @@ class PanelSearch {
       found_.lower = std::min(found_.lower, lower);
       return true;
     }
-    // What of a strip is outside of its window.
-    if (p.half > 0.0 && p.half < all_around) found_.lower = std::min(found_.lower, least);
+    if (leaves_a_rest(probe_, p)) found_.lower = std::min(found_.lower, least);
     std::array<PanelField, 2> half = split(probe_, p);
     return visit(half[0]) && visit(half[1]);
   }

@@ -68,10 +68,9 @@ inline double facing_angle(const PairFrame& frame, const Angle& u)
 ///
 /// which is below `needed` between two values of q, or nowhere: where a > 0 the cross-section has one nearest
 /// place. What is left for Q = 1 is looked at once more with that as Q. Thread safe.
-template <int dim>
 class StripBound {
  public:
-  StripBound(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
+  StripBound(const Probe<2>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
              const StripMotion& motion)
       : f_(f), widest_(probe.f.P->R + probe.f.P->r0), r0_(probe.f.P->r0)
   {
@@ -119,8 +118,7 @@ class StripBound {
   };
   Travel travel(const Form& x, const Form& turned, double moved) const
   {
-    return {std::hypot(x.A, x.B) + std::hypot(turned.A, turned.B) + r0_ * (x.u + turned.u),
-            widest_ * (x.u + turned.u) + moved};
+    return {std::hypot(x.A, x.B) + std::hypot(turned.A, turned.B), widest_ * (x.u + turned.u) + moved};
   }
 
   /// The same where all with q > most is left out.
@@ -150,11 +148,10 @@ class StripBound {
 };
 
 /// See StripBound.
-template <int dim>
-StripWindow strip_window(const Probe<dim>& probe, const Panel& s, const ProbePoint& q, const FieldValue& f,
-                         double needed, const StripMotion& motion = {})
+inline StripWindow strip_window(const Probe<2>& probe, const Panel& s, const ProbePoint& q,
+                                const FieldValue& f, double needed, const StripMotion& motion = {})
 {
-  return StripBound<dim>(probe, s, q, f, motion).window(needed);
+  return StripBound(probe, s, q, f, motion).window(needed);
 }
 
 }  // namespace hauberk

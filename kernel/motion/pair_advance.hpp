@@ -232,8 +232,7 @@ class PairAdvance {
       verdict = look(probe, p, tau, bound);
     }
     if (verdict == Verdict::holds) return leave(true);
-    if (is_strip(p.s) && p.half < all_around && !longer_along_u(probe, p))
-      split_.push_back({rest_of(p), std::max(bound, target_)});
+    if (leaves_a_rest(probe, p)) split_.push_back({rest_of(p), std::max(bound, target_)});
     std::array<PanelField, 2> half = split(probe, p);
     evaluations_ += 2;
     poll(keep_going_, ++splits_);
@@ -263,7 +262,7 @@ class PairAdvance {
         const double shift = probe.offset + clearance_;
         const StripWindow window = strip_window(probe, p.s, p.q, p.f, target_ + shift, strip_motion(p, tau));
         p.half = window.half;
-        bound = std::max(bound, StripBound<dim>(probe, p.s, p.q, p.f, StripMotion{}).bound() - shift);
+        bound = std::max(bound, StripBound(probe, p.s, p.q, p.f, StripMotion{}).bound() - shift);
         if (window.half == 0.0) return Verdict::holds;
         double inside = -std::numeric_limits<double>::infinity();
         const Verdict verdict = look_at(probe, p, tau, inside);

@@ -77,6 +77,34 @@ TEST(Stages, EndWiderWhereNoStepOfANarrowOneCanBeCertified)
   EXPECT_NEAR(*l.error_estimate, short_by, 0.01 * short_by);
 }
 
+/// Stages that only lead on go along ribbons of flat tubes, the last one goes over their surfaces: how its
+/// value falls short is not a remainder of theirs.
+TEST(Stages, SayHowFarAWideEndOfFlatTubesFallsShort)
+{
+  const double R = 5.0, r0 = 0.7, r1 = 1.2, cell = 12.0;
+  const Sheet load;
+  const Model m = make_model(chain({R, r0, r1}, {R, r0, r1}, cell), load, 0.0);
+  const MacroLoad pull{load_vector(m, Direction(), Sense::positive), Matrix(m.macro_count, 0)};
+  const auto ends = [&](double last) {
+    Schedule schedule;
+    schedule.last = last;
+    return lock(m, rest_state(m), pull, ContactChoice::automatic, schedule, [] { return true; });
+  };
+  const Locked narrow = ends(2e-9);
+  ASSERT_EQ(narrow.status, LockStatus::locked) << narrow.message;
+  const double limit = pull.pull.dot(narrow.state.macro);
+  for (const double last : {1e-2, 1e-3}) {
+    const Locked wide = ends(last);
+    ASSERT_EQ(wide.status, LockStatus::locked) << wide.message;
+    EXPECT_EQ(wide.stage.contact.formulation, Formulation::arc);
+    EXPECT_EQ(wide.stage.contact.sides, Sides::both);
+    const double short_by = limit - pull.pull.dot(wide.state.macro);
+    EXPECT_GT(short_by, 0.01 * last);
+    ASSERT_TRUE(wide.error_estimate);
+    EXPECT_NEAR(*wide.error_estimate, short_by, 0.15 * short_by) << last;
+  }
+}
+
 /// One pair of flat rings takes thousands of evaluations: who wants to stop does not wait for its end, and
 /// gets the last state that was whole.
 TEST(Stages, AreInterruptedWithinOnePair)

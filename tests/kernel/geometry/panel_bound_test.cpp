@@ -181,7 +181,7 @@ TEST(Strip, NothingOutsideOfItsWindowIsNearer)
     windows += window.half > 0.0 && window.half < all_around ? 1 : 0;
     none += window.half == 0.0 ? 1 : 0;
     if (window.half > 0.0) narrowest = std::min(narrowest, window.half);
-    const double bound = StripBound<2>(probe, s, q, f, motion).bound();
+    const double bound = StripBound(probe, s, q, f, motion).bound();
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < samples; ++k) {
       const double u = s.u + s.hu * random.between(-1.0, 1.0);

@@ -25,11 +25,14 @@ double seconds_since(std::chrono::steady_clock::time_point t0)
 /// Records every iterate and passes it on.
 class Recorder final : public OptimizerObserver {
  public:
-  Recorder(DesignProblem& problem, const DesignSpec& design, int start, const DesignObserver& observer)
+  /// Iterates are counted from `first`.
+  Recorder(DesignProblem& problem, const DesignSpec& design, int start, int first,
+           const DesignObserver& observer)
       : problem_(problem),
         design_(design),
         tasks_(target_tasks(design)),
         start_(start),
+        first_(first),
         observer_(observer),
         t0_(std::chrono::steady_clock::now())
   {
@@ -39,7 +42,7 @@ class Recorder final : public OptimizerObserver {
   {
     const DesignPoint& p = problem_.current();
     DesignIterate d;
-    d.iteration = it.iteration;
+    d.iteration = first_ + it.iteration;
     d.objective = it.value;
     d.step = it.step;
     d.optimality = it.optimality;
@@ -68,7 +71,7 @@ class Recorder final : public OptimizerObserver {
   DesignProblem& problem_;
   const DesignSpec& design_;
   std::vector<LimitTask> tasks_;
-  int start_;
+  int start_, first_;
   const DesignObserver& observer_;
   std::chrono::steady_clock::time_point t0_;
 };
@@ -160,10 +163,13 @@ struct SearchOutcome {
   bool interrupted = false;
 };
 
+constexpr const char* an_earlier_iterate =
+    "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
+
 SearchOutcome search(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
-                     std::span<const double> x0, int start, const DesignObserver& observer)
+                     std::span<const double> x0, int start, int first, const DesignObserver& observer)
 {
-  Recorder recorder(problem, design, start, observer);
+  Recorder recorder(problem, design, start, first, observer);
   SearchOutcome s;
   s.found = optimizer.minimize(problem, x0, recorder);
   s.history = std::move(recorder.history);
@@ -175,9 +181,46 @@ SearchOutcome search(DesignProblem& problem, const DesignSpec& design, const Opt
     s.found.status = "targets_met";
     s.found.message = "every target is met to within design.tolerance, limits not yet recomputed";
   } else if (problem.settle()) {
-    s.found.message +=
-        "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
+    s.found.message += an_earlier_iterate;
   }
+  s.found.x = problem.current().x;
+  s.found.value = problem.current().objective;
+  return s;
+}
+
+/// Searches that go on because a thorough look at what the last one ended with found other states.
+constexpr int most_continuations = 3;
+
+/// The search with the final stages. Where it ends without having met its targets, its design is looked at as
+/// thoroughly as reported limits are; where that finds states further on, the search was after other values
+/// than its own, and goes on from there.
+SearchOutcome search_to_the_end(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
+                                std::span<const double> x0, int start, const DesignObserver& observer)
+{
+  SearchOutcome s = search(problem, design, optimizer, x0, start, 0, observer);
+  int continuations = 0;
+  for (;;) {
+    if (s.interrupted || s.history.empty() || s.found.status == "targets_met") return s;
+    const bool further = problem.confirm();
+    s.found.value = problem.current().objective;
+    if (!further || s.found.status == "iteration_limit") break;
+    if (continuations == most_continuations) {
+      s.found.message += "; where it ended, states were found once more that lead further";
+      break;
+    }
+    ++continuations;
+    const SearchOutcome next = search(problem, design, optimizer, problem.current().x, start,
+                                      s.history.back().iteration + 1, observer);
+    if (next.history.empty()) break;
+    s.found.x = next.found.x;
+    s.found.value = next.found.value;
+    s.found.status = next.found.status;
+    s.found.message = next.found.message;
+    s.found.iterations += next.found.iterations + 1;
+    s.interrupted = next.interrupted;
+    s.history.insert(s.history.end(), next.history.begin(), next.history.end());
+  }
+  if (problem.take_best_confirmed()) s.found.message += an_earlier_iterate;
   s.found.x = problem.current().x;
   s.found.value = problem.current().objective;
   return s;
@@ -233,7 +276,7 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
   out.problem->set_memory(memory);
   out.problem->set_schedule(coarse);
   const std::vector<double> x0 = out.problem->feasible_towards(random_move(design, start));
-  out.outcome = search(*out.problem, design, optimizer, x0, start, observer);
+  out.outcome = search(*out.problem, design, optimizer, x0, start, 0, observer);
   return out;
 }
 
@@ -282,7 +325,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
     const long before = best_problem->evaluations();
     best_problem->set_schedule(design.schedule);
     const SearchOutcome fine =
-        search(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
+        search_to_the_end(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
     out.result.evaluations += best_problem->evaluations() - before;
     if (!fine.history.empty()) {
       out.result.iterations += fine.found.iterations;

@@ -235,7 +235,7 @@ void DesignProblem::accept(std::span<const double> x)
                                                                         : "could not evaluate: " + p->why));
   // What ends a search has to be what its limits are recomputed as.
   const bool at_the_goal = meets_targets(scene_->design, p->values);
-  p->thorough = at_the_goal;
+  p->thorough = at_the_goal || thorough_checks_;
   take(p, p->unchecked >= most_unchecked || at_the_goal);
 }
 
@@ -255,6 +255,32 @@ bool DesignProblem::settle()
   if (current_->unchecked > 0) take(current_, true);
   if (!confirmed_ || confirmed_->objective >= current_->objective) return false;
   take(confirmed_, false);
+  return true;
+}
+
+bool DesignProblem::confirm()
+{
+  if (current_ == last_thorough_) return false;
+  current_->thorough = true;
+  take(current_, true);
+  last_thorough_ = current_;
+  const bool further = !current_->changed.empty();
+  const bool keeps_clearances = constraints_->satisfied(*current_, current_->model);
+  if (further) {
+    // Objectives of iterates that were not looked at so thoroughly cannot be compared with this one's.
+    confirmed_ = keeps_clearances ? current_ : nullptr;
+    thorough_checks_ = true;
+  }
+  if (keeps_clearances && (!best_thorough_ || current_->objective < best_thorough_->objective))
+    best_thorough_ = current_;
+  return further;
+}
+
+bool DesignProblem::take_best_confirmed()
+{
+  if (!best_thorough_ || best_thorough_ == current_ || best_thorough_->objective >= current_->objective)
+    return false;
+  take(best_thorough_, false);
   return true;
 }
 

@@ -52,6 +52,13 @@ class DesignProblem final : public OptimizationProblem {
   /// states had been looked for so, and which satisfies the constraints, goes back to the best of these; true
   /// then. To be called where a search ends.
   bool settle();
+  /// Looks for the states of the current design with all searches that its limits are recomputed with. True
+  /// where a state came out further: its values were others than the search took them for, and a search that
+  /// goes on from there has them right. Later checks are as thorough then.
+  bool confirm();
+  /// Goes back to the design that `confirm` left with the smallest objective; true where that is not the
+  /// current one.
+  bool take_best_confirmed();
   /// The last accepted design.
   const DesignPoint& current() const { return *current_; }
   /// Variables of the scene as given.
@@ -84,6 +91,9 @@ class DesignProblem final : public OptimizationProblem {
   std::vector<std::shared_ptr<DesignPoint>> accepted_;
   /// The best iterate within the constraints whose states are what rest leads to; null before there is one.
   std::shared_ptr<DesignPoint> confirmed_;
+  /// The last one that went through `confirm`, and the best of them; null before there is one.
+  std::shared_ptr<DesignPoint> last_thorough_, best_thorough_;
+  bool thorough_checks_ = false;
 };
 
 }  // namespace hauberk

@@ -166,7 +166,6 @@ std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoin
   LimitSettings settings = scene_->limits;
   settings.start = p.rest;
   settings.schedule = schedule_;
-  settings.neighbours = 0.0;  // targets are neighbours of each other; others would be most of the cost
   std::vector<std::optional<State>> states;
   LimitsObserver observer;
   observer.on_states = [&states](const auto& found) { states = found; };

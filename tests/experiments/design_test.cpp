@@ -106,6 +106,27 @@ TEST(Design, EachSearchEndsWithTheFirstIterateThatMeetsItsTargets)
   EXPECT_NEAR(number_at(d, "/targets/0/recomputed"), target, 2.0 * tolerance * target);
 }
 
+/// The values that a search ends with are those of the states that its limits are recomputed as, and it goes
+/// on where a thorough look at its end finds others than those that it followed.
+TEST(Design, EndsWithTheLimitsThatItsDesignHas)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"run", HAUBERK_DESIGNS "/folds_further.json", "-o", folder / "out"}).code, 0);
+  const json::value r = read_results(folder / "out");
+  const json::value& d = r.at("design");
+  // Values of designs leave the last stage's gaps out, to first order.
+  EXPECT_NEAR(number_at(d, "/targets/0/provisional"), number_at(d, "/targets/0/recomputed"), 1e-4);
+  const json::array& history = d.at("history").as_array();
+  // The last search begins where the one before ended, with another value.
+  std::size_t last = history.size() - 1;
+  while (number_at(history[last], "/step") != 0.0) --last;
+  ASSERT_GE(last, 2U);
+  EXPECT_NEAR(number_at(d, "/targets/0/recomputed"), -0.0225, 1e-4);
+  EXPECT_EQ(history[last].at("variables"), history[last - 1].at("variables"));
+  EXPECT_LT(number_at(history[last], "/values/0"), number_at(history[last - 1], "/values/0") - 1e-3);
+  EXPECT_FALSE(history[last].at("changed").as_array().empty());
+}
+
 TEST(Design, SameResultsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

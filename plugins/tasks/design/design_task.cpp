@@ -362,6 +362,8 @@ class DesignTask final : public TaskRun {
     }
     if (begins) first_ = history_.empty() ? 0 : history_.back().iteration + 1;
     start_ = p.start;
+    // Objectives from other states cannot be compared with this one.
+    if (!p.iterate->changed.empty()) best_ = std::numeric_limits<double>::infinity();
     context_->progress.design(p, spec_, fine_);
     history_.push_back(*p.iterate);
     history_.back().iteration += first_;

@@ -33,6 +33,7 @@ struct DesignPoint {
   int unchecked = 0;            ///< steps since all states were looked for from rest
   bool checked = false;         ///< they were, after this one was accepted
   bool thorough = false;        ///< and with all searches that limits are recomputed with in the end
+  bool keeps_further = false;   ///< a check keeps followed states that are further than where rest led
   std::string why;              ///< why it could not be evaluated
 };
 

@@ -235,7 +235,8 @@ void DesignProblem::accept(std::span<const double> x)
                                                                         : "could not evaluate: " + p->why));
   // What ends a search has to be what its limits are recomputed as.
   const bool at_the_goal = meets_targets(scene_->design, p->values);
-  p->thorough = at_the_goal || thorough_checks_;
+  p->thorough = at_the_goal;
+  p->keeps_further = found_further_ && !at_the_goal;
   take(p, p->unchecked >= most_unchecked || at_the_goal);
 }
 
@@ -262,6 +263,7 @@ bool DesignProblem::confirm()
 {
   if (current_ == last_thorough_) return false;
   current_->thorough = true;
+  current_->keeps_further = false;
   take(current_, true);
   last_thorough_ = current_;
   const bool further = !current_->changed.empty();
@@ -269,7 +271,7 @@ bool DesignProblem::confirm()
   if (further) {
     // Objectives of iterates that were not looked at so thoroughly cannot be compared with this one's.
     confirmed_ = keeps_clearances ? current_ : nullptr;
-    thorough_checks_ = true;
+    found_further_ = true;
   }
   if (keeps_clearances && (!best_thorough_ || current_->objective < best_thorough_->objective))
     best_thorough_ = current_;

@@ -54,7 +54,8 @@ class DesignProblem final : public OptimizationProblem {
   bool settle();
   /// Looks for the states of the current design with all searches that its limits are recomputed with. True
   /// where a state came out further: its values were others than the search took them for, and a search that
-  /// goes on from there has them right. Later checks are as thorough then.
+  /// goes on from there has them right. States that are followed from then on are kept where a look from rest
+  /// comes less far: only searches as thorough as these would find them again.
   bool confirm();
   /// Goes back to the design that `confirm` left with the smallest objective; true where that is not the
   /// current one.
@@ -93,7 +94,7 @@ class DesignProblem final : public OptimizationProblem {
   std::shared_ptr<DesignPoint> confirmed_;
   /// The last one that went through `confirm`, and the best of them; null before there is one.
   std::shared_ptr<DesignPoint> last_thorough_, best_thorough_;
-  bool thorough_checks_ = false;
+  bool found_further_ = false;  ///< by `confirm`, once
 };
 
 }  // namespace hauberk

@@ -102,6 +102,9 @@ bool TargetSearch::lock_from_rest(const DesignPoint& p, const MacroLoad& load,
     take_further(search_from_rest(p, load, attempt, out));
   if (known) take_further(search(p, *known, load, without_widest(schedule_), out));
   if (found.status == LockStatus::stalled && !warm.empty()) return false;
+  if (p.keeps_further && !warm.empty() && found.status == LockStatus::locked &&
+      value(found.state) < value(warm.back().state) - schedule_.last)
+    return false;
   out.followed = !warm.empty();
   out.changed = out.followed && found.status == LockStatus::locked &&
                 std::abs(value(found.state) - value(warm.back().state)) > schedule_.last;

@@ -56,8 +56,8 @@ class TargetSearch {
                 LockedTarget& counted) const;
   Locked search_from_rest(const DesignPoint& p, const MacroLoad& load, int attempt,
                           LockedTarget& counted) const;
-  /// The furthest state that rest, or `known`, leads to; false where searches from rest stalled and there are
-  /// states to follow.
+  /// The furthest state that rest, or `known`, leads to; false where there are states to follow, and searches
+  /// from rest stalled, or come less far than these and p is to keep them.
   bool lock_from_rest(const DesignPoint& p, const MacroLoad& load, const std::vector<WarmStart>& warm,
                       const std::optional<State>& known, LockedTarget& out) const;
   /// The continuation of a state of another design from its tightest stage that can be followed.

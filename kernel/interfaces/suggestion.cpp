@@ -65,9 +65,15 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
 {
   std::string near = did_you_mean(name, candidates);
   if (!near.empty() || candidates.empty()) return near;
-  const auto shown = static_cast<std::ptrdiff_t>(std::min(candidates.size(), longest_list));
-  return fmt::format("; known: '{}'{}", fmt::join(candidates.begin(), candidates.begin() + shown, "', '"),
-                     candidates.size() > longest_list ? ", ..." : "");
+  // Elements of one kind have the same names.
+  std::vector<std::string> known;
+  for (const std::string& candidate : candidates) {
+    if (known.size() > longest_list) break;
+    if (std::find(known.begin(), known.end(), candidate) == known.end()) known.push_back(candidate);
+  }
+  const bool all = known.size() <= longest_list;
+  if (!all) known.pop_back();
+  return fmt::format("; known: '{}'{}", fmt::join(known, "', '"), all ? "" : ", ...");
 }
 
 }  // namespace hauberk

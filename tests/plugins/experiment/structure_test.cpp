@@ -185,6 +185,13 @@ TEST(Nearest, CountsHalfSteps)
   // Up to a third of the letters may be wrong: "bar" is no slip of the pen for "ring".
   EXPECT_EQ(nearest_name("bar", {"ring", "solver"}), "");
   EXPECT_EQ(suggestion("bar", {"ring", "solver"}), "; known: 'ring', 'solver'");
+  EXPECT_EQ(suggestion("bar", {"ring", "solver", "ring"}), "; known: 'ring', 'solver'");
+  std::vector<std::string> many;
+  for (int k = 0; k < 24; ++k) many.push_back("name_" + std::to_string(k));
+  const std::string all = suggestion("bar", many);
+  EXPECT_EQ(all.substr(all.size() - 9), "'name_23'");
+  many.push_back("name_24");
+  EXPECT_EQ(suggestion("bar", many), all + ", ...");
   EXPECT_EQ(suggestion("rong", {"ring", "solver"}), "; did you mean 'ring'?");
   EXPECT_EQ(did_you_mean("bar", {"ring"}), "");
 }

@@ -359,13 +359,19 @@ std::optional<Nearest> nearest_copies(const Assembly& assembly, double enough)
       for (const Body& B : bodies[b.mesh]) {
         if (A.surface || B.surface) continue;  // only their facets know how far apart they are
         if (ball_gap(A, a.pose, B, b.pose, 0.0) >= least) continue;
-        // Rough for pairs that are farther apart than the nearest so far, then as exact as it is promised.
-        Separation s = separation(A, a.pose, B, b.pose, 0.0, least, 0.9);
-        if (s.lower >= least) continue;
-        s = separation(A, a.pose, B, b.pose, 0.0, least, certain);
-        if (s.upper >= least) continue;
-        least = s.upper;
-        out = Nearest{s.upper, {a.name, b.name}};
+        // Rough first: for pairs that are farther apart than the nearest so far, and because a search that is
+        // exact spends itself on the first panels unless it knows how near others come.
+        const Separation rough = separation(A, a.pose, B, b.pose, 0.0, least, 0.9);
+        if (rough.lower >= least) continue;
+        const double most = std::min(least, rough.upper);
+        const Separation s = separation(A, a.pose, B, b.pose, 0.0, most, certain);
+        const double upper = std::min(s.upper, rough.upper), lower = std::max(s.lower, rough.lower);
+        const double rounding = 1e-9 * std::min(A.bound, B.bound);
+        const bool known = lower >= certain * upper - rounding || upper <= 0.0;
+        const double distance = known ? upper : lower;
+        if (distance >= least) continue;
+        least = distance;
+        out = Nearest{distance, {a.name, b.name}, known};
       }
     }
   };

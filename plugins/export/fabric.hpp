@@ -92,12 +92,12 @@ struct Assembly {
 Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::optional<Outline>& outline,
                   double chord);
 
-/// The nearest two copies: surface distance (certified to 1 part in 1,000 or 1e-9 of the wire, 0 or below
-/// where they overlap) and their names. None where there are not two, or where all pairs are farther apart
-/// than `enough`.
+/// The nearest two copies: surface distance (certified to a millionth, or to rounding; 0 or below where they
+/// overlap) and their names. None where there are not two, or where all pairs are farther apart than `enough`.
 struct Nearest {
   double distance = 0.0;
   std::array<std::string, 2> names;
+  bool known = true;  ///< false: surfaces that conform were not looked at to the end; they are farther apart
 };
 std::optional<Nearest> nearest_copies(const Assembly& assembly, double enough);
 

@@ -160,9 +160,10 @@ void require_gap(const Assembly& assembly, const std::optional<Nearest>& nearest
 {
   if (!(wanted > 0.0) || !nearest || nearest->distance >= wanted) return;
   throw ComputationError(fmt::format(
-      "--require-gap {:g}: {} and {} are {:.6g} {} apart in this state; make the wire thinner or the rings wider by "
+      "--require-gap {:g}: {} and {} are {}{:.6g} {} apart in this state; make the wire thinner or the rings wider by "
       "the difference, `hauberk room` says by how much, or export another state",
-      wanted, nearest->names[0], nearest->names[1], std::max(0.0, nearest->distance), assembly.unit));
+      wanted, nearest->names[0], nearest->names[1], nearest->known ? "" : "not known to be more than ",
+      std::max(0.0, nearest->distance), assembly.unit));
 }
 
 /// What a person who prints it wants to know.
@@ -184,10 +185,10 @@ std::string summary(const Assembly& assembly, const std::optional<Nearest>& near
   text += fmt::format("thinnest wire {:.6g} {} across, lowest point z = {:.6g} {}\n", 2.0 * thin, unit,
                       lowest, unit);
   if (!nearest) return text + "no two elements are near each other\n";
-  text += fmt::format("smallest gap {:.6g} {}: {} and {}\n", std::max(0.0, nearest->distance), unit,
-                      nearest->names[0], nearest->names[1]);
+  text += fmt::format("smallest gap {}{:.6g} {}: {} and {}\n", nearest->known ? "" : "at least ",
+                      std::max(0.0, nearest->distance), unit, nearest->names[0], nearest->names[1]);
   constexpr double touching = 1e-3;  // of the wire
-  if (nearest->distance < touching * thin)
+  if (nearest->known && nearest->distance < touching * thin)
     text += "elements touch in this state: a printer fuses them; --require-gap refuses that\n";
   return text;
 }

@@ -186,6 +186,24 @@ for name in ("hook_and_eye", "borromean", "octahedra_solid", "oval_links"):
     else:
         print("admesh is not installed: not asked")
 
+# Wires as thick as the chord that is asked for stay whole: the cage is one body, and the ring another.
+cage, _ = export(experiments / "cage.json", "cage.stl", "--chord", "0.1")
+assert len(json.loads(run("inspect", cage, "--json"))["bodies"]) == 2
+
+# Two ovals (10 cos, 4 sin) with wire of 0.75, one upright and 17 away, have other closest points than where a search
+# begins: the gap is that of points tried one by one.
+text = (experiments / "oval_links.json").read_text().replace('"element": "racetrack"', '"element": "oval"')
+(folder / "ovals.json").write_text(text)
+angles = [(k - 300) / 300 for k in range(601)]
+flat = [(10 * math.cos(u), 4 * math.sin(u), 0.0) for u in angles]
+upright = [(17 - 10 * math.cos(v), 0.0, 4 * math.sin(v)) for v in angles]
+apart = min(math.dist(x, y) for x in flat for y in upright) - 1.5
+said = export(folder / "ovals.json", "ovals.stl")[1]
+close(float(said.split("smallest gap ")[1].split()[0]), apart, 1e-4)
+run("export", folder / "ovals.json", "-o", folder / "ovals_1.stl", "--require-gap", apart - 1e-3)
+assert "apart in this state" in run("export", folder / "ovals.json", "-o", folder / "no.stl", "--require-gap",
+                                    apart + 1e-3, expected=1)
+
 # Refusals leave nothing.
 said = run("export", chain, "-o", folder / "no.stl", "--require-gap", "0.7", "--repeat", "2,1", expected=1)
 assert "link 0 [0, 0] and link 0 [1, 0] are 0.6 mm apart" in said, said

@@ -93,7 +93,8 @@ Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::op
                   double chord);
 
 /// The nearest two copies: surface distance (certified to a millionth, or to rounding; 0 or below where they
-/// overlap) and their names. None where there are not two, or where all pairs are farther apart than `enough`.
+/// overlap) and their names. None where there are not two, or where all pairs are farther apart than
+/// `enough`.
 struct Nearest {
   double distance = 0.0;
   std::array<std::string, 2> names;

@@ -21,8 +21,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 /// Thread safe.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
-/// The end of a message about an unknown name: "; did you mean 'x'?", or "; known: 'a', 'b'" (each once) where
-/// nothing is near, or "" without candidates. Thread safe.
+/// The end of a message about an unknown name: "; did you mean 'x'?", or "; known: 'a', 'b'" (each once)
+/// where nothing is near, or "" without candidates. Thread safe.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace hauberk

@@ -620,7 +620,7 @@ class Computation {
       return results_[donors.task(donor)].status == LimitStatus::locked ? reached_by(donors, donor, k)
                                                                         : std::nullopt;
     };
-    for (;;) {
+    for (int round = 1;; ++round) {
       std::vector<Lesson> lessons = rounds.next(own, given);
       if (lessons.empty()) {
         lessons = walks.next(
@@ -633,8 +633,13 @@ class Computation {
       if (lessons.empty()) return;
       find_states(donors, lessons, threads);
       std::vector<std::optional<FoundState>> found(lessons.size());
+      std::size_t done = 0;
+      if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
       parallel_for(lessons.size(), threads, [&](std::size_t i) {
         if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor);
+        const std::lock_guard lock(mutex_);
+        ++done;
+        if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
       });
       if (!going()) {
         for (const auto& [task, donor] : lessons) stopped(task, learnt_from(donors, donor));

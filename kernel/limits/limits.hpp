@@ -107,6 +107,9 @@ struct LimitsObserver {
   std::function<bool()> keep_going;
   /// After each start of each task, one call at a time.
   std::function<void(std::size_t done, std::size_t total)> on_start;
+  /// Before the first and after each lesson of a round (limits learn from each other), one call at a time.
+  /// How many rounds there will be is not known.
+  std::function<void(int round, std::size_t done, std::size_t total)> on_lesson;
   /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
   std::function<void(const std::vector<LimitResult>&)> on_limit;
   /// At the end: the furthest locked state of every task that was asked for; null where there is none.

@@ -25,6 +25,9 @@ std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, co
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   observer.on_start = [&](std::size_t done, std::size_t total) { progress.limits(job.label, done, total); };
+  observer.on_lesson = [&](int round, std::size_t done, std::size_t total) {
+    progress.lessons(job.label, round, done, total);
+  };
   observer.memory = job.memory;
   observer.on_limit = [&](const std::vector<LimitResult>& limits) { sink(named(limits)); };
   return named(

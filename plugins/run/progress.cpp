@@ -96,6 +96,21 @@ void Progress::limits(const std::string& label, std::size_t done, std::size_t to
   last_ = now;
 }
 
+void Progress::lessons(const std::string& label, int round, std::size_t done, std::size_t total)
+{
+  if (mode_ == Mode::quiet) return;
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  if (now - last_ < (mode_ == Mode::terminal ? redraw_interval : plain_interval)) return;
+  const std::string text =
+      fmt::format("{}: learning from each other, round {}, {}/{}", label, round, done, total);
+  if (mode_ == Mode::terminal)
+    draw({fmt::format("{}  {:.1f} s", text, seconds())});
+  else
+    put(fmt::format("{} ({:.1f} s)\n", text, seconds()));
+  last_ = now;
+}
+
 namespace {
 
 std::string clearances(const DesignIterate& it)

@@ -79,7 +79,7 @@ TEST(Chart, MistakesAreReportedWithTheirPlace)
             "t.json:3: /chart/scenes/0/exact: expected at least one number: without any there is no error");
   EXPECT_EQ(after("\"name\": \"thick\"", "\"name\": \"thin\""),
             "t.json:4: /chart/scenes/1: scene 'thin' is given twice\n"
-            "t.json:8: /chart/methods/1/scenes/0: unknown scene 'thick'; known: 'thin', 'thin'");
+            "t.json:8: /chart/methods/1/scenes/0: unknown scene 'thick'; known: 'thin'");
   EXPECT_EQ(after("[\"thick\"]", "[\"thick\", \"thick\"]"),
             "t.json:8: /chart/methods/1/scenes/1: scene 'thick' is given twice");
   EXPECT_EQ(after("\"name\": \"plain\"", "\"name\": \"arc\""),

@@ -2,6 +2,7 @@
 
 #include "equilibrium/gaps.hpp"
 #include "model/links.hpp"
+#include "numerics/interrupted.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +67,8 @@ Penalty penalty(const Model& m, const State& start, const State& s, double targe
 
 }  // namespace
 
-Relaxed relax(const Model& m, const State& start, double target, Cell cell, int most_iterations)
+Relaxed relax(const Model& m, const State& start, double target, Cell cell, int most_iterations,
+              const std::function<bool()>& keep_going)
 {
   Relaxed out;
   out.state = start;
@@ -74,6 +76,7 @@ Relaxed relax(const Model& m, const State& start, double target, Cell cell, int 
   Penalty now = penalty(m, start, start, aim, cell);
   double damping = 1e-4;
   for (int it = 0; it < most_iterations && now.smallest < target; ++it) {
+    if (!keep_going()) throw Interrupted();
     Matrix A = now.hessian;
     A.diagonal() += damping * m.metric;
     Vector dy = free_part(m, -A.llt().solve(now.gradient));

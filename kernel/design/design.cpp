@@ -163,9 +163,6 @@ struct SearchOutcome {
   bool interrupted = false;
 };
 
-constexpr const char* an_earlier_iterate =
-    "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
-
 SearchOutcome search(DesignProblem& problem, const DesignSpec& design, const Optimizer& optimizer,
                      std::span<const double> x0, int start, int first, const DesignObserver& observer)
 {
@@ -181,7 +178,8 @@ SearchOutcome search(DesignProblem& problem, const DesignSpec& design, const Opt
     s.found.status = "targets_met";
     s.found.message = "every target is met to within design.tolerance, limits not yet recomputed";
   } else if (problem.settle()) {
-    s.found.message += an_earlier_iterate;
+    s.found.message +=
+        "; the result is an earlier iterate: states that rest does not lead to made later ones look better";
   }
   s.found.x = problem.current().x;
   s.found.value = problem.current().objective;
@@ -198,29 +196,26 @@ SearchOutcome search_to_the_end(DesignProblem& problem, const DesignSpec& design
                                 std::span<const double> x0, int start, const DesignObserver& observer)
 {
   SearchOutcome s = search(problem, design, optimizer, x0, start, 0, observer);
-  int continuations = 0;
-  for (;;) {
+  for (int continuations = 0;; ++continuations) {
     if (s.interrupted || s.history.empty() || s.found.status == "targets_met") return s;
-    const bool further = problem.confirm();
-    s.found.value = problem.current().objective;
-    if (!further || s.found.status == "iteration_limit") break;
+    if (!problem.confirm() || s.found.status == "iteration_limit") break;
     if (continuations == most_continuations) {
       s.found.message += "; where it ended, states were found once more that lead further";
       break;
     }
-    ++continuations;
-    const SearchOutcome next = search(problem, design, optimizer, problem.current().x, start,
-                                      s.history.back().iteration + 1, observer);
+    const DesignIterate before = s.history.back();
+    SearchOutcome next =
+        search(problem, design, optimizer, problem.current().x, start, before.iteration + 1, observer);
     if (next.history.empty()) break;
-    s.found.x = next.found.x;
-    s.found.value = next.found.value;
-    s.found.status = next.found.status;
-    s.found.message = next.found.message;
-    s.found.iterations += next.found.iterations + 1;
-    s.interrupted = next.interrupted;
-    s.history.insert(s.history.end(), next.history.begin(), next.history.end());
+    for (DesignIterate& it : next.history) it.seconds += before.seconds;
+    next.history.insert(next.history.begin(), s.history.begin(), s.history.end());
+    next.found.iterations += s.found.iterations + 1;
+    s = std::move(next);
   }
-  if (problem.take_best_confirmed()) s.found.message += an_earlier_iterate;
+  if (problem.take_best_confirmed()) {
+    s.found.message +=
+        "; the result is an earlier iterate: with all searches that limits have it is nearer to the targets";
+  }
   s.found.x = problem.current().x;
   s.found.value = problem.current().objective;
   return s;

@@ -65,7 +65,8 @@ std::shared_ptr<DesignPoint> DesignProblem::start_point() const
   p->model = make_model(scene_->scene, scene_->load, scene_->clearance);
   refuse_unknown_motion(p->model);
   const double target = scene_->rest_target(p->model);
-  const Relaxed r = relax(p->model, rest_state(p->model), target, Cell::fixed, 200, scene_->keep_going);
+  const Relaxed r =
+      relax(p->model, rest_state(p->model), target, Cell::fixed, most_relaxations, scene_->keep_going);
   if (!r.problem.empty())
     throw InputError("the initial design has no rest state with the wanted clearance: " + r.problem +
                      tightest_pair(scene_->scene, p->model, r.state));

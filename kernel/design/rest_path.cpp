@@ -60,8 +60,8 @@ RestPath::End RestPath::end_of_way(const DesignPoint& from, const DesignPoint& t
     way.share = end;
     const Relaxed r = way.share < 1.0 ? relax(*next, predicted, scene_->rest_target(*next) + rest_room,
                                               Cell::fixed, rest_iterations, scene_->keep_going)
-                                      : relax(*next, predicted, scene_->rest_target(*next), Cell::fixed, 200,
-                                              scene_->keep_going);
+                                      : relax(*next, predicted, scene_->rest_target(*next), Cell::fixed,
+                                              most_relaxations, scene_->keep_going);
     const Vector back = difference(*next, predicted, r.state);
     const bool passes = r.moved && largest_safe_step(*next, predicted, back, 0.02).alpha < 1.0;
     at.rest = passes ? predicted : r.state;

@@ -20,11 +20,13 @@ struct Relaxed {
 /// Whether the macroscopic unknowns may move too.
 enum class Cell { fixed, free };
 
+inline constexpr int most_relaxations = 200;  ///< iterations
+
 /// Nearest state with room: minimises 1/2 sum over close pairs of max(0, target - g)^2 + eps/2 |y - y0|^2
 /// by Levenberg-Marquardt, y all unknowns, y0 those of `start`. Elements may overlap at the start (not deeper
 /// than their tubes). Throws Interrupted where `keep_going` says no, which is asked in every iteration.
 Relaxed relax(
-    const Model& model, const State& start, double target, Cell cell = Cell::fixed, int most_iterations = 200,
-    const std::function<bool()>& keep_going = [] { return true; });
+    const Model& model, const State& start, double target, Cell cell = Cell::fixed,
+    int most_iterations = most_relaxations, const std::function<bool()>& keep_going = [] { return true; });
 
 }  // namespace hauberk

@@ -82,32 +82,31 @@ void Progress::warn(const std::string& text)
 
 void Progress::limits(const std::string& label, std::size_t done, std::size_t total)
 {
-  if (mode_ == Mode::quiet) return;
-  const std::lock_guard lock(mutex_);
-  const Clock::time_point now = Clock::now();
   const bool ends = done == 0 || done == total;
-  if (mode_ == Mode::terminal) {
-    if (!ends && now - last_ < redraw_interval) return;
-    draw({fmt::format("{} {} {}/{}  {:.1f} s", label, bar(done, total), done, total, seconds())});
-  } else {
-    if (!ends && now - last_ < plain_interval) return;
-    put(fmt::format("{}: {}/{} ({:.1f} s)\n", label, done, total, seconds()));
-  }
-  last_ = now;
+  line(ends, [&](bool terminal) {
+    return terminal ? fmt::format("{} {} {}/{}", label, bar(done, total), done, total)
+                    : fmt::format("{}: {}/{}", label, done, total);
+  });
 }
 
 void Progress::lessons(const std::string& label, int round, std::size_t done, std::size_t total)
 {
+  line(false, [&](bool) {
+    return fmt::format("{}: learning from each other, round {}, {}/{}", label, round, done, total);
+  });
+}
+
+void Progress::line(bool always, const std::function<std::string(bool terminal)>& text)
+{
   if (mode_ == Mode::quiet) return;
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
-  if (now - last_ < (mode_ == Mode::terminal ? redraw_interval : plain_interval)) return;
-  const std::string text =
-      fmt::format("{}: learning from each other, round {}, {}/{}", label, round, done, total);
-  if (mode_ == Mode::terminal)
-    draw({fmt::format("{}  {:.1f} s", text, seconds())});
+  const bool terminal = mode_ == Mode::terminal;
+  if (!always && now - last_ < (terminal ? redraw_interval : plain_interval)) return;
+  if (terminal)
+    draw({fmt::format("{}  {:.1f} s", text(terminal), seconds())});
   else
-    put(fmt::format("{} ({:.1f} s)\n", text, seconds()));
+    put(fmt::format("{} ({:.1f} s)\n", text(terminal), seconds()));
   last_ = now;
 }
 

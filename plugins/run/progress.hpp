@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ class Progress {
   void clear();
 
  private:
+  /// One line with the time, unless the last one was written just now.
+  void line(bool always, const std::function<std::string(bool terminal)>& text);
   void draw(const std::vector<std::string>& lines);
   void erase();
   double seconds() const;

@@ -125,6 +125,14 @@ TEST(Design, EndsWithTheLimitsThatItsDesignHas)
   EXPECT_EQ(history[last].at("variables"), history[last - 1].at("variables"));
   EXPECT_LT(number_at(history[last], "/values/0"), number_at(history[last - 1], "/values/0") - 1e-3);
   EXPECT_FALSE(history[last].at("changed").as_array().empty());
+  // Times are those of one search.
+  const json::value timings = parse_json(read_text(folder.path() / "out/timings.json"), "timings");
+  double before = 0.0;
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    const double now = timings.at("seconds").at("/design/history/" + std::to_string(k)).to_number<double>();
+    EXPECT_GE(now, before) << k;
+    before = now;
+  }
 }
 
 TEST(Design, SameResultsForAnyNumberOfThreads)

@@ -56,8 +56,8 @@ struct ContactSettings {
   Quadrature quadrature = Quadrature::fine;
   Sides sides = Sides::both;
   unsigned threads = 1;  ///< that evaluate pairs of a large scene; never changes a result
-  /// Asked now and then within a pair, which may take many evaluations; where it says no, Interrupted is
-  /// thrown. Null: never. Thread safe.
+  /// Asked between pairs, and now and then within one, which may take many evaluations; where it says no,
+  /// Interrupted is thrown. Null: never. Thread safe.
   const std::function<bool()>* keep_going = nullptr;
 };
 

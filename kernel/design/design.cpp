@@ -257,7 +257,7 @@ struct StartSearch {
 StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double clearance,
                         const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                         unsigned threads, int start, const DesignObserver& observer, EvaluationMemory* memory,
-                        const KeepGoing& keep_going)
+                        const KeepGoing& keep_going, const LookObserver& look)
 {
   SceneSpec frozen = scene;
   frozen.length = characteristic_length(scene);
@@ -265,7 +265,7 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
   coarse.last = std::max(coarse.last, design.coarse_last);
   StartSearch out;
   out.problem = std::make_unique<DesignProblem>(
-      DesignScene{frozen, load, clearance, limits, design, threads, keep_going},
+      DesignScene{frozen, load, clearance, limits, design, threads, keep_going, look},
       static_cast<std::uint64_t>(start));
   out.initial_scene = scene_of(out.problem->current());
   out.problem->set_memory(memory);
@@ -282,14 +282,14 @@ bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance
                   const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going)
 {
   return !search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, &memory,
-                      keep_going)
+                      keep_going, {})
               .outcome.interrupted;
 }
 
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                     unsigned threads, const DesignObserver& observer, EvaluationMemory* memory,
-                    const KeepGoing& keep_going)
+                    const KeepGoing& keep_going, const LookObserver& look)
 {
   const auto t0 = std::chrono::steady_clock::now();
   Designed out;
@@ -299,7 +299,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
     auto [problem, initial_scene, s] = search_from(scene, load, clearance, limits, design, optimizer, threads,
-                                                   start, observer, memory, keep_going);
+                                                   start, observer, memory, keep_going, look);
     if (start == 0) out.result.initial_scene = std::move(initial_scene);
     out.result.evaluations += problem->evaluations();
     interrupted = s.interrupted;

@@ -16,6 +16,7 @@ struct DesignScene {
   DesignSpec design;
   unsigned threads = 1;
   KeepGoing keep_going;
+  LookObserver look = {};
 
   /// The scene's own values of the variables.
   std::vector<double> variables() const;

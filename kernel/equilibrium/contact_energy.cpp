@@ -325,6 +325,7 @@ ContactEnergy contact_energy(const Model& model, const State& state, const std::
   const bool together = settings.threads > 1 && pairs.size() >= worth_threads;
   std::vector<PairWork> work(together ? std::min(pairs.size(), most_at_once) : 1);
   for (std::size_t first = 0; first < pairs.size(); first += work.size()) {
+    if (settings.keep_going != nullptr && !(*settings.keep_going)()) throw Interrupted();
     const std::size_t count = std::min(work.size(), pairs.size() - first);
     if (together) {
       parallel_for(count, settings.threads, [&](std::size_t k) { a.evaluate(pairs[first + k], work[k]); });

@@ -319,6 +319,7 @@ class Computation {
     if (last) {
       if (!tilt(task)) return;
       LimitResult result = result_of(task);  // outside the lock: forces and balances take a moment
+      if (result.status == LimitStatus::interrupted) return;
       const std::lock_guard lock(mutex_);
       states_[task].missing = 0;
       results_[task] = std::move(result);
@@ -393,7 +394,9 @@ class Computation {
     LimitResult result = limit_header(model_, tasks_[task]);
     const std::vector<FoundState> found = found_of(task);
     try {
-      if (!found.empty()) result = summarize(model_, spec_, tasks_[task], settings_, found);
+      if (!found.empty()) {
+        result = summarize(model_, spec_, tasks_[task], settings_, found, [this] { return going(); });
+      }
     } catch (const std::exception& failure) {
       error = failure.what();
     }

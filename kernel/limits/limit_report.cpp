@@ -77,12 +77,14 @@ double energy_imbalance(const Model& m, const MacroLoad& load, const ContactEner
 }
 
 /// Contacts of the last stage, with what forces and sensitivities need.
-ContactEnergy contacts_of(const Model& m, const Locked& l)
+ContactEnergy contacts_of(const Model& m, const Locked& l, const KeepGoing& keep_going)
 {
+  ContactSettings settings = l.stage.contact;
+  settings.keep_going = &keep_going;
   Request request;
   request.order = 1;
   request.parameters = request.points = true;
-  return contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), l.stage.contact, request);
+  return contact_energy(m, l.state, stage_pairs(m, l.state, l.stage), settings, request);
 }
 
 /// How the way from rest was checked.
@@ -100,9 +102,11 @@ const char* certificate_of_path(const Locked& l)
 /// Largest component by which the gradient of arc's energy changes with panels half as long, whose quadrature
 /// is better by orders of magnitude; times the stiffness. At the last stages rounding of the gap is part of
 /// it.
-double quadrature_error(const Model& m, const Matrix& held, const Locked& l, const ContactEnergy& e)
+double quadrature_error(const Model& m, const Matrix& held, const Locked& l, const ContactEnergy& e,
+                        const KeepGoing& keep_going)
 {
   ContactSettings finer = l.stage.contact;
+  finer.keep_going = &keep_going;
   finer.panel_ratio *= 0.5;
   Request request;
   request.order = 1;
@@ -274,17 +278,19 @@ struct HeldState {
   const Model& m;
   const LimitTask& task;
   const Locked& l;
+  const KeepGoing& keep_going;
   ContactEnergy contacts;
   MacroLoad load;        ///< a finite target drives the strain less the nearer it is
   double full = 0.0;     ///< norm of the full load, which imbalances are parts of
   double driving = 0.0;  ///< part of it that drives the state
   double scale = 0.0;    ///< of the value, file units
 
-  HeldState(const Model& model, const LimitTask& of, const Locked& locked)
+  HeldState(const Model& model, const LimitTask& of, const Locked& locked, const KeepGoing& keep)
       : m(model),
         task(of),
         l(locked),
-        contacts(locked.pressed ? *locked.pressed : contacts_of(model, locked)),
+        keep_going(keep),
+        contacts(locked.pressed ? *locked.pressed : contacts_of(model, locked, keep)),
         load(macro_load(model, of.direction, of.sense)),
         full(load.pull.norm()),
         scale(power(model.length, model.load->value_length_power()))
@@ -309,7 +315,7 @@ void fill_forces(LimitResult& r, const HeldState& h, const Vec3& shift)
   }
   r.contact = h.l.pressed ? "constrained" : name_of(h.l.stage.contact.formulation);
   if (h.l.stage.contact.formulation == Formulation::arc)
-    r.quadrature_error = quadrature_error(h.m, h.load.held, h.l, h.contacts) / h.full;
+    r.quadrature_error = quadrature_error(h.m, h.load.held, h.l, h.contacts, h.keep_going) / h.full;
 }
 
 /// E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
@@ -385,7 +391,7 @@ void enter_verdict(LimitResult& r, Verdict verdict)
 }  // namespace
 
 LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& task,
-                       const LimitSettings& settings, const Locked& l)
+                       const LimitSettings& settings, const Locked& l, const KeepGoing& keep_going)
 {
   LimitResult r = limit_header(m, task);
   enter_verdict(r, end_of_search(m, l));
@@ -402,17 +408,24 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   }
   if (l.stages.empty()) return r;
 
-  const HeldState h(m, task, l);
-  r.value = m.load->value(task.direction, l.state.macro_values()) * h.scale;
+  r.value =
+      m.load->value(task.direction, l.state.macro_values()) * power(m.length, m.load->value_length_power());
   r.companions = m.load->companions(task.direction, l.state.macro_values());
-  if (l.error_estimate) r.error_estimate = *l.error_estimate * h.scale;
+  if (l.error_estimate) r.error_estimate = *l.error_estimate * power(m.length, m.load->value_length_power());
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   const Vec3 shift = fill_state(r, m, l.state);
-  fill_forces(r, h, shift);
-  fill_sensitivities(r, h, spec);
   r.certificate = certificate_of(m, l, *r.min_gap);
-  enter_verdict(r, verdict_of(r, h, settings));
-  return r;
+  LimitResult whole = r;
+  try {
+    const HeldState h(m, task, l, keep_going);
+    fill_forces(whole, h, shift);
+    fill_sensitivities(whole, h, spec);
+    enter_verdict(whole, verdict_of(whole, h, settings));
+  } catch (const Interrupted&) {
+    enter_verdict(r, {LimitStatus::interrupted, "its forces were not computed"});
+    return r;
+  }
+  return whole;
 }
 
 namespace {

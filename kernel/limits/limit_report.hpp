@@ -13,9 +13,10 @@ std::optional<std::size_t> furthest(const Model& model, const LimitTask& task, c
 /// Names of a task's result.
 LimitResult limit_header(const Model& model, const LimitTask& task);
 
-/// Everything that is reported about one locked state, in file units.
+/// Everything that is reported about one locked state, in file units. Where `keep_going` says no while forces
+/// are computed (a second for many flat tubes): `interrupted`, without them.
 LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTask& task,
-                       const LimitSettings& settings, const Locked& locked);
+                       const LimitSettings& settings, const Locked& locked, const KeepGoing& keep_going);
 
 /// What is reported of a path past the bound of strains: unbounded where links do not stop the load, not
 /// attained where they let only another strain grow; failed where they say that it cannot be.

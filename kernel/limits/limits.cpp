@@ -59,7 +59,8 @@ double reached(const Model& m, const LimitTask& task, const State& state)
 }
 
 LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& task,
-                      const LimitSettings& settings, const std::vector<FoundState>& found)
+                      const LimitSettings& settings, const std::vector<FoundState>& found,
+                      const KeepGoing& keep_going)
 {
   // A motion past every bound, if there is one; else the furthest sound locked state; if there is none, a
   // search that came to an end for a reason tells it, else the first start what happened.
@@ -73,7 +74,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
     best = *away;
     sound_best.reset();
   }
-  LimitResult r = fill_limit(m, spec, task, settings, found[best].locked);
+  LimitResult r = fill_limit(m, spec, task, settings, found[best].locked, keep_going);
   if (sound_best && r.status == LimitStatus::stalled) {
     // Its forces do not balance. Another search may have ended at the same state with forces that do.
     constexpr double same_state = 1e-6;
@@ -82,7 +83,8 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
           reached(m, task, found[k].locked.state) <
               reached(m, task, found[*sound_best].locked.state) - same_state)
         continue;
-      LimitResult other = fill_limit(m, spec, task, settings, found[k].locked);
+      LimitResult other = fill_limit(m, spec, task, settings, found[k].locked, keep_going);
+      if (other.status == LimitStatus::interrupted) r.status = other.status;  // whether it holds is not known
       if (other.status != LimitStatus::locked) continue;
       r = std::move(other);
       best = k;

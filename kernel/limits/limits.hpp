@@ -93,9 +93,11 @@ struct FoundState {
 };
 
 /// Result of one task out of what was found (in a fixed order, the first start first). Forces, balance,
-/// sensitivities and the smallest gap are evaluated at the best state.
+/// sensitivities and the smallest gap are evaluated at the best state; where `keep_going` says no meanwhile
+/// the result is `interrupted` and has no forces.
 LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
-                      const LimitSettings& settings, const std::vector<FoundState>& found);
+                      const LimitSettings& settings, const std::vector<FoundState>& found,
+                      const KeepGoing& keep_going);
 
 /// What links say of a task. `attained` is proved by them; the others mean that links do not stop the load:
 /// something else may (elements can be entangled without a link), so the load is tried.

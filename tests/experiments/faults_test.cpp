@@ -71,6 +71,7 @@ TEST(Faults, TheFolderBecomesReadOnly)
   int code = -1;
   std::thread run([&] { code = WEXITSTATUS(std::system(command.c_str())); });
   wait_for(out + "/.hauberk-lock");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it tries the folder, and begins to compute
   fs::permissions(out, fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write,
                   fs::perm_options::remove);
   const Contents then = contents(out);

@@ -398,6 +398,11 @@ class DesignTask final : public TaskRun {
     if (context_->resumed)
       context_->progress.note(fmt::format("resuming: {} evaluations of the search are known", log.known()));
     Designed designed;
+    Progress& progress = context_->progress;
+    const std::string label = "a thorough look at this design";
+    const LookObserver look{
+        [&](std::size_t done, std::size_t total) { progress.limits(label, done, total); },
+        [&](int round, std::size_t done, std::size_t total) { progress.lessons(label, round, done, total); }};
     try {
       designed = run_design(
           prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
@@ -406,7 +411,7 @@ class DesignTask final : public TaskRun {
             run_.design->evaluations = log.closest_points();
             return observe(p);
           },
-          &log, [] { return !interrupted(); });
+          &log, [] { return !interrupted(); }, look);
     } catch (const SearchInterrupted&) {
       return stopped(log);
     } catch (const Interrupted&) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace hauberk::test {
@@ -67,6 +68,34 @@ TEST(Search, LimitsLearnFromEachOther)
   EXPECT_TRUE(both[0].better_state);
   EXPECT_EQ(both[0].status, LimitStatus::locked);
   EXPECT_TRUE(both[0].links_kept);
+}
+
+/// Says no as soon as a search is done.
+struct StopsAfterSearch final : SearchMemory {
+  std::optional<KnownSearch> recall(const std::string&) override { return std::nullopt; }
+  void record(const std::string&, const Locked&, double) override { done = true; }
+  std::atomic<bool> done = false;
+};
+
+/// Forces of many flat tubes take a second: an interrupt does not wait for them.
+TEST(Search, AnInterruptMeetsForcesThatAreBeingComputed)
+{
+  Sheet4in1 s;
+  const std::vector<LimitTask> tasks{{Direction::at_degrees(0.0), Sense::positive}};
+  s.settings.contact = ContactChoice::arc;
+  const LimitResult whole = compute_limits(s.model, s.scene, tasks, s.settings, 1)[0];
+  ASSERT_EQ(whole.status, LimitStatus::locked);
+  StopsAfterSearch memory;
+  LimitsObserver observer;
+  observer.memory = &memory;
+  observer.keep_going = [&memory] { return !memory.done; };
+  const LimitResult r = compute_limits(s.model, s.scene, tasks, s.settings, 1, observer)[0];
+  EXPECT_EQ(r.status, LimitStatus::interrupted);
+  EXPECT_EQ(r.message, "1 of 1 starts were done");
+  EXPECT_EQ(r.value, whole.value);
+  EXPECT_EQ(r.min_gap, whole.min_gap);
+  EXPECT_FALSE(r.force_balance);
+  EXPECT_TRUE(r.contacts.empty());
 }
 
 /// No limit of a set is nearer than where another one's state already is along its direction.

@@ -145,7 +145,7 @@ std::unique_ptr<const Prepared> prepare_experiment(
   const auto files = std::make_shared<Fingerprints>();
   std::optional<Experiment> experiment =
       read_experiment({source.file, source.text, source.overrides, recording_lookup(source.weaves, weaves),
-                       recording_files(files), source.formats},
+                       recording_files(files), source.formats, source.optimizer},
                       prepared.lookup, diagnostics);
   stop_on_problems();
   prepared.experiment = std::move(experiment.value());

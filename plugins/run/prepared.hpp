@@ -23,7 +23,7 @@ namespace hauberk {
 class ReportedProblems : public InputError {
  public:
   explicit ReportedProblems(const Diagnostics& diagnostics)
-      : InputError(diagnostics.text()), problems_(diagnostics.problems.list())
+      : InputError(diagnostics.text()), problems_(diagnostics.of_file())
   {
   }
   const std::vector<Problem>& problems() const { return problems_; }

@@ -28,8 +28,15 @@ constexpr std::array table{Task{"limits", limit_file_names, &prepare_limits},
                            Task{"stability", stability_file_names, &prepare_stability},
                            Task{"transition", transition_file_names, &prepare_transition}};
 
+constexpr std::array<std::string_view, 4> design_search_keys{"optimizer", "starts", "perturbation",
+                                                             "max_iterations"};
+
 constexpr std::array formats{
-    TaskFormat{.name = "design", .field = &design_field, .read = &read_design, .brings_directions = true},
+    TaskFormat{.name = "design",
+               .field = &design_field,
+               .read = &read_design,
+               .search_keys = design_search_keys,
+               .brings_directions = true},
     TaskFormat{.name = "sweep",
                .field = &sweep_field,
                .read = &read_sweep,

@@ -47,11 +47,36 @@ TEST(Run, QuietShowsNoProgress)
 TEST(Run, SetReplacesValues)
 {
   const TemporaryFolder folder;
-  const Outcome o = run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--set",
-                                 "/solver/clearance=0.1", "--set", "/expect=[]"});
+  const Outcome o = run_program(
+      {"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--set", "/solver/clearance=0.1"});
   EXPECT_EQ(o.code, 0) << o.err;
   // Surfaces stop 0.1 apart at two contacts of each of two links.
   EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 17.0 / 12.0 - 1.0, 1e-8);
+}
+
+/// What a file expects is said of its own answers: another scene has others, another search has the same.
+TEST(Run, ExpectationsAreOfTheFileAsItIs)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
+  const auto run = [&](const std::vector<const char*>& settings) {
+    std::vector<std::string> words{"run", file, "-o", out, "--force"};
+    for (const char* setting : settings) words.insert(words.end(), {"--set", setting});
+    return run_program(words);
+  };
+  const auto kept = [&] { return read_results(out).at_pointer("/experiment/expect").as_array().size(); };
+  const Outcome searched = run({"/solver/starts=2", "/seed=7", "/name=other"});
+  EXPECT_EQ(searched.code, 0) << searched.out;
+  EXPECT_NE(searched.out.find("all 1 expected results are met\n"), std::string::npos) << searched.out;
+  EXPECT_EQ(kept(), 1U);
+  const Outcome other = run({"/solver/starts=2", "/solver/clearance=0.1"});
+  EXPECT_EQ(other.code, 0) << other.out;
+  EXPECT_NE(other.out.find("not checked: what the file expects, as --set /solver/clearance makes another "
+                           "experiment of it\n"),
+            std::string::npos)
+      << other.out;
+  EXPECT_EQ(kept(), 0U);
+  EXPECT_EQ(run({"/solver/clearance=0.1", "/expect/0/abs=1e-3"}).code, 1);
 }
 
 TEST(Run, MissedExpectationsFailAfterWriting)

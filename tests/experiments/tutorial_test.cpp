@@ -151,7 +151,7 @@ class Tutorial : public ::testing::Test {
       if (block.language != "console") continue;
       for (const Command& c : commands_of(block)) commands_.push_back(c);
     }
-    ASSERT_EQ(files_.size(), 3U);
+    ASSERT_EQ(files_.size(), 4U);
     ASSERT_GT(commands_.size(), 15U);
   }
 

@@ -26,6 +26,9 @@ bool report_expectations(const Experiment& experiment, const boost::json::value&
 {
   const std::vector<ExpectationFailure> failures = evaluate_expectations(experiment.expect, document);
   for (const ExpectationFailure& failure : failures) say("expected result missed: {}\n", failure.text());
+  if (!experiment.expect_of_other.empty())
+    say("not checked: what the file expects, as --set {} makes another experiment of it\n",
+        experiment.expect_of_other);
   if (failures.empty() && !experiment.expect.empty())
     say("all {} expected results are met\n", experiment.expect.size());
   return !failures.empty();

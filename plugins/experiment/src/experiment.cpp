@@ -2,6 +2,7 @@
 #include "document/jsonc.hpp"
 #include "document/node_access.hpp"
 #include "document/read_file.hpp"
+#include "extends.hpp"
 #include "scene_reader.hpp"
 #include "sections.hpp"
 #include "values.hpp"
@@ -77,6 +78,36 @@ void complete_directions(Node& root, TaskFormats formats, Problems& problems, Ex
     set_default(*section, "directions_deg", numbers_node(experiment.directions_deg));
 }
 
+/// Whether a file's answers are the same whatever stands at a place: labels, and how answers are searched.
+bool changes_no_answer(const std::string& pointer, TaskFormats formats)
+{
+  const auto within = [&pointer](const std::string& place) { return pointer_within(pointer, place); };
+  if (pointer.starts_with("/solver/")) return !within("/solver/clearance");
+  if (within("/seed") || within("/name") || within("/description")) return true;
+  return std::any_of(formats.begin(), formats.end(), [&](const TaskFormat& format) {
+    return std::any_of(format.search_keys.begin(), format.search_keys.end(), [&](std::string_view key) {
+      return within("/" + std::string(format.name) + "/" + std::string(key));
+    });
+  });
+}
+
+/// Empties what a file expects where overrides make another experiment of it and do not say what they expect
+/// themselves.
+void drop_what_other_expects(const ExperimentSource& source, Experiment& experiment)
+{
+  std::string other;
+  for (const std::string& assignment : source.overrides) {
+    const std::string pointer = assignment.substr(0, assignment.find('='));
+    if (pointer_within(pointer, "/expect")) return;
+    if (other.empty() && !changes_no_answer(pointer, source.formats)) other = pointer;
+  }
+  if (other.empty() || experiment.expect.empty()) return;
+  experiment.expect.clear();
+  for (Node* root : {&experiment.resolved, &experiment.expanded})
+    find_mutable(*root, "expect")->items.clear();
+  experiment.expect_of_other = other;
+}
+
 }  // namespace
 
 std::optional<Experiment> read_experiment(const ExperimentSource& source, const PluginLookup& lookup,
@@ -85,11 +116,14 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   diagnostics.file = source.file;
   Problems& problems = diagnostics.problems;
   std::optional<Node> root = read_jsonc(source.text, problems);
-  if (!root) return std::nullopt;
+  if (!root || !extend(*root, source.file, diagnostics)) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
   const std::string folder = std::filesystem::path(source.file).parent_path().string();
-  return read_tree(std::move(*root), {lookup, source.weaves, folder, source.files, source.formats},
-                   diagnostics);
+  std::optional<Experiment> experiment =
+      read_tree(std::move(*root),
+                {lookup, source.weaves, folder, source.files, source.formats, source.optimizer}, diagnostics);
+  if (experiment) drop_what_other_expects(source, *experiment);
+  return experiment;
 }
 
 std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnostics& diagnostics,
@@ -106,11 +140,13 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
 
   std::set<std::string> plugin_files;
-  PluginResolver plugins(lookups.plugins, lookups.folder,
-                         [&](const std::string& written, const std::string& located) {
-                           plugin_files.insert(written);
-                           if (lookups.files) lookups.files(written, located);
-                         });
+  PluginResolver plugins(
+      lookups.plugins, lookups.folder,
+      [&](const std::string& written, const std::string& located) {
+        plugin_files.insert(written);
+        if (lookups.files) lookups.files(written, located);
+      },
+      lookups.optimizer);
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };

@@ -217,7 +217,12 @@ Field expect_field()
               number("min", "Smallest allowed number.", "as the value"),
               number("max", "Largest allowed number.", "as the value")});
   return with_default(
-      list("expect", "Checked after a run; one that fails makes it exit with 1.", std::move(entry)), "[]");
+      list(
+          "expect",
+          "Checked after a run; one that fails makes it exit with 1. Emptied where --set makes another experiment "
+          "of the file: of anything but its labels, the seed, and how solver or design search.",
+          std::move(entry)),
+      "[]");
 }
 
 }  // namespace
@@ -233,6 +238,11 @@ Field experiment_fields(TaskFormats formats)
   Field root = object(
       "experiment", "A Hauberk experiment.",
       {string("$schema", "Place of the schema file, for editors."),
+       string(
+           "extends",
+           "Another experiment that this one is, but for what it says itself: a path relative to this file. "
+           "Objects are joined key by key, null takes a key away, anything else replaces what was there. "
+           "The other's name, description and expect are not taken over; paths in it are seen from here."),
        required(string("name", "Name of the experiment.")), string("description", "What it shows."),
        with_default(choice("task", "What is computed.", std::move(tasks)), "\"limits\""),
        with_default(choice("length_unit",

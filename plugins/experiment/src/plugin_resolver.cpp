@@ -29,6 +29,19 @@ bool is_intact(const Node& section, const PluginTable& table)
   return missing.empty();
 }
 
+/// Stands for an optimizer that no library has: it has no fields of its own.
+const PluginTable& callers_table()
+{
+  static const PluginTable table = [] {
+    PluginTable t{};
+    t.kind = PluginKind::optimizer;
+    t.id = callers_optimizer;
+    t.fields = [](std::vector<Field>&) {};
+    return t;
+  }();
+  return table;
+}
+
 }  // namespace
 
 Node PluginResolver::located(const Node& section, const PluginTable& table) const
@@ -70,6 +83,13 @@ const PluginResolver::Found& PluginResolver::look_up(PluginKind kind, const std:
   Found found;
   if (kind == PluginKind::shape && id == union_table().id) {
     found.table = &union_table();
+    return found_.emplace(key, std::move(found)).first->second;
+  }
+  if (kind == PluginKind::optimizer && id == callers_optimizer) {
+    if (callers_optimizer_ != nullptr) found.table = &callers_table();
+    found.error =
+        "'caller' is an optimizer that a program brings which runs the experiment, as run(optimizer=...) of "
+        "Python does";
     return found_.emplace(key, std::move(found)).first->second;
   }
   found.table = lookup_(kind, id, found.error);
@@ -141,6 +161,7 @@ std::shared_ptr<const LoadCase> PluginResolver::load_case(const Node& section, d
 std::shared_ptr<const Optimizer> PluginResolver::optimizer(const Node& section, Problems& problems)
 {
   const PluginTable* table = find(section, PluginKind::optimizer, "plugin");
+  if (table == &callers_table()) return callers_optimizer_;
   return make_guarded(section, table, problems,
                       [&](const Node& own) { return make_optimizer(*table, own, problems); });
 }

@@ -191,7 +191,20 @@ Node experiment_schema(std::span<const PluginTable* const> plugins, TaskFormats 
   std::vector<const PluginTable*> shapes_too(plugins.begin(), plugins.end());
   shapes_too.push_back(&union_table());
   Node body = SchemaWriter(shapes_too).write(experiment_fields(formats));
-  for (auto& [key, value] : body.members) set_default(root, key, std::move(value));
+  // What a file leaves out that extends another one is known there alone.
+  Node extending = object_node(), named = object_node(), extends = object_node(), name = object_node();
+  set_default(extending, "required", strings_node({"extends"}));
+  set_default(extends, "type", string_node("string"));
+  set_default(name, "type", string_node("string"));
+  Node properties = object_node();
+  set_default(properties, "extends", std::move(extends));
+  set_default(properties, "name", std::move(name));
+  set_default(named, "properties", std::move(properties));
+  set_default(named, "required", strings_node({"name"}));
+  set_default(root, "type", string_node("object"));
+  set_default(root, "if", std::move(extending));
+  set_default(root, "then", std::move(named));
+  set_default(root, "else", std::move(body));
   return root;
 }
 

@@ -18,6 +18,7 @@ struct Lookups {
   std::string folder;  ///< that paths of plugins' files are relative to; empty: the working directory
   FileObserver files;
   TaskFormats formats;
+  std::shared_ptr<const Optimizer> optimizer = {};
 };
 
 /// solver. The experiment's seed must have been read.

@@ -192,7 +192,7 @@ TEST(Meaning, TaskAndLoadCase)
   EXPECT_EQ(
       problems_of(with(text, "\"design\": {", "\"x\": {")),
       "t.json:1: missing key 'design': task design needs it\n"
-      "t.json:15: /x: unknown key 'x'; known: '$schema', 'name', 'description', 'task', 'length_unit', "
+      "t.json:15: /x: unknown key 'x'; known: '$schema', 'extends', 'name', 'description', 'task', 'length_unit', "
       "'values', 'seed', 'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
       "'transition', 'expect'");
 }

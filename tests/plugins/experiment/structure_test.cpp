@@ -146,11 +146,12 @@ TEST(Structure, NumbersThatAreNotFiniteAreReportedOnce)
 
 TEST(Structure, ProblemsStayOnOneLineEach)
 {
-  EXPECT_EQ(after("\"name\": \"pair\"", "\"name\": \"pair\", \"a\\nb\\u001b\": 1"),
-            "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; known: '$schema', 'name', 'description', "
-            "'task', 'length_unit', 'values', 'seed', "
-            "'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
-            "'transition', 'expect'");
+  EXPECT_EQ(
+      after("\"name\": \"pair\"", "\"name\": \"pair\", \"a\\nb\\u001b\": 1"),
+      "t.json:2: /a\\x0ab\\x1b: unknown key 'a\\x0ab\\x1b'; known: '$schema', 'extends', 'name', 'description', "
+      "'task', 'length_unit', 'values', 'seed', "
+      "'elements', 'cell', 'load_case', 'solver', 'design', 'sweep', 'chart', 'stability', "
+      "'transition', 'expect'");
 }
 
 TEST(Structure, SeveralMistakesAreReportedTogetherInTheOrderOfTheFile)

@@ -60,6 +60,13 @@ def main():
             if validator.is_valid(wrong):
                 failures += 1
                 print(f"{path}: the schema accepts a copy with a mistake: {what}")
+    # What a file that extends another leaves out, the schema cannot know.
+    part = {"extends": "other.json", "name": "part", "load_case": {"hold": []}, "solver": None}
+    for what, document, right in (("a part", part, True), ("a part without a name", {"extends": "other.json"}, False),
+                                  ("a part of a number", {**part, "extends": 5}, False)):
+        if validator.is_valid(document) != right:
+            failures += 1
+            print(f"{what}: the schema {'refuses' if right else 'accepts'} it")
     if not files:
         print("no experiment files found")
         failures += 1

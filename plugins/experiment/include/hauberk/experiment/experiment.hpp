@@ -108,6 +108,8 @@ struct Experiment {
   std::vector<std::shared_ptr<const TaskSection>> sections;
   bool has_variants = false;  ///< a section makes experiments out of the file
   std::vector<Expectation> expect;
+  /// Where an override made another experiment of the file, whose `expect` says nothing of it and is emptied.
+  std::string expect_of_other;
   Node resolved;  ///< the checked file with all defaults filled in; write_json writes it as an experiment
   Node expanded;  ///< the same, but with what a weave brings also where `resolved` keeps it for its variants
   std::string folder;                     ///< of the file; empty: the working directory
@@ -122,6 +124,8 @@ struct ExperimentSource {
   WeaveLookup weaves = {};             ///< for cell.weave
   FileObserver files = {};             ///< of plugins; may be none
   TaskFormats formats = {};            ///< of the tasks that there are beside limits
+  /// Of the caller: what `"optimizer": {"plugin": "caller"}` means. Null: that is refused.
+  std::shared_ptr<const Optimizer> optimizer = {};
 };
 
 /// Reads, checks and expands an experiment. Every problem is put into `diagnostics`; null when there is any.

@@ -4,18 +4,26 @@
 #include <hauberk/experiment/experiment.hpp>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
 namespace hauberk {
 
+/// Optimizer of an experiment that is run by a program with one of its own (ExperimentSource::optimizer).
+inline constexpr const char* callers_optimizer = "caller";
+
 /// Looks plugins up once each, and makes what sections ask for. Whatever a plugin does wrong becomes a
 /// problem.
 class PluginResolver {
  public:
-  /// `folder`: that plugins' files are relative to.
-  PluginResolver(const PluginLookup& lookup, std::string folder, FileObserver files)
-      : lookup_(lookup), folder_(std::move(folder)), files_(std::move(files))
+  /// `folder`: that plugins' files are relative to. `optimizer`: what `callers_optimizer` is; may be null.
+  PluginResolver(const PluginLookup& lookup, std::string folder, FileObserver files,
+                 std::shared_ptr<const Optimizer> optimizer = {})
+      : lookup_(lookup),
+        folder_(std::move(folder)),
+        files_(std::move(files)),
+        callers_optimizer_(std::move(optimizer))
   {
   }
 
@@ -49,6 +57,7 @@ class PluginResolver {
 
   std::string folder_;
   FileObserver files_;
+  std::shared_ptr<const Optimizer> callers_optimizer_;
   std::map<std::pair<PluginKind, std::string>, Found> found_;
 };
 

@@ -7,6 +7,7 @@
 #include <hauberk/section.hpp>
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -34,6 +35,9 @@ struct TaskFormat {
   /// Reports what only the whole file shows, once everything is read; `section` is what `read` returned.
   /// Null: nothing.
   void (*check)(const TaskSection& section, const Node& resolved, Problems& problems) = nullptr;
+  /// Keys of the section that say how an answer is searched, not which: what a file expects stands whatever
+  /// they are.
+  std::span<const std::string_view> search_keys = {};
   bool makes_variants = false;     ///< experiments are made out of the file
   bool brings_directions = false;  ///< the load case need not name any, and names angles only
 };

@@ -1,6 +1,7 @@
 /// The extension hauberk._hauberk: experiments in and results out as JSON text. What is pleasant to use is in
 /// the package beside it, hauberk/__init__.py.
 
+#include "callback_optimizer.hpp"
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
 #include "run/interrupt.hpp"
@@ -37,6 +38,7 @@ struct Source {
   std::vector<std::string> overrides, plugin_folders;
   std::string
       root;  ///< of the installation: plugins and weaves are found from its folder bin, as the program's are
+  std::shared_ptr<const Optimizer> optimizer = {};  ///< of the caller; may be null
 };
 
 std::shared_ptr<const Registry> registry_of(const Source& source)
@@ -48,9 +50,14 @@ std::shared_ptr<const Registry> registry_of(const Source& source)
 
 Job job_of(const Source& source)
 {
-  return prepare_job(registry_of(source), {source.file, source.text, source.overrides,
+  return prepare_job(registry_of(source), {source.file,
+                                           source.text,
+                                           source.overrides,
                                            weave_lookup(fs::path(source.file).parent_path(),
-                                                        fs::path(source.root) / "share/hauberk/weaves")});
+                                                        fs::path(source.root) / "share/hauberk/weaves"),
+                                           {},
+                                           {},
+                                           source.optimizer});
 }
 
 using ProblemTuple = std::tuple<int, std::string, std::string>;
@@ -107,8 +114,12 @@ struct Outcome {
   bool failed = false, was_interrupted = false;
 };
 
-Outcome run(const Source& source, unsigned threads, const std::string& output, bool force, bool show_progress)
+/// `optimizer`: None, or a function that designs are searched with.
+Outcome run(Source source, unsigned threads, const std::string& output, bool force, bool show_progress,
+            const py::object& optimizer)
 {
+  // It is gone before the lock is taken away from what made it: it holds an object of Python.
+  if (!optimizer.is_none()) source.optimizer = callback_optimizer(py::cast<py::function>(optimizer));
   const py::gil_scoped_release free;
   const InterruptScope signals;
   const Job job = job_of(source);
@@ -164,6 +175,7 @@ PYBIND11_MODULE(_hauberk, m)
       computation_error(problem.what());
     }
   });
+  bind_problem(m);
   m.def("problems", &problems_of);
   m.def("plan", &plan_of);
   m.def("run", &run);

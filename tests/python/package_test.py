@@ -111,6 +111,91 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(hauberk.ComputationError, "0.6 mm apart"):
             hauberk.export(EXPERIMENTS / "chain.json", target.with_name("other.stl"), repeat=(2, 1), require_gap=0.7)
 
+    def design(self):
+        return hauberk.Experiment(EXPERIMENTS.parents[1] / "optimizers" / "sqp" / "example.json")
+
+    def test_a_function_is_an_optimizer(self):
+        accepted = []
+
+        def gauss_newton(problem):
+            x = problem.start
+            accepted.append(x)
+            for _ in range(20):
+                r, jacobian = problem.residuals(x)
+                step = numpy.clip(x - numpy.linalg.lstsq(jacobian, r, rcond=None)[0], problem.lower, problem.upper) - x
+                x = x + problem.safe_step(x, step) * step
+                if not problem.evaluate(x).ok or numpy.abs(x - accepted[-1]).max() < 1e-9:
+                    break
+                accepted.append(x)
+                if not problem.accept(x):
+                    break
+
+        results = self.design().run(optimizer=gauss_newton)
+        self.assertFalse(results.failed, results.summary)
+        design = results.raw["design"]
+        # Centres 4 (R - r) apart for a stretch of one half from 12.
+        self.assertAlmostEqual(design["variables"][0]["final"], 5.2, delta=1e-3)
+        self.assertAlmostEqual(design["targets"][0]["recomputed"], 0.5, delta=1e-3)
+        self.assertEqual(design["status"], "converged")
+        self.assertEqual(len(design["history"]), len(accepted))
+        self.assertEqual(results.raw["experiment"]["design"]["optimizer"], {"plugin": "caller"})
+        passed, text = results.verify()
+        self.assertTrue(passed, text)
+        # Without the function nobody knows what it was.
+        (problem,) = hauberk.Experiment(results.raw["experiment"]).check()
+        self.assertEqual(problem.pointer, "/design/optimizer/plugin")
+        self.assertIn("caller", problem.message)
+
+    def test_what_a_problem_answers_is_consistent(self):
+        seen, starts = [], []
+
+        def look(problem):
+            x, h = problem.start, 1e-3
+            at, (up, down) = problem.evaluate(x), problem.evaluate_many([x + h, x - h])
+            self.assertAlmostEqual((up.value - down.value) / (2 * h), at.gradient[0], delta=1e-4 * abs(at.gradient[0]))
+            r, jacobian = problem.residuals(x)
+            self.assertAlmostEqual(0.5 * r @ r, at.value, delta=1e-15)
+            self.assertAlmostEqual((jacobian.T @ r)[0], at.gradient[0], delta=1e-12)
+            c, slope = problem.constraints(x)
+            self.assertEqual(slope.shape, (len(c), 1))
+            self.assertEqual(problem.equality_count, 0)
+            more, _ = problem.constraints(x + h)
+            numpy.testing.assert_allclose((more - c) / h, slope[:, 0], atol=1e-3)
+            with self.assertRaisesRegex(ValueError, "outside its bounds"):
+                problem.evaluate(problem.upper + 1)
+            with self.assertRaisesRegex(ValueError, "one per variable"):
+                problem.evaluate([1.0, 2.0])
+            seen.append(problem)
+            starts.append(x)
+
+        results = self.design().run(optimizer=look)
+        # It accepted nothing, so that the start is the result.
+        self.assertEqual(results.raw["design"]["variables"][0]["final"], starts[-1][0])
+        with self.assertRaisesRegex(RuntimeError, "over"):
+            seen[0].evaluate([5.0])
+
+    def test_what_an_optimizer_raises_ends_the_run(self):
+        def broken(problem):
+            raise ZeroDivisionError("of mine")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "of mine"):
+            self.design().run(optimizer=broken)
+        with self.assertRaisesRegex(TypeError, "argument"):
+            self.design().run(optimizer=lambda: None)
+        with self.assertRaisesRegex(hauberk.InputError, "expected a function"):
+            self.design().run(optimizer="sqp")
+        self.assertFalse(hauberk.Experiment(EXPERIMENTS / "chain.json").run().failed)
+
+    def test_interrupts_reach_an_optimizer(self):
+        def endless(problem):
+            os.kill(os.getpid(), signal.SIGINT)
+            while True:
+                problem.evaluate(problem.start)
+
+        with self.assertRaises(KeyboardInterrupt) as stopped:
+            self.design().run(optimizer=endless)
+        self.assertEqual(stopped.exception.results.raw["design"]["status"], "interrupted")
+
     def test_interrupts_keep_what_was_found_and_other_threads_run(self):
         slow = hauberk.Experiment(EXPERIMENTS / "paper" / "chainmail_c.json")
         ticks = []

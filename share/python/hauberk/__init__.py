@@ -17,9 +17,9 @@ import subprocess
 import numpy
 
 from . import _hauberk
-from ._hauberk import ComputationError, InputError
+from ._hauberk import ComputationError, InputError, Problem as DesignProblem
 
-__all__ = ["ComputationError", "Experiment", "InputError", "Problem", "Results", "export",
+__all__ = ["ComputationError", "DesignProblem", "Experiment", "InputError", "Problem", "Results", "export",
            "forces_for_tension", "load"]
 
 # <root>/lib/hauberk/python/hauberk: plugins and weaves are found from <root>, as the program finds its own.
@@ -75,19 +75,27 @@ class Experiment:
         """What will be modelled, as the dict that results hold. Raises InputError where `check` finds problems."""
         return json.loads(_hauberk.plan(self._source())[1])
 
-    def run(self, threads=None, output=None, force=False, progress=False):
+    def run(self, threads=None, output=None, force=False, progress=False, optimizer=None):
         """Computes it and returns `Results`.
 
         `output`: a folder that gets the files of `hauberk run`; `force` replaces results in it. `progress`: shown on
         standard error. Ctrl-C raises KeyboardInterrupt, whose `results` are what was found; other Python threads run on
         meanwhile. One run at a time in a process. Raises InputError and ComputationError with the program's texts;
         limits without an answer do not raise: see `Results.failed`.
+
+        `optimizer`: a function that a design is searched with instead of the plugin that it names. It is called with a
+        `DesignProblem` and returns the best point, or None for the best that it accepted; what it raises ends the run. Results name
+        it `caller`.
         """
         threads = len(os.sched_getaffinity(0)) if threads is None else int(threads)
         if not 1 <= threads <= 4096:
             raise InputError(f"threads: expected a number from 1 to 4096, found {threads}")
         folder = "" if output is None else os.fspath(output)
-        outcome = _hauberk.run(self._source(), threads, folder, force, progress)
+        if optimizer is not None and not callable(optimizer):
+            raise InputError("optimizer: expected a function of one argument, the problem")
+        experiment = self if optimizer is None else self.set("/design/optimizer", {"plugin": "caller"})
+        function = None if optimizer is None else lambda problem: optimizer(problem)
+        outcome = _hauberk.run(experiment._source(), threads, folder, force, progress, function)
         results = Results(json.loads(outcome.results), outcome.results, outcome.failed, outcome.summary, self._folders)
         if outcome.interrupted:
             stop = KeyboardInterrupt("interrupted; .results holds what was found")

@@ -68,7 +68,8 @@ Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
 /// state moves along dy, which must not change the strain: conservative advancement of every pair of bodies,
 /// with the speeds of both shapes (shape_speed) added to that of their motion.
 /// Throws Interrupted where `keep_going` says no.
-double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy,
-                           const KeepGoing& keep_going = [] { return true; });
+double safe_parameter_step(
+    const Model& a, const Model& b, const State& from, const Vector& dy,
+    const KeepGoing& keep_going = [] { return true; });
 
 }  // namespace hauberk

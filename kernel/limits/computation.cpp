@@ -130,7 +130,7 @@ class Computation {
       if (going()) enter_relations(results_, model_, settings_, tasks_, donors);
       ended_ = going();
     }
-    for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k);
+    keep_unfinished();
     tell();
     if (observer_.on_unreported) {
       unreported_.insert(unreported_.end(), results_.begin() + static_cast<std::ptrdiff_t>(asked_),
@@ -318,7 +318,8 @@ class Computation {
     }
     if (last) {
       if (!tilt(task)) return;
-      LimitResult result = result_of(task);  // outside the lock: forces and balances take a moment
+      // Outside the lock: forces and balances take a moment.
+      LimitResult result = result_of(task, [this] { return going(); });
       if (result.status == LimitStatus::interrupted) return;
       const std::lock_guard lock(mutex_);
       states_[task].missing = 0;
@@ -382,7 +383,7 @@ class Computation {
   }
 
   /// Out of what there is. Only called when no other thread works on this task.
-  LimitResult result_of(std::size_t task) const
+  LimitResult result_of(std::size_t task, const KeepGoing& keep_going) const
   {
     const TaskState& t = states_[task];
     double seconds = t.seconds;
@@ -394,9 +395,7 @@ class Computation {
     LimitResult result = limit_header(model_, tasks_[task]);
     const std::vector<FoundState> found = found_of(task);
     try {
-      if (!found.empty()) {
-        result = summarize(model_, spec_, tasks_[task], settings_, found, [this] { return going(); });
-      }
+      if (!found.empty()) result = summarize(model_, spec_, tasks_[task], settings_, found, keep_going);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -599,7 +598,7 @@ class Computation {
       const std::size_t k = items[i].first;
       if (found[i]) states_[k].further.push_back(std::move(*found[i]));
       states_[k].learning = true;
-      results_[k] = result_of(k);
+      results_[k] = result_of(k, [this] { return going(); });
     }
     return true;
   }
@@ -652,20 +651,27 @@ class Computation {
         const std::size_t task = lessons[i].learner;
         if (found[i]) states_[task].further.push_back(std::move(*found[i]));
         states_[task].learning = true;
-        results_[task] = result_of(task);
+        results_[task] = result_of(task, [this] { return going(); });
       }
     }
   }
 
-  /// Starts that were done before an interrupt are worth keeping.
-  void keep_unfinished(std::size_t task)
+  /// Starts that were done before an interrupt are worth keeping, as far as a moment suffices to report them.
+  void keep_unfinished()
+  {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+    const KeepGoing for_a_moment = [end] { return std::chrono::steady_clock::now() < end; };
+    for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k, for_a_moment);
+  }
+
+  void keep_unfinished(std::size_t task, const KeepGoing& keep_going)
   {
     const TaskState& t = states_[task];
     if (t.missing == 0) return;
     const auto done = static_cast<std::size_t>(std::count_if(
         t.starts.begin(), t.starts.end(), [](const Attempt& a) { return a.locked.has_value(); }));
     if (done == 0) return;
-    LimitResult result = result_of(task);
+    LimitResult result = result_of(task, keep_going);
     result.status = LimitStatus::interrupted;
     result.message = fmt::format("{} of {} starts were done", done, t.starts.size());
     results_[task] = std::move(result);

@@ -415,17 +415,17 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   const Vec3 shift = fill_state(r, m, l.state);
   r.certificate = certificate_of(m, l, *r.min_gap);
-  LimitResult whole = r;
   try {
     const HeldState h(m, task, l, keep_going);
-    fill_forces(whole, h, shift);
-    fill_sensitivities(whole, h, spec);
-    enter_verdict(whole, verdict_of(whole, h, settings));
-  } catch (const Interrupted&) {
-    enter_verdict(r, {LimitStatus::interrupted, "its forces were not computed"});
+    fill_forces(r, h, shift);
+    fill_sensitivities(r, h, spec);
+    enter_verdict(r, verdict_of(r, h, settings));
     return r;
+  } catch (const Interrupted&) {
+    LimitResult none = limit_header(m, task);
+    enter_verdict(none, {LimitStatus::interrupted, "its forces were not computed"});
+    return none;
   }
-  return whole;
 }
 
 namespace {

@@ -14,7 +14,7 @@ std::optional<std::size_t> furthest(const Model& model, const LimitTask& task, c
 LimitResult limit_header(const Model& model, const LimitTask& task);
 
 /// Everything that is reported about one locked state, in file units. Where `keep_going` says no while forces
-/// are computed (a second for many flat tubes): `interrupted`, without them.
+/// are computed (a second for many flat tubes): `interrupted`, and nothing of the state.
 LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTask& task,
                        const LimitSettings& settings, const Locked& locked, const KeepGoing& keep_going);
 

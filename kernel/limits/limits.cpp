@@ -75,6 +75,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
     sound_best.reset();
   }
   LimitResult r = fill_limit(m, spec, task, settings, found[best].locked, keep_going);
+  if (r.status == LimitStatus::interrupted) return r;
   if (sound_best && r.status == LimitStatus::stalled) {
     // Its forces do not balance. Another search may have ended at the same state with forces that do.
     constexpr double same_state = 1e-6;
@@ -84,7 +85,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
               reached(m, task, found[*sound_best].locked.state) - same_state)
         continue;
       LimitResult other = fill_limit(m, spec, task, settings, found[k].locked, keep_going);
-      if (other.status == LimitStatus::interrupted) r.status = other.status;  // whether it holds is not known
+      if (other.status == LimitStatus::interrupted) return other;
       if (other.status != LimitStatus::locked) continue;
       r = std::move(other);
       best = k;

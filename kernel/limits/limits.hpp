@@ -94,7 +94,7 @@ struct FoundState {
 
 /// Result of one task out of what was found (in a fixed order, the first start first). Forces, balance,
 /// sensitivities and the smallest gap are evaluated at the best state; where `keep_going` says no meanwhile
-/// the result is `interrupted` and has no forces.
+/// the result is `interrupted` and has nothing of it.
 LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask& task,
                       const LimitSettings& settings, const std::vector<FoundState>& found,
                       const KeepGoing& keep_going);

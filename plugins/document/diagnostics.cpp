@@ -15,27 +15,15 @@ namespace {
 /// Problems that are told one by one.
 constexpr std::size_t most_problems = 50;
 
-/// The other file that a problem's value comes from; null: it comes from none.
-const std::string* source_of(const Problem& problem,
-                             const std::vector<std::pair<std::string, std::string>>& inherited)
-{
-  const std::pair<std::string, std::string>* longest = nullptr;
-  for (const auto& entry : inherited) {
-    if (problem.line == 0 || !pointer_within(problem.pointer, entry.first)) continue;
-    if (longest == nullptr || entry.first.size() > longest->first.size()) longest = &entry;
-  }
-  return longest == nullptr ? nullptr : &longest->second;
-}
-
 }  // namespace
 
 std::vector<Problem> Diagnostics::of_file() const
 {
   std::vector<Problem> out = problems.list();
   for (Problem& problem : out) {
-    const std::string* other = source_of(problem, inherited);
-    if (other == nullptr) continue;
-    problem.message = fmt::format("{}:{}: {}", *other, problem.line, problem.message);
+    const Place place = Place::of(problem.line);
+    if (place.other < 0) continue;
+    problem.message = fmt::format("{}:{}: {}", others[place.other], place.line, problem.message);
     problem.line = 0;
   }
   return out;
@@ -43,32 +31,26 @@ std::vector<Problem> Diagnostics::of_file() const
 
 std::string Diagnostics::text() const
 {
-  struct Placed {
-    const Problem* problem;
-    const std::string* other;  ///< the file that it is in, if not this one
-    int line;                  ///< of this one
-  };
-  std::vector<Placed> order;
-  for (const Problem& problem : problems.list()) {
-    const std::string* other = source_of(problem, inherited);
-    order.push_back({&problem, other, other == nullptr ? problem.line : 0});
-  }
-  std::stable_sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
-    return a.line > 0 && (b.line == 0 || a.line < b.line);
+  std::vector<const Problem*> order;
+  for (const Problem& problem : problems.list()) order.push_back(&problem);
+  // Lines of other files are larger than all of the file itself.
+  std::stable_sort(order.begin(), order.end(), [](const Problem* a, const Problem* b) {
+    return a->line > 0 && (b->line == 0 || a->line < b->line);
   });
   std::string out;
   const std::size_t told = order.size() > most_problems ? most_problems : order.size();
-  for (const auto& [problem, other, line] : std::span(order).first(told)) {
+  for (const Problem* problem : std::span(order).first(told)) {
+    const Place place = Place::of(problem->line);
     const bool set_on_command_line =
-        problem->line == 0 &&
-        std::any_of(overridden.begin(), overridden.end(),
-                    [&at = problem->pointer](const std::string& root) { return pointer_within(at, root); });
+        problem->line == 0 && std::any_of(overridden.begin(), overridden.end(), [&](const std::string& root) {
+          return pointer_within(problem->pointer, root);
+        });
     if (!out.empty()) out += '\n';
     if (set_on_command_line)
       out += "command line";
     else
-      out += (other != nullptr ? plain_text(*other) : file) +
-             (problem->line > 0 ? ":" + std::to_string(problem->line) : "");
+      out += (place.other >= 0 ? plain_text(others[place.other]) : file) +
+             (place.line > 0 ? ":" + std::to_string(place.line) : "");
     if (!problem->pointer.empty()) out += ": " + plain_text(problem->pointer);
     out += ": " + plain_text(problem->message);
   }

@@ -4,17 +4,27 @@
 #include <hauberk/section.hpp>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hauberk {
+
+/// The file of a line: lines of the k-th other file are numbered from (k + 1) times `lines_of_a_file` on, so
+/// that whatever is made of a node, its problems know where it was written.
+struct Place {
+  static constexpr int lines_of_a_file = 1 << 28;  ///< more than the largest text has characters
+  static constexpr int most_others = 6;
+
+  int other = -1;  ///< index among the other files; -1: the file itself
+  int line = 0;    ///< 1-based; 0: none
+  static Place of(int line) { return {line / lines_of_a_file - 1, line % lines_of_a_file}; }
+  int encoded() const { return (other + 1) * lines_of_a_file + line; }
+};
 
 /// Problems and where their values came from.
 struct Diagnostics {
   std::string file;                     ///< as it is to be printed
   std::vector<std::string> overridden;  ///< pointers of what the command line set
-  /// Pointers of what comes from other files, and which; of two that hold a place the longer one counts.
-  std::vector<std::pair<std::string, std::string>> inherited;
+  std::vector<std::string> others;      ///< files that values come from beside `file` (Place)
   Problems problems;
 
   bool empty() const { return problems.empty(); }

@@ -1,5 +1,7 @@
 #include "run/interrupt.hpp"
 
+#include <hauberk/error.hpp>
+
 #include <unistd.h>
 #include <atomic>
 #include <csignal>
@@ -9,7 +11,7 @@ namespace {
 
 // The one piece of global state: a signal handler has no other way to say that it ran, nor to know what it
 // may do.
-std::atomic<bool> asked{false}, nothing_to_lose{false};
+std::atomic<bool> asked{false}, nothing_to_lose{false}, scoped{false};
 constexpr int interrupted_code = 130;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -53,6 +55,8 @@ constexpr std::array<int, 5> caught{SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGPIPE};
 
 InterruptScope::InterruptScope()
 {
+  if (scoped.exchange(true))
+    throw InputError("another run is going on in this process, and one at a time can be interrupted");
   for (std::size_t k = 0; k < caught.size(); ++k) sigaction(caught[k], nullptr, &former_[k]);
   catch_interrupts();
 }
@@ -61,6 +65,7 @@ InterruptScope::~InterruptScope()
 {
   for (std::size_t k = 0; k < caught.size(); ++k) sigaction(caught[k], &former_[k], nullptr);
   asked = false;
+  scoped = false;
 }
 
 }  // namespace hauberk

@@ -26,7 +26,7 @@ class NothingToLose {
 };
 
 /// The same for as long as it lives, for programs that outlive a run: at its end signals do what they did
-/// before, and nothing is interrupted any more. One at a time.
+/// before, and nothing is interrupted any more. One at a time: throws InputError where there is another.
 class InterruptScope {
  public:
   InterruptScope();

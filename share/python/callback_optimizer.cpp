@@ -9,9 +9,11 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -42,19 +44,17 @@ struct Answer {
 class Problem {
  public:
   Problem(OptimizationProblem& problem, std::span<const double> start, OptimizerObserver& observer)
-      : problem_(&problem), observer_(&observer), start_(start.begin(), start.end())
+      : problem_(problem),
+        observer_(observer),
+        start_(start.begin(), start.end()),
+        lower_(problem.lower().begin(), problem.lower().end()),
+        upper_(problem.upper().begin(), problem.upper().end())
   {
   }
 
   Array start() const { return copied(start_); }
-  Array lower()
-  {
-    return copied(asked([](OptimizationProblem& p) { return p.lower(); }));
-  }
-  Array upper()
-  {
-    return copied(asked([](OptimizationProblem& p) { return p.upper(); }));
-  }
+  Array lower() const { return copied(lower_); }
+  Array upper() const { return copied(upper_); }
   int equality_count()
   {
     return asked([](OptimizationProblem& p) { return p.equality_count(); });
@@ -119,6 +119,7 @@ class Problem {
   bool accept(const Array& point, double step)
   {
     const std::vector<double> x = within(point);
+    if (!std::isfinite(step)) throw py::value_error("expected a finite step");
     return asked([&](OptimizationProblem& p) {
       p.accept(x);
       const double value = p.evaluate(x, false).value, violation = violation_at(p, x);
@@ -128,7 +129,7 @@ class Problem {
         best_.value = value;
         violation_ = violation;
       }
-      go_on_ = observer_->on_iterate({iterations_, value, step, violation, 0.0, x});
+      go_on_ = observer_.on_iterate({iterations_, value, step, violation, 0.0, x});
       ++iterations_;
       return go_on_;
     });
@@ -137,21 +138,30 @@ class Problem {
   /// What the function comes to, and the end of questions.
   OptimizerResult end(const py::object& returned)
   {
+    close();
     OptimizerResult out = best_;
     out.status = go_on_ ? "converged" : "stopped";
     out.message = go_on_ ? "the function ended" : "stopped by the observer";
     if (!returned.is_none()) {
       out.x = within(Array(returned));
-      const Answer at = evaluate(Array(returned));
+      const Answer at = answer(answered([&](OptimizationProblem& p) { return p.evaluate(out.x, true); }));
       if (!at.ok) throw PluginError("the optimizer returned a point that cannot be evaluated: " + at.why);
       out.value = at.value;
     }
     out.iterations = std::max(0, iterations_ - 1);
     out.evaluations = evaluations_;
-    problem_ = nullptr;
     return out;
   }
-  void close() { problem_ = nullptr; }
+
+  /// No more questions; one that another thread asks is answered before this returns.
+  void close()
+  {
+    closed_ = true;
+    while (busy_) {
+      const py::gil_scoped_release free;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
   bool interrupted() const { return interrupted_; }
 
  private:
@@ -161,15 +171,20 @@ class Problem {
   template <class Question>
   auto asked(const Question& question) -> decltype(question(std::declval<OptimizationProblem&>()))
   {
-    if (problem_ == nullptr)
-      throw std::runtime_error("this minimisation is over: its problem answers no more");
+    if (closed_) throw std::runtime_error("this minimisation is over: its problem answers no more");
+    return answered(question);
+  }
+
+  template <class Question>
+  auto answered(const Question& question) -> decltype(question(std::declval<OptimizationProblem&>()))
+  {
     if (busy_) throw std::runtime_error("a problem answers one question at a time");
     if (interrupted_) interrupt();
     busy_ = true;
     try {
       auto out = [&] {
         const py::gil_scoped_release free;
-        return question(*problem_);
+        return question(problem_);
       }();
       busy_ = false;
       return out;
@@ -204,18 +219,19 @@ class Problem {
   {
     if (point.ndim() != 1 || static_cast<std::size_t>(point.size()) != start_.size())
       throw py::value_error(fmt::format("expected {} numbers, one per variable", start_.size()));
-    return {point.data(), point.data() + point.size()};
+    std::vector<double> x(point.data(), point.data() + point.size());
+    if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); }))
+      throw py::value_error("expected finite numbers");
+    return x;
   }
 
-  std::vector<double> within(const Array& point)
+  std::vector<double> within(const Array& point) const
   {
     std::vector<double> x = sized(point);
-    const auto lower = asked([](OptimizationProblem& p) { return p.lower(); });
-    const auto upper = asked([](OptimizationProblem& p) { return p.upper(); });
     for (std::size_t k = 0; k < x.size(); ++k) {
-      if (!(x[k] >= lower[k] && x[k] <= upper[k]))
+      if (!(x[k] >= lower_[k] && x[k] <= upper_[k]))
         throw py::value_error(
-            fmt::format("variable {} is {}, outside its bounds {} and {}", k, x[k], lower[k], upper[k]));
+            fmt::format("variable {} is {}, outside its bounds {} and {}", k, x[k], lower_[k], upper_[k]));
     }
     return x;
   }
@@ -227,13 +243,14 @@ class Problem {
             std::move(e.why)};
   }
 
-  OptimizationProblem* problem_;  ///< null: the minimisation is over
-  OptimizerObserver* observer_;
-  std::vector<double> start_;
+  OptimizationProblem& problem_;  ///< alive until `closed_`
+  OptimizerObserver& observer_;
+  std::vector<double> start_, lower_, upper_;
   OptimizerResult best_;
   double violation_ = 0.0;
   int iterations_ = 0, evaluations_ = 0;
-  bool busy_ = false, interrupted_ = false, go_on_ = true;
+  /// Read and written with Python's lock held.
+  bool closed_ = false, busy_ = false, interrupted_ = false, go_on_ = true;
 };
 
 class CallbackOptimizer final : public Optimizer {

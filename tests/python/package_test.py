@@ -184,7 +184,45 @@ class Package(unittest.TestCase):
             self.design().run(optimizer=lambda: None)
         with self.assertRaisesRegex(hauberk.InputError, "expected a function"):
             self.design().run(optimizer="sqp")
+        with self.assertRaisesRegex(hauberk.InputError, "no design"):
+            hauberk.Experiment(EXPERIMENTS / "chain.json").run(optimizer=broken)
+        with self.assertRaisesRegex(hauberk.InputError, "no design"):
+            self.design().set("/task", "limits").set("/load_case/directions_deg", [0]).run(optimizer=broken)
+
+        def nested(problem):
+            self.design().run()
+
+        with self.assertRaisesRegex(hauberk.InputError, "another run"):
+            self.design().run(optimizer=nested)
         self.assertFalse(hauberk.Experiment(EXPERIMENTS / "chain.json").run().failed)
+
+    def test_questions_of_other_threads_end_with_the_function(self):
+        ended = []
+
+        def careless(problem):
+            points = numpy.linspace(problem.lower, problem.upper, 400)
+            asking = threading.Event()
+
+            def ask():
+                asking.set()
+                with self.assertRaisesRegex(RuntimeError, "over"):
+                    while True:
+                        problem.evaluate_many(points)
+                ended.append(True)
+
+            thread = threading.Thread(target=ask)
+            thread.start()
+            asking.wait()
+            time.sleep(0.02)
+            with self.assertRaisesRegex(RuntimeError, "one question at a time"):
+                problem.evaluate(problem.start)
+            threads.append(thread)
+
+        threads = []
+        self.assertFalse(self.design().run(optimizer=careless).failed)
+        for thread in threads:
+            thread.join()
+        self.assertEqual(ended, [True] * len(threads))
 
     def test_interrupts_reach_an_optimizer(self):
         def endless(problem):

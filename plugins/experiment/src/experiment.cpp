@@ -83,12 +83,32 @@ bool changes_no_answer(const std::string& pointer, TaskFormats formats)
 {
   const auto within = [&pointer](const std::string& place) { return pointer_within(pointer, place); };
   if (pointer.starts_with("/solver/")) return !within("/solver/clearance");
-  if (within("/seed") || within("/name") || within("/description")) return true;
+  if (within("/seed") || within("/$schema") || within("/name") || within("/description")) return true;
   return std::any_of(formats.begin(), formats.end(), [&](const TaskFormat& format) {
     return std::any_of(format.search_keys.begin(), format.search_keys.end(), [&](std::string_view key) {
       return within("/" + std::string(format.name) + "/" + std::string(key));
     });
   });
+}
+
+/// A design is searched by the caller's optimizer, whatever its file names. False: there is none, as is
+/// reported.
+bool put_callers_optimizer(Node& root, Problems& problems)
+{
+  const Node* task = root.find("task");
+  Node* design = find_mutable(root, "design");
+  if (task == nullptr || task->string != "design" || design == nullptr || !design->is(Node::Type::object)) {
+    problems.add({"", 0, "an optimizer is given, and this is no design: it would never be asked"});
+    return false;
+  }
+  Node name;
+  name.type = Node::Type::string;
+  name.string = callers_optimizer;
+  Node section;
+  section.type = Node::Type::object;
+  section.members.emplace_back("plugin", std::move(name));
+  set_value(root, "/design/optimizer", section);
+  return true;
 }
 
 /// Empties what a file expects where overrides make another experiment of it and do not say what they expect
@@ -118,6 +138,11 @@ std::optional<Experiment> read_experiment(const ExperimentSource& source, const 
   std::optional<Node> root = read_jsonc(source.text, problems);
   if (!root || !extend(*root, source.file, diagnostics)) return std::nullopt;
   for (const std::string& assignment : source.overrides) apply_override(*root, assignment, diagnostics);
+  if (root->find("extends") != nullptr) {
+    diagnostics.problems.add({"/extends", 0, "cannot be set: a file says itself which one it extends"});
+    return std::nullopt;
+  }
+  if (source.optimizer != nullptr && !put_callers_optimizer(*root, problems)) return std::nullopt;
   const std::string folder = std::filesystem::path(source.file).parent_path().string();
   std::optional<Experiment> experiment =
       read_tree(std::move(*root),

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr const char* key = "extends";
 /// Files that extend each other in a row.
-constexpr int most_files = 8;
+constexpr int most_files = Place::most_others;
 
 class Extension {
  public:
@@ -31,16 +32,18 @@ class Extension {
     const std::optional<Node> named = take_out(root);
     if (!named) return true;
     if (depth == 0) here_ = *named;
-    const std::string place = depth == 0 ? "" : fmt::format("{}:{}: ", file, named->line);
+    const std::string place = depth == 0 ? "" : fmt::format("{}:{}: ", file, Place::of(named->line).line);
     if (!named->is(Node::Type::string)) return refuse(place + "expected the path of a file");
     if (depth == most_files)
       return refuse(
           fmt::format("{}{} files extend each other in a row: is there a circle?", place, most_files));
-    const std::string path =
-        (std::filesystem::path(file).parent_path() / named->string).lexically_normal().string();
+    if (named->string.find('\0') != std::string::npos)
+      return refuse(place + "expected the path of a file, found a character that no path has");
+    // As the system walks it: with links to folders, "a/.." need not be here.
+    const std::string path = (std::filesystem::path(file).parent_path() / named->string).string();
     std::optional<Node> base = read(place, path);
     if (!base || !extend(*base, path, depth + 1)) return false;
-    join(*base, root, path);
+    join(*base, root);
     return true;
   }
 
@@ -77,6 +80,8 @@ class Extension {
       return std::nullopt;
     }
     if (!problems.empty()) return std::nullopt;
+    diagnostics_.others.push_back(path);
+    number_lines(*base);
     constexpr std::array<std::string_view, 4> own{"$schema", "name", "description", "expect"};
     std::erase_if(base->members, [&](const auto& member) {
       return std::find(own.begin(), own.end(), member.first) != own.end();
@@ -84,33 +89,39 @@ class Extension {
     return base;
   }
 
-  /// `over` becomes what it says over `base`.
-  void join(Node& base, Node& over, const std::string& path)
+  /// `over` becomes what it says over `base`, whose order stays; keys of its own come first.
+  static void join(Node& base, Node& over)
   {
     std::vector<std::pair<std::string, Node>> joined;
     for (auto& [name, value] : base.members) {
       const auto own = std::find_if(over.members.begin(), over.members.end(),
                                     [&name = name](const auto& member) { return member.first == name; });
       if (own == over.members.end()) {
-        diagnostics_.inherited.emplace_back(value.pointer, path);
         joined.emplace_back(name, std::move(value));
         continue;
       }
-      if (own->second.is(Node::Type::object) && value.is(Node::Type::object))
-        join(value, own->second, path);
-      else
-        forget(own->second.pointer);
-      if (!own->second.is(Node::Type::null)) joined.emplace_back(name, std::move(own->second));
+      if (own->second.is(Node::Type::object) && value.is(Node::Type::object)) join(value, own->second);
+      joined.push_back(std::move(*own));
       over.members.erase(own);
     }
-    for (auto& member : joined) over.members.push_back(std::move(member));
+    over.members.insert(over.members.end(), std::make_move_iterator(joined.begin()),
+                        std::make_move_iterator(joined.end()));
+    drop_nulls(over);
   }
 
-  /// What is below a place comes from no other file.
-  void forget(const std::string& pointer)
+  /// What takes a key away, also where there is none.
+  static void drop_nulls(Node& object)
   {
-    std::erase_if(diagnostics_.inherited,
-                  [&](const auto& entry) { return pointer_within(entry.first, pointer); });
+    std::erase_if(object.members, [](const auto& member) { return member.second.is(Node::Type::null); });
+    for (auto& [name, value] : object.members) drop_nulls(value);
+  }
+
+  /// Lines of the file that is the newest of `others`.
+  void number_lines(Node& node) const
+  {
+    node.line = Place{static_cast<int>(diagnostics_.others.size()) - 1, node.line}.encoded();
+    for (Node& item : node.items) number_lines(item);
+    for (auto& [name, value] : node.members) number_lines(value);
   }
 
   Diagnostics& diagnostics_;

@@ -77,12 +77,11 @@ struct StopsAfterSearch final : SearchMemory {
   std::atomic<bool> done = false;
 };
 
-/// Forces of many flat tubes take a second: an interrupt does not wait for them.
-TEST(Search, AnInterruptMeetsForcesThatAreBeingComputed)
+/// Starts that were done are kept where a search is interrupted, with their forces.
+TEST(Search, AnInterruptKeepsStartsThatWereDone)
 {
   Sheet4in1 s;
   const std::vector<LimitTask> tasks{{Direction::at_degrees(0.0), Sense::positive}};
-  s.settings.contact = ContactChoice::arc;
   const LimitResult whole = compute_limits(s.model, s.scene, tasks, s.settings, 1)[0];
   ASSERT_EQ(whole.status, LimitStatus::locked);
   StopsAfterSearch memory;
@@ -93,9 +92,24 @@ TEST(Search, AnInterruptMeetsForcesThatAreBeingComputed)
   EXPECT_EQ(r.status, LimitStatus::interrupted);
   EXPECT_EQ(r.message, "1 of 1 starts were done");
   EXPECT_EQ(r.value, whole.value);
-  EXPECT_EQ(r.min_gap, whole.min_gap);
+  EXPECT_EQ(r.force_balance, whole.force_balance);
+}
+
+/// Forces of many flat tubes take a second: an interrupt does not wait for them, and leaves no half of a
+/// state.
+TEST(Search, AnInterruptMeetsForcesThatAreBeingComputed)
+{
+  Sheet4in1 s;
+  s.settings.contact = ContactChoice::arc;
+  const LimitTask task{Direction::at_degrees(0.0), Sense::positive};
+  const std::vector<FoundState> found{
+      {limit_from_start(s.model, task, s.settings, 0, always), "start", s.settings.seed}};
+  EXPECT_EQ(summarize(s.model, s.scene, task, s.settings, found, always).status, LimitStatus::locked);
+  const LimitResult r = summarize(s.model, s.scene, task, s.settings, found, [] { return false; });
+  EXPECT_EQ(r.status, LimitStatus::interrupted);
+  EXPECT_FALSE(r.value);
   EXPECT_FALSE(r.force_balance);
-  EXPECT_TRUE(r.contacts.empty());
+  EXPECT_TRUE(r.poses.empty() && r.contacts.empty() && r.starts.empty());
 }
 
 /// No limit of a set is nearer than where another one's state already is along its direction.

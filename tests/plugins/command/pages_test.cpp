@@ -66,9 +66,9 @@ TEST(Pages, CommandsOfTheProgram)
 {
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.about.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"run", "check", "plan", "room", "gather", "submit", "verify", "report", "export", "inspect", "weave",
-                                             "plugins", "plugins conform", "plugins new", "completion",
-                                             "man"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"run", "check", "plan", "room", "gather", "submit", "verify",
+                                             "report", "export", "inspect", "weave", "plugins",
+                                             "plugins conform", "plugins new", "completion", "man"}));
 }
 
 TEST(Pages, EveryCommandIsOnThem)

@@ -92,6 +92,38 @@ TEST_F(Extends, ProblemsNameTheFileThatTheyAreIn)
   EXPECT_EQ(problems_, "command line: /seed: expected an integer >= 0, found -3");
 }
 
+/// Objects that several files have parts of, and what a weave makes of a place of another file.
+TEST_F(Extends, EveryPlaceKnowsItsFile)
+{
+  write("base.json", with(valid_text(), "1e-3", "-1e-3"));
+  write("middle.json", "{ \"extends\": \"base.json\",\n \"solver\": { \"contact\": \"none\" } }");
+  EXPECT_FALSE(read("{ \"extends\": \"middle.json\", \"name\": \"n\",\n\n \"solver\": { \"preset\": 5 } }"));
+  EXPECT_EQ(problems_.find("own.json:3: /solver/preset: "), 0U) << problems_;
+  EXPECT_NE(problems_.find("\nmiddle.json:2: /solver/contact: "), std::string::npos) << problems_;
+  EXPECT_NE(problems_.find("\nbase.json:14: /solver/tolerance: "), std::string::npos) << problems_;
+}
+
+TEST_F(Extends, NullTakesAwayAlsoWhatIsNotThere)
+{
+  const std::optional<Experiment> e =
+      read(R"({ "extends": "base.json", "name": "n", "seed": null, "solver": { "starts": null } })");
+  ASSERT_TRUE(e) << problems_;
+  EXPECT_EQ(e->seed, 1U);
+  EXPECT_EQ(e->solver.tolerance, 1e-3);
+}
+
+/// The system's "..", not that of the letters: behind a link to a folder it leads elsewhere.
+TEST_F(Extends, PathsAreWalked)
+{
+  std::filesystem::create_directories(folder_ / "real/deep");
+  write("real/base.json", with(valid_text(), "\"ring.R\": 5.0", "\"ring.R\": 5.25"));
+  write("real/deep/middle.json", R"({ "extends": "../base.json" })");
+  std::filesystem::create_directory_symlink(folder_ / "real/deep", folder_ / "link");
+  const std::optional<Experiment> e = read(R"({ "extends": "link/middle.json", "name": "n" })");
+  ASSERT_TRUE(e) << problems_;
+  EXPECT_EQ(e->scene.elements[0].parameters[0], 5.25);
+}
+
 TEST_F(Extends, RefusesWhatIsNoOtherExperiment)
 {
   const auto problem = [&](const std::string& of) {
@@ -107,9 +139,13 @@ TEST_F(Extends, RefusesWhatIsNoOtherExperiment)
   EXPECT_EQ(problem("\"list.json\""), "own.json:1: /extends: list.json: expected an object");
   write("broken.json", "{\n\"name\": }");
   EXPECT_EQ(problem("\"broken.json\"").find("own.json:1: /extends: broken.json:2: "), 0U) << problems_;
+  EXPECT_EQ(problem("\"a\\u0000b\""),
+            "own.json:1: /extends: expected the path of a file, found a character that no path has");
+  EXPECT_FALSE(read(valid_text(), {"/extends=base.json"}));
+  EXPECT_EQ(problems_, "command line: /extends: cannot be set: a file says itself which one it extends");
   write("circle.json", R"({ "extends": "circle.json", "name": "c" })");
   EXPECT_EQ(problem("\"circle.json\""),
-            "own.json:1: /extends: circle.json:1: 8 files extend each other in a row: is there a circle?");
+            "own.json:1: /extends: circle.json:1: 6 files extend each other in a row: is there a circle?");
 }
 
 }  // namespace

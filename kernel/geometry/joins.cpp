@@ -3,6 +3,8 @@
 
 #include <hauberk/error.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,30 +173,148 @@ Vec3 solid_point(const Body& b, double u, double s, double w)
   return p.x + s * b.r0 * (std::cos(w) * n + std::sin(w) * t.cross(n));
 }
 
-/// Lowest level of `field` over the solid of `b` near a point of its grid: steps along each coordinate,
-/// halved where none falls.
-double lowest_level(const Body& b, const Body& field, std::array<double, 3>& at, std::array<double, 3> step)
-{
-  double value = level(field, solid_point(b, at[0], at[1], at[2]));
-  for (int halved = 0; halved < 40;) {
+/// The search of lowest_level.
+class LevelSearch {
+ public:
+  LevelSearch(const Body& b, const Body& field, const std::array<double, 3>& at,
+              const std::array<double, 3>& first_step)
+      : b_(b), field_(field), first_step_(first_step), step_(first_step), at_(at), value_(level_at(at))
+  {
+  }
+
+  void run()
+  {
+    constexpr int most_halvings = 40, many_sweeps = 100, most_sweeps = 20000;
+    int sweeps = 0;
+    for (int halved = 0; halved < most_halvings;) {
+      if (++sweeps > most_sweeps) {
+        throw InputError(
+            "an element of several primitives has tubes so flat that it is not known where they join: its "
+            "loops are not known");
+      }
+      const std::array<double, 3> before = at_;
+      bool fell = sweep();
+      if (fell) go_on_from(before);
+      // A bent valley would take a million sweeps.
+      if (sweeps > many_sweeps && sweeps % 8 == 0) fell = curved_step() || fell;
+      if (fell) continue;
+      for (double& s : step_) s *= 0.5;
+      ++halved;
+    }
+  }
+
+  const std::array<double, 3>& at() const { return at_; }
+  double value() const { return value_; }
+
+ private:
+  double level_at(const std::array<double, 3>& p) const
+  {
+    return level(field_, solid_point(b_, p[0], p[1], p[2]));
+  }
+
+  bool falls_at(std::array<double, 3> next)
+  {
+    next[1] = std::clamp(next[1], 0.0, 1.0);
+    const double there = level_at(next);
+    if (!(there < value_)) return false;
+    value_ = there;
+    at_ = next;
+    return true;
+  }
+
+  /// A step along each coordinate, either way.
+  bool sweep()
+  {
     bool fell = false;
-    for (std::size_t k = 0; k < at.size(); ++k) {
+    for (std::size_t k = 0; k < at_.size(); ++k) {
       for (const double way : {1.0, -1.0}) {
-        std::array<double, 3> next = at;
-        next[k] += way * step[k];
-        next[1] = std::clamp(next[1], 0.0, 1.0);
-        const double there = level(field, solid_point(b, next[0], next[1], next[2]));
-        if (there >= value) continue;
-        value = there;
-        at = next;
-        fell = true;
+        std::array<double, 3> next = at_;
+        next[k] += way * step_[k];
+        fell = falls_at(next) || fell;
       }
     }
-    if (fell) continue;
-    for (double& s : step) s *= 0.5;
-    ++halved;
+    return fell;
   }
-  return value;
+
+  /// On along the way that a sweep came, twice as far each time, up to a first step, as long as it falls
+  /// (Hooke and Jeeves 1961).
+  void go_on_from(const std::array<double, 3>& before)
+  {
+    std::array<double, 3> way{};
+    for (std::size_t k = 0; k < way.size(); ++k) way[k] = at_[k] - before[k];
+    for (;;) {
+      std::array<double, 3> next = at_;
+      for (std::size_t k = 0; k < way.size(); ++k) {
+        if (std::abs(way[k]) > first_step_[k]) return;
+        next[k] += way[k];
+        way[k] *= 2.0;
+      }
+      if (!falls_at(next)) return;
+    }
+  }
+
+  /// Newton's step for the square of the level, by differences, in the coordinates that are free, no longer
+  /// than a first step; halved until it falls.
+  bool curved_step()
+  {
+    constexpr double h = 1e-4;
+    std::vector<std::size_t> free{0, 2};
+    if (at_[1] > h && at_[1] < 1.0 - h) free.push_back(1);
+    const auto n = static_cast<Eigen::Index>(free.size());
+    const auto square = [&](Eigen::Index i, double di, Eigen::Index j, double dj) {
+      std::array<double, 3> p = at_;
+      p[free[static_cast<std::size_t>(i)]] += di;
+      p[free[static_cast<std::size_t>(j)]] += dj;
+      const double v = level_at(p);
+      return v * v;
+    };
+    Eigen::VectorXd gradient(n);
+    Eigen::MatrixXd hessian(n, n);
+    const double here = value_ * value_;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double up = square(i, h, i, 0.0), down = square(i, -h, i, 0.0);
+      gradient[i] = (up - down) / (2.0 * h);
+      hessian(i, i) = (up - 2.0 * here + down) / (h * h);
+      for (Eigen::Index j = 0; j < i; ++j) {
+        hessian(i, j) = hessian(j, i) =
+            (square(i, h, j, h) - square(i, h, j, -h) - square(i, -h, j, h) + square(i, -h, j, -h)) /
+            (4.0 * h * h);
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(hessian);
+    const double floor = 1e-9 * eigen.eigenvalues().cwiseAbs().maxCoeff();
+    if (!(floor > 0.0)) return false;
+    const Eigen::VectorXd along = eigen.eigenvectors().transpose() * gradient;
+    const Eigen::VectorXd step =
+        -eigen.eigenvectors() * along.cwiseQuotient(eigen.eigenvalues().cwiseAbs().cwiseMax(floor));
+    double share = 1.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double most = first_step_[free[static_cast<std::size_t>(i)]];
+      share = std::min(share, most / std::max(most, std::abs(step[i])));
+    }
+    for (int halved = 0; halved < 8; ++halved, share *= 0.5) {
+      std::array<double, 3> next = at_;
+      for (Eigen::Index i = 0; i < n; ++i) next[free[static_cast<std::size_t>(i)]] += share * step[i];
+      if (falls_at(next)) return true;
+    }
+    return false;
+  }
+
+  const Body &b_, &field_;
+  const std::array<double, 3> first_step_;
+  std::array<double, 3> step_, at_;
+  double value_;
+};
+
+/// Lowest level of `field` over the solid of `b` near a point of its grid: steps along each coordinate,
+/// halved where none falls, with one of Newton's among them.
+double lowest_level(const Body& b, const Body& field, std::array<double, 3>& at,
+                    const std::array<double, 3>& first_step)
+{
+  LevelSearch search(b, field, at, first_step);
+  search.run();
+  at = search.at();
+  return search.value();
 }
 
 /// Where at least one cross-section is an ellipse, that of `field`.

@@ -94,6 +94,38 @@ TEST(Joins, OvalTubesAgainstRoundOnesThatTheyLieBetween)
   EXPECT_GT(missed, 20);
 }
 
+/// Tubes as tall as a tower: what the solids share is a bent valley of the level, along which steps of
+/// coordinates creep.
+TEST(Joins, TheDeepestPlaceIsFoundInABentValley)
+{
+  const auto side = [](double angle) {
+    const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+    return torus(2.575, 0.95, 59.0, 6.825 * out, Vec3::UnitZ().cross(out));
+  };
+  const Body a = side(0.0), b = side(2.0 * pi / 3.0);
+  const auto level = [](const Body& t, const Vec3& x) {
+    const Vec3 p = t.axes.transpose() * (x - t.center);
+    return std::hypot((std::hypot(p.x(), p.y()) - t.R) / t.r0, p.z() / t.r1);
+  };
+  double least = 1e300;
+  constexpr int n = 60;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const double u = 2.0 * pi * i / n, s = static_cast<double>(j) / n, w = 2.0 * pi * k / n;
+        const Vec3 way = std::cos(u) * a.axes.col(0) + std::sin(u) * a.axes.col(1);
+        const Vec3 x =
+            a.center + (a.R + s * a.r0 * std::cos(w)) * way + s * a.r1 * std::sin(w) * a.axes.col(2);
+        least = std::min(least, level(b, x));
+      }
+  double found = 1e300;
+  for (const Join& join : joins(a, b)) {
+    EXPECT_LE(level(a, join.common), 1.0 + 1e-9);
+    found = std::min(found, level(b, join.common));
+  }
+  EXPECT_LE(found, least);
+}
+
 TEST(Spine, HasTheFirstBettiNumberOfTheSolid)
 {
   EXPECT_EQ(make_spine(cage(1.0, 0.1, 0.1)).loops.size(), 4U) << "an octahedron's edges: 12 - 6 + 1 = 3 + 4";

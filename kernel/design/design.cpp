@@ -257,7 +257,7 @@ struct StartSearch {
 StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double clearance,
                         const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                         unsigned threads, int start, const DesignObserver& observer, EvaluationMemory* memory,
-                        const KeepGoing& keep_going, const LookObserver& look)
+                        const KeepGoing& keep_going, const LimitsProgress& look)
 {
   SceneSpec frozen = scene;
   frozen.length = characteristic_length(scene);
@@ -289,7 +289,7 @@ bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                     unsigned threads, const DesignObserver& observer, EvaluationMemory* memory,
-                    const KeepGoing& keep_going, const LookObserver& look)
+                    const KeepGoing& keep_going, const LimitsProgress& look)
 {
   const auto t0 = std::chrono::steady_clock::now();
   Designed out;

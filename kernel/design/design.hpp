@@ -60,13 +60,6 @@ struct DesignProgress {
 };
 using DesignObserver = std::function<bool(const DesignProgress&)>;
 
-/// Who follows the thorough looks at designs that a search may end with: each takes as long as the limits
-/// that are reported. Called as LimitsObserver is; empty functions are not.
-struct LookObserver {
-  std::function<void(std::size_t done, std::size_t total)> on_start;
-  std::function<void(int round, std::size_t done, std::size_t total)> on_lesson;
-};
-
 /// Outcome of the optimisation; limits are recomputed from rest by the caller (`finish_design`).
 struct Designed {
   DesignResult result;  ///< all but recomputed values
@@ -79,12 +72,13 @@ class EvaluationMemory;
 /// Evaluations that `memory` knows are not made again (evaluation_memory.hpp); null: none are known, nor
 /// recorded. Throws InputError when the initial design is infeasible at rest, ComputationError when no
 /// evaluation succeeds, and Interrupted where `keep_going` says no within an evaluation, which is then not
-/// recorded.
+/// recorded. `look` is told of the thorough looks at what a search ends with, each of which takes as long as
+/// the limits that are reported.
 Designed run_design(
     const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
     const DesignSpec& design, const Optimizer& optimizer, unsigned threads, const DesignObserver& observer,
     EvaluationMemory* memory = nullptr, const KeepGoing& keep_going = [] { return true; },
-    const LookObserver& look = {});
+    const LimitsProgress& look = {});
 
 /// Of a run that is divided: the search from one of its starts with coarse stages, for `memory` alone. Throws
 /// InputError when the initial design is infeasible at rest, Interrupted as run_design. False: the observer

@@ -16,7 +16,7 @@ struct DesignScene {
   DesignSpec design;
   unsigned threads = 1;
   KeepGoing keep_going;
-  LookObserver look = {};
+  LimitsProgress look = {};  ///< of thorough looks at what a search may end with
 
   /// The scene's own values of the variables.
   std::vector<double> variables() const;

@@ -177,8 +177,7 @@ std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoin
   };
   observer.on_unreported = count;
   observer.keep_going = scene_->keep_going;
-  observer.on_start = scene_->look.on_start;
-  observer.on_lesson = scene_->look.on_lesson;
+  static_cast<LimitsProgress&>(observer) = scene_->look;
   count(compute_limits(p.model, p.spec, tasks_, settings, threads, observer));
   if (!scene_->keep_going()) throw Interrupted();
   return states;

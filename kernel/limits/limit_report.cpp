@@ -408,10 +408,10 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   }
   if (l.stages.empty()) return r;
 
-  r.value =
-      m.load->value(task.direction, l.state.macro_values()) * power(m.length, m.load->value_length_power());
+  const double scale = power(m.length, m.load->value_length_power());
+  r.value = m.load->value(task.direction, l.state.macro_values()) * scale;
   r.companions = m.load->companions(task.direction, l.state.macro_values());
-  if (l.error_estimate) r.error_estimate = *l.error_estimate * power(m.length, m.load->value_length_power());
+  if (l.error_estimate) r.error_estimate = *l.error_estimate * scale;
   if (std::isfinite(l.stage.target)) r.finite_target = l.stage.target;
   const Vec3 shift = fill_state(r, m, l.state);
   r.certificate = certificate_of(m, l, *r.min_gap);

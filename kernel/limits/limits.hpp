@@ -103,15 +103,19 @@ LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask
 /// something else may (elements can be entangled without a link), so the load is tried.
 Boundedness bounded_by_links(const Model& model, const LimitTask& task);
 
-/// Who follows a computation of limits. Empty functions are not called.
-struct LimitsObserver {
-  /// False: stop as soon as possible. Called from all threads.
-  std::function<bool()> keep_going;
+/// Who is told how far a computation of limits is. Empty functions are not called.
+struct LimitsProgress {
   /// After each start of each task, one call at a time.
   std::function<void(std::size_t done, std::size_t total)> on_start;
   /// Before the first and after each lesson of a round (limits learn from each other), one call at a time.
   /// How many rounds there will be is not known.
   std::function<void(int round, std::size_t done, std::size_t total)> on_lesson;
+};
+
+/// Who follows a computation of limits. Empty functions are not called.
+struct LimitsObserver : LimitsProgress {
+  /// False: stop as soon as possible. Called from all threads.
+  std::function<bool()> keep_going;
   /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
   std::function<void(const std::vector<LimitResult>&)> on_limit;
   /// At the end: the furthest locked state of every task that was asked for; null where there is none.

@@ -16,6 +16,14 @@ std::optional<BoundarySurface> boundary_of(const Experiment& experiment, const L
                           further_than(settings) * scale);
 }
 
+LimitsProgress shown_as(const std::string& label, Progress& progress)
+{
+  return {[label, &progress](std::size_t done, std::size_t total) { progress.limits(label, done, total); },
+          [label, &progress](int round, std::size_t done, std::size_t total) {
+            progress.lessons(label, round, done, total);
+          }};
+}
+
 std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink)
 {
   const auto named = [&job](std::vector<LimitResult> limits) {
@@ -24,10 +32,7 @@ std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, co
   };
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
-  observer.on_start = [&](std::size_t done, std::size_t total) { progress.limits(job.label, done, total); };
-  observer.on_lesson = [&](int round, std::size_t done, std::size_t total) {
-    progress.lessons(job.label, round, done, total);
-  };
+  static_cast<LimitsProgress&>(observer) = shown_as(job.label, progress);
   observer.memory = job.memory;
   observer.on_limit = [&](const std::vector<LimitResult>& limits) { sink(named(limits)); };
   return named(
@@ -38,7 +43,7 @@ void run_searches(const LimitsJob& job, Progress& progress, const Share& share)
 {
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
-  observer.on_start = [&](std::size_t done, std::size_t total) { progress.limits(job.label, done, total); };
+  static_cast<LimitsProgress&>(observer) = shown_as(job.label, progress);
   observer.memory = job.memory;
   compute_searches(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, share);
 }

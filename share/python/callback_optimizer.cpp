@@ -1,5 +1,7 @@
 #include "callback_optimizer.hpp"
 
+#include "common/best_point.hpp"
+#include "common/point.hpp"
 #include "tasks/design/tapped_optimizer.hpp"
 
 #include <hauberk/error.hpp>
@@ -82,7 +84,7 @@ class Problem {
     return out;
   }
 
-  /// At the point that was evaluated last.
+  /// At a point, which is evaluated where it was not the last one.
   std::optional<std::pair<Array, Array>> residuals(const Array& point)
   {
     const std::vector<double> x = within(point);
@@ -121,14 +123,12 @@ class Problem {
     const std::vector<double> x = within(point);
     if (!std::isfinite(step)) throw py::value_error("expected a finite step");
     return asked([&](OptimizationProblem& p) {
+      const double tried = p.evaluate(x, false).value;
       p.accept(x);
       const double value = p.evaluate(x, false).value, violation = violation_at(p, x);
-      const auto rank = [](double v, double f) { return std::pair(std::max(v, feasible), f); };
-      if (best_.x.empty() || rank(violation, value) < rank(violation_, best_.value)) {
-        best_.x = x;
-        best_.value = value;
-        violation_ = violation;
-      }
+      // A closer look at an iterate than at a trial: former values may be as wrong.
+      if (value > tried + surprise * std::abs(tried)) best_.forget();
+      best_.offer(Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x)), value, violation);
       go_on_ = observer_.on_iterate({iterations_, value, step, violation, 0.0, x});
       ++iterations_;
       return go_on_;
@@ -139,9 +139,9 @@ class Problem {
   OptimizerResult end(const py::object& returned)
   {
     close();
-    OptimizerResult out = best_;
-    out.status = go_on_ ? "converged" : "stopped";
-    out.message = go_on_ ? "the function ended" : "stopped by the observer";
+    OptimizerResult out = best_.result(
+        go_on_ ? "converged" : "stopped", go_on_ ? "the function ended" : "stopped by the observer",
+        Eigen::Map<const Eigen::VectorXd>(start_.data(), std::ssize(start_)), 0.0);
     if (!returned.is_none()) {
       out.x = within(Array(returned));
       const Answer at = answer(answered([&](OptimizationProblem& p) { return p.evaluate(out.x, true); }));
@@ -206,13 +206,9 @@ class Problem {
 
   static double violation_at(OptimizationProblem& p, const std::vector<double>& x)
   {
-    std::vector<double> c(static_cast<std::size_t>(p.constraint_count()));
-    if (c.empty()) return 0.0;
-    p.constraints(x, c, {});
-    double worst = 0.0;
-    for (std::size_t k = 0; k < c.size(); ++k)
-      worst = std::max(worst, static_cast<int>(k) < p.equality_count() ? std::abs(c[k]) : -c[k]);
-    return worst;
+    Eigen::VectorXd c(p.constraint_count());
+    if (c.size() > 0) p.constraints(x, {c.data(), static_cast<std::size_t>(c.size())}, {});
+    return largest_violation(c, p.equality_count());
   }
 
   std::vector<double> sized(const Array& point) const
@@ -246,8 +242,7 @@ class Problem {
   OptimizationProblem& problem_;  ///< alive until `closed_`
   OptimizerObserver& observer_;
   std::vector<double> start_, lower_, upper_;
-  OptimizerResult best_;
-  double violation_ = 0.0;
+  BestPoint best_{feasible};
   int iterations_ = 0, evaluations_ = 0;
   /// Read and written with Python's lock held.
   bool closed_ = false, busy_ = false, interrupted_ = false, go_on_ = true;

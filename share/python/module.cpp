@@ -118,7 +118,7 @@ struct Outcome {
 Outcome run(Source source, unsigned threads, const std::string& output, bool force, bool show_progress,
             const py::object& optimizer)
 {
-  // It is gone before the lock is taken away from what made it: it holds an object of Python.
+  // It holds an object of Python: the last one to let go of it is `source`, which goes with the lock held.
   if (!optimizer.is_none()) source.optimizer = callback_optimizer(py::cast<py::function>(optimizer));
   const py::gil_scoped_release free;
   const InterruptScope signals;

@@ -95,18 +95,12 @@ bool changes_no_answer(const std::string& pointer, TaskFormats formats)
 /// reported.
 bool put_callers_optimizer(Node& root, Problems& problems)
 {
-  const Node* task = root.find("task");
-  Node* design = find_mutable(root, "design");
-  if (task == nullptr || task->string != "design" || design == nullptr || !design->is(Node::Type::object)) {
+  if (string_or(root, "task", "") != "design" || find_typed(root, "design", Node::Type::object) == nullptr) {
     problems.add({"", 0, "an optimizer is given, and this is no design: it would never be asked"});
     return false;
   }
-  Node name;
-  name.type = Node::Type::string;
-  name.string = callers_optimizer;
-  Node section;
-  section.type = Node::Type::object;
-  section.members.emplace_back("plugin", std::move(name));
+  Node section = object_node();
+  set_default(section, "plugin", string_node(callers_optimizer));
   set_value(root, "/design/optimizer", section);
   return true;
 }

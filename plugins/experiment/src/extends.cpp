@@ -44,6 +44,7 @@ class Extension {
     std::optional<Node> base = read(place, path);
     if (!base || !extend(*base, path, depth + 1)) return false;
     join(*base, root);
+    if (depth == 0) drop_nulls(root);
     return true;
   }
 
@@ -106,7 +107,6 @@ class Extension {
     }
     over.members.insert(over.members.end(), std::make_move_iterator(joined.begin()),
                         std::make_move_iterator(joined.end()));
-    drop_nulls(over);
   }
 
   /// What takes a key away, also where there is none.

@@ -55,6 +55,21 @@ class SchemaWriter {
     return out;
   }
 
+  /// Properties of an object; `closed`: it has no others.
+  void write_members(const std::vector<Field>& members, bool closed, Node& out) const
+  {
+    set_default(out, "type", string_node("object"));
+    Node properties = object_node();
+    std::vector<std::string> needed;
+    for (const Field& member : members) {
+      set_default(properties, member.name, write(member));
+      if (member.required) needed.push_back(member.name);
+    }
+    set_default(out, "properties", std::move(properties));
+    if (!needed.empty()) set_default(out, "required", strings_node(needed));
+    if (closed) set_default(out, "additionalProperties", boolean_node(false));
+  }
+
  private:
   std::span<const PluginTable* const> plugins_;
 
@@ -144,20 +159,6 @@ class SchemaWriter {
     set_default(out, "anyOf", std::move(options));
   }
 
-  void write_members(const std::vector<Field>& members, bool closed, Node& out) const
-  {
-    set_default(out, "type", string_node("object"));
-    Node properties = object_node();
-    std::vector<std::string> needed;
-    for (const Field& member : members) {
-      set_default(properties, member.name, write(member));
-      if (member.required) needed.push_back(member.name);
-    }
-    set_default(out, "properties", std::move(properties));
-    if (!needed.empty()) set_default(out, "required", strings_node(needed));
-    if (closed) set_default(out, "additionalProperties", boolean_node(false));
-  }
-
   /// A section with a plugin: the common fields, and for each plugin that is known, all of its fields. Draft
   /// 7 has no way to add to a closed object, so each alternative repeats the common fields.
   void write_object(const Field& field, Node& out) const
@@ -190,18 +191,14 @@ Node experiment_schema(std::span<const PluginTable* const> plugins, TaskFormats 
   set_default(root, "title", string_node("Hauberk experiment"));
   std::vector<const PluginTable*> shapes_too(plugins.begin(), plugins.end());
   shapes_too.push_back(&union_table());
-  Node body = SchemaWriter(shapes_too).write(experiment_fields(formats));
+  const SchemaWriter writer(shapes_too);
+  Node body = writer.write(experiment_fields(formats));
   // What a file leaves out that extends another one is known there alone.
-  Node extending = object_node(), named = object_node(), extends = object_node(), name = object_node();
+  Node extending = object_node(), named = object_node();
   set_default(extending, "required", strings_node({"extends"}));
-  set_default(extends, "type", string_node("string"));
-  set_default(name, "type", string_node("string"));
-  Node properties = object_node();
-  set_default(properties, "extends", std::move(extends));
-  set_default(properties, "name", std::move(name));
-  set_default(named, "properties", std::move(properties));
-  set_default(named, "required", strings_node({"name"}));
-  set_default(root, "type", string_node("object"));
+  Field all = experiment_fields(formats);
+  std::erase_if(all.children, [](const Field& f) { return f.name != "extends" && f.name != "name"; });
+  writer.write_members(all.children, false, named);
   set_default(root, "if", std::move(extending));
   set_default(root, "then", std::move(named));
   set_default(root, "else", std::move(body));

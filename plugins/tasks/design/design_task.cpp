@@ -398,11 +398,6 @@ class DesignTask final : public TaskRun {
     if (context_->resumed)
       context_->progress.note(fmt::format("resuming: {} evaluations of the search are known", log.known()));
     Designed designed;
-    Progress& progress = context_->progress;
-    const std::string label = "a thorough look at this design";
-    const LookObserver look{
-        [&](std::size_t done, std::size_t total) { progress.limits(label, done, total); },
-        [&](int round, std::size_t done, std::size_t total) { progress.lessons(label, round, done, total); }};
     try {
       designed = run_design(
           prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
@@ -411,7 +406,8 @@ class DesignTask final : public TaskRun {
             run_.design->evaluations = log.closest_points();
             return observe(p);
           },
-          &log, [] { return !interrupted(); }, look);
+          &log, [] { return !interrupted(); },
+          shown_as("a thorough look at this design", context_->progress));
     } catch (const SearchInterrupted&) {
       return stopped(log);
     } catch (const Interrupted&) {

@@ -93,8 +93,7 @@ class Experiment:
         folder = "" if output is None else os.fspath(output)
         if optimizer is not None and not callable(optimizer):
             raise InputError("optimizer: expected a function of one argument, the problem")
-        function = None if optimizer is None else lambda problem: optimizer(problem)
-        outcome = _hauberk.run(self._source(), threads, folder, force, progress, function)
+        outcome = _hauberk.run(self._source(), threads, folder, force, progress, optimizer)
         results = Results(json.loads(outcome.results), outcome.results, outcome.failed, outcome.summary, self._folders)
         if outcome.interrupted:
             stop = KeyboardInterrupt("interrupted; .results holds what was found")

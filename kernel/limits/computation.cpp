@@ -656,10 +656,11 @@ class Computation {
     }
   }
 
-  /// Starts that were done before an interrupt are worth keeping, as far as a moment suffices to report them.
+  /// Starts that were done before an interrupt are worth keeping, as far as a moment suffices to report them
+  /// (LimitsObserver::moment_to_report).
   void keep_unfinished()
   {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+    const auto end = std::chrono::steady_clock::now() + observer_.moment_to_report;
     const KeepGoing for_a_moment = [end] { return std::chrono::steady_clock::now() < end; };
     for (std::size_t k = 0; k < asked_; ++k) keep_unfinished(k, for_a_moment);
   }

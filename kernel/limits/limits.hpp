@@ -5,6 +5,7 @@
 #include "limits/limit_result.hpp"
 #include "limits/search_memory.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -116,6 +117,9 @@ struct LimitsProgress {
 struct LimitsObserver : LimitsProgress {
   /// False: stop as soon as possible. Called from all threads.
   std::function<bool()> keep_going;
+  /// After an interrupt: how long it may take to report starts that were done; those that are not ready by
+  /// then are not kept.
+  std::chrono::milliseconds moment_to_report{200};
   /// After each finished task, one call at a time: all results so far; those not finished are `interrupted`.
   std::function<void(const std::vector<LimitResult>&)> on_limit;
   /// At the end: the furthest locked state of every task that was asked for; null where there is none.

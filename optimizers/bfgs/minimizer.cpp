@@ -255,7 +255,7 @@ bool BfgsMinimizer::restore()
 void BfgsMinimizer::move_to(const VectorXd& x, const Trial& tried, const VectorXd& s)
 {
   const Trial trial = problem_.accept(x, tried);
-  if (trial.value > tried.value + surprise * std::abs(tried.value)) best_.forget();
+  best_.looked_again(tried.value, trial.value);
   Linearisation next;
   next.gradient = trial.gradient;
   problem_.linearise(x, next);

@@ -1,5 +1,6 @@
 #include "best_point.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace hauberk {
@@ -20,6 +21,11 @@ bool BestPoint::offer(const Eigen::VectorXd& x, double value, double violation)
   value_ = value;
   violation_ = violation;
   return true;
+}
+
+void BestPoint::looked_again(double told, double value)
+{
+  if (value > told + surprise * std::abs(told)) any_ = false;
 }
 
 OptimizerResult BestPoint::result(std::string status, std::string message, const Eigen::VectorXd& start,

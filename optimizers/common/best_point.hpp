@@ -9,7 +9,7 @@
 
 namespace hauberk {
 
-/// A closer look at an iterate that raises its value by this part: former values may be as wrong.
+/// The part of a value by which a closer look may change it.
 constexpr double surprise = 1e-3;
 
 /// Best point so far: feasible before infeasible, then by value or by violation. Not thread safe.
@@ -23,8 +23,9 @@ class BestPoint {
   /// Takes the point if it is the best so far; returns whether it is.
   bool offer(const Eigen::VectorXd& x, double value, double violation);
 
-  /// What was offered until now no longer counts.
-  void forget() { any_ = false; }
+  /// A closer look at an iterate than at a trial has come to `value` for `told`. Where it is higher by more
+  /// than `surprise`, former values may be as wrong: what was offered until then does not count.
+  void looked_again(double told, double value);
 
   bool any() const { return any_; }
   const Eigen::VectorXd& x() const { return x_; }

@@ -136,7 +136,7 @@ void Walk::accept_last()
   known.value = last_.value;
   if (last_.derivatives) known.gradient = last_.at.gradient;
   known = problem_.accept(last_.x, known);
-  if (known.value > last_.value + surprise * std::abs(last_.value)) best_.forget();
+  best_.looked_again(last_.value, known.value);
   accepted_ = last_;
   accepted_.value = known.value;
   if (last_.derivatives) accepted_.at.gradient = known.gradient;

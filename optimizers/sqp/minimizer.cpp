@@ -160,7 +160,7 @@ bool Minimizer::restart()
 void Minimizer::move_to(const VectorXd& x, const Trial& tried, const VectorXd& s, const Step& step)
 {
   const Trial trial = problem_.accept(x, tried);
-  if (trial.value > tried.value + surprise * std::abs(tried.value)) best_.forget();
+  best_.looked_again(tried.value, trial.value);
   Linearisation next;
   next.gradient = trial.gradient;
   problem_.linearise(x, next);

@@ -123,12 +123,11 @@ class Problem {
     const std::vector<double> x = within(point);
     if (!std::isfinite(step)) throw py::value_error("expected a finite step");
     return asked([&](OptimizationProblem& p) {
-      const double tried = p.evaluate(x, false).value;
+      const double tried = value_at(p, x);
       p.accept(x);
-      const double value = p.evaluate(x, false).value, violation = violation_at(p, x);
-      // A closer look at an iterate than at a trial: former values may be as wrong.
-      if (value > tried + surprise * std::abs(tried)) best_.forget();
-      best_.offer(Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x)), value, violation);
+      const double value = value_at(p, x), violation = violation_at(p, x);
+      best_.looked_again(tried, value);
+      best_.offer(vector_of(x), value, violation);
       go_on_ = observer_.on_iterate({iterations_, value, step, violation, 0.0, x});
       ++iterations_;
       return go_on_;
@@ -139,15 +138,18 @@ class Problem {
   OptimizerResult end(const py::object& returned)
   {
     close();
-    OptimizerResult out = best_.result(
-        go_on_ ? "converged" : "stopped", go_on_ ? "the function ended" : "stopped by the observer",
-        Eigen::Map<const Eigen::VectorXd>(start_.data(), std::ssize(start_)), 0.0);
     if (!returned.is_none()) {
-      out.x = within(Array(returned));
-      const Answer at = answer(answered([&](OptimizationProblem& p) { return p.evaluate(out.x, true); }));
-      if (!at.ok) throw PluginError("the optimizer returned a point that cannot be evaluated: " + at.why);
-      out.value = at.value;
+      const std::vector<double> x = within(Array(returned));
+      best_ = BestPoint(feasible);
+      ++evaluations_;
+      answered([&](OptimizationProblem& p) {
+        const double value = value_at(p, x);
+        return best_.offer(vector_of(x), value, violation_at(p, x));
+      });
     }
+    OptimizerResult out =
+        best_.result(go_on_ ? "converged" : "stopped",
+                     go_on_ ? "the function ended" : "stopped by the observer", vector_of(start_), 0.0);
     out.iterations = std::max(0, iterations_ - 1);
     out.evaluations = evaluations_;
     return out;
@@ -202,6 +204,20 @@ class Problem {
   {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
+  }
+
+  static Eigen::VectorXd vector_of(const std::vector<double>& x)
+  {
+    return Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x));
+  }
+
+  /// Of an iterate or a result: what cannot be evaluated is neither.
+  static double value_at(OptimizationProblem& p, const std::vector<double>& x)
+  {
+    const OptimizationProblem::Evaluation at = p.evaluate(x, false);
+    if (!at.ok)
+      throw py::value_error("a point that cannot be evaluated is no iterate and no result: " + at.why);
+    return at.value;
   }
 
   static double violation_at(OptimizationProblem& p, const std::vector<double>& x)

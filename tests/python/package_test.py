@@ -174,6 +174,27 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "over"):
             seen[0].evaluate([5.0])
 
+    def test_the_point_that_is_returned_is_judged(self):
+        # Every second ring is 12 from the next: at R = 5.28 they are 0.04 apart, and 0.1 are asked for.
+        design = self.design().set("/expect", []).run(optimizer=lambda problem: numpy.array([5.28])).raw["design"]
+        self.assertEqual(design["variables"][0]["final"], 5.28)
+        self.assertEqual(design["status"], "infeasible")
+        self.assertIn("violated", design["message"])
+
+    def test_what_cannot_be_evaluated_is_no_iterate(self):
+        met = []
+
+        def collide(problem):
+            with self.assertRaisesRegex(ValueError, "elements collide"):
+                problem.accept([5.9])
+            met.append(problem.start)
+
+        design = self.design().set("/expect", []).run(optimizer=collide).raw["design"]
+        self.assertTrue(met)
+        self.assertEqual(design["variables"][0]["final"], met[-1][0])
+        with self.assertRaisesRegex(ValueError, "elements collide"):
+            self.design().run(optimizer=lambda problem: numpy.array([5.9]))
+
     def test_what_an_optimizer_raises_ends_the_run(self):
         def broken(problem):
             raise ZeroDivisionError("of mine")

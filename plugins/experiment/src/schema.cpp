@@ -192,11 +192,11 @@ Node experiment_schema(std::span<const PluginTable* const> plugins, TaskFormats 
   std::vector<const PluginTable*> shapes_too(plugins.begin(), plugins.end());
   shapes_too.push_back(&union_table());
   const SchemaWriter writer(shapes_too);
-  Node body = writer.write(experiment_fields(formats));
+  Field all = experiment_fields(formats);
+  Node body = writer.write(all);
   // What a file leaves out that extends another one is known there alone.
   Node extending = object_node(), named = object_node();
   set_default(extending, "required", strings_node({"extends"}));
-  Field all = experiment_fields(formats);
   std::erase_if(all.children, [](const Field& f) { return f.name != "extends" && f.name != "name"; });
   writer.write_members(all.children, false, named);
   set_default(root, "if", std::move(extending));

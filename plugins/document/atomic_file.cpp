@@ -180,11 +180,11 @@ void write_files_atomically(const fs::path& directory, const std::vector<NamedCo
   flush_folder(directory);
 }
 
-void refuse_existing_file(const fs::path& file)
+void refuse_existing_file(const fs::path& file, const char* way_out)
 {
   std::error_code unknown;  // then writing tells
   if (fs::exists(fs::symlink_status(file, unknown)))
-    throw InputError(file.string() + ": exists already; give another name with -o, or remove it");
+    throw InputError(file.string() + ": exists already; " + way_out);
 }
 
 void write_new_file_atomically(const fs::path& file, const std::string& content)

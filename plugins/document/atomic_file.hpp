@@ -36,7 +36,8 @@ void write_files_atomically(const std::filesystem::path& directory, const std::v
 void write_new_file_atomically(const std::filesystem::path& file, const std::string& content);
 
 /// Throws the InputError of `write_new_file_atomically` where the file exists: before anything is computed.
-void refuse_existing_file(const std::filesystem::path& file);
+void refuse_existing_file(const std::filesystem::path& file,
+                          const char* way_out = "give another name with -o, or remove it");
 
 /// Removes temporary files for `names` that a killed process left. What cannot be removed stays.
 void remove_abandoned(const std::filesystem::path& directory, std::span<const char* const> names);

@@ -37,7 +37,7 @@ WeaveLookup weave_lookup(const fs::path& folder, const fs::path& library)
       const std::vector<std::string> names = names_in(library);
       error = names.empty() ? fmt::format("no weave '{}': there is no library in {}", name, library.string())
                             : fmt::format("no weave '{}'{}; the library has {}", name,
-                                          suggestion(name, names), fmt::join(names, ", "));
+                                          did_you_mean(name, names), fmt::join(names, ", "));
       return std::nullopt;
     }
     try {

@@ -13,7 +13,9 @@ void strut_frame_fields(std::vector<Field>& out)
   polyhedron.name = "polyhedron";
   polyhedron.kind = Field::Kind::choice;
   polyhedron.doc =
-      "A cage by name, with edges of length 1 before it is multiplied by the parameter size. Exactly one of this, file and nodes.";
+      "A cage by name, with edges of length 1 before it is multiplied by the parameter size; the other parameter, r, is the radius of struts "
+      "and of their ends. A square lies in z = 0 with edges along x and y, a tetrahedron has an upper edge along x and a lower one along "
+      "y, a cube edges along the axes, an octahedron corners on them. Exactly one of this, file and nodes.";
   for (const Polyhedron& p : polyhedra()) polyhedron.choices.emplace_back(p.name);
   out.push_back(polyhedron);
 

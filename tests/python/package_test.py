@@ -106,7 +106,7 @@ class Package(unittest.TestCase):
         said = hauberk.export(EXPERIMENTS / "chain.json", target, repeat=(2, 1), require_gap=0.5)
         self.assertIn("smallest gap 0.6 mm", said)
         self.assertGreater(target.stat().st_size, 84)
-        with self.assertRaisesRegex(hauberk.InputError, "exists already"):
+        with self.assertRaisesRegex(hauberk.InputError, "exists already; give another name with -o, or --force"):
             hauberk.export(EXPERIMENTS / "chain.json", target)
         with self.assertRaisesRegex(hauberk.ComputationError, "0.6 mm apart"):
             hauberk.export(EXPERIMENTS / "chain.json", target.with_name("other.stl"), repeat=(2, 1), require_gap=0.7)

@@ -266,7 +266,8 @@ int export_command(const std::vector<std::string>& words)
   const std::array<int, 3> repeat = repeat_of(options);
   const std::optional<Outline> outline = outline_of(options);
   const double chord = positive(options, "chord"), gap = positive(options, "require-gap");
-  if (!options.has("force")) refuse_existing_file(file);
+  if (!options.has("force"))
+    refuse_existing_file(file, "give another name with -o, or --force, which replaces it");
   if (options.has("forces") && (format != ".vtu" || !options.has("state")))
     throw UsageError(
         "--forces: only of a limit (--state limit:K), and only .vtu holds them; a page shows them anyway",

@@ -266,7 +266,9 @@ class Path {
     State s = before;
     extrapolate(s, plan);
     const State from = schedule_.keep_path ? s : State();
-    StageResult r = solve_stage(m_, s, load_, make_stage(plan), keep_going_, &bounds_);
+    Stage stage = make_stage(plan);
+    stage.most_evaluations = schedule_.most_evaluations - out_.evaluations;
+    StageResult r = solve_stage(m_, s, load_, stage, keep_going_, &bounds_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
     if (schedule_.keep_path) {

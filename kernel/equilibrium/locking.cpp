@@ -22,7 +22,11 @@ class Approach {
  public:
   Approach(const Model& m, const State& start, const MacroLoad& load, ContactChoice choice,
            const Schedule& schedule, const KeepGoing& keep_going)
-      : m_(m), load_(load), keep_going_(keep_going), size_(load_size(m, load.pull))
+      : m_(m),
+        load_(load),
+        keep_going_(keep_going),
+        size_(load_size(m, load.pull)),
+        most_evaluations_(schedule.most_evaluations)
   {
     stage_ =
         barrier_stage(m, size_, choice, schedule, planned_stage(choice, schedule, schedule.first, false));
@@ -36,6 +40,7 @@ class Approach {
     for (double stiffness = first_tether; stiffness <= most_tether; stiffness *= stiffer) {
       if (step_in()) return finish(LockStatus::locked, "");
       stage_.tether_stiffness = stiffness * size_;
+      stage_.most_evaluations = most_evaluations_ - out_.evaluations;
       const StageResult r = solve_stage(m_, out_.state, load_.pull, stage_, keep_going_, &bounds_);
       out_.iterations += r.iterations;
       out_.evaluations += r.evaluations;
@@ -73,6 +78,7 @@ class Approach {
   const MacroLoad& load_;
   const KeepGoing& keep_going_;
   double size_;
+  long most_evaluations_;
   Stage stage_;
   GapBounds bounds_;
   Locked out_;
@@ -99,8 +105,10 @@ Locked lock(const Model& model, const State& start, const MacroLoad& load, Conta
     if (approach.status != LockStatus::locked) return approach;
   }
   const HeldModel held(model, load.held);
-  Locked out = lock_freely(held.model(), held.restricted(approach.state), held.pull(load.pull), choice,
-                           schedule, keep_going);
+  Schedule rest = schedule;
+  rest.most_evaluations -= approach.evaluations;
+  Locked out = lock_freely(held.model(), held.restricted(approach.state), held.pull(load.pull), choice, rest,
+                           keep_going);
   out.state = held.full(out.state);
   for (State& s : out.trail) s = held.full(s);
   for (State& s : out.path) s = held.full(s);

@@ -44,6 +44,9 @@ struct Schedule {
   double target = std::numeric_limits<double>::infinity();
   bool keep_path = false;  ///< Locked::path is wanted
   unsigned threads = 1;    ///< for the pairs of one large scene; never changes a result
+  /// Of closest points (Locked::evaluations): with more of them a path of barriers is `stalled`. Counted, so
+  /// that it ends at the same state on every machine.
+  long most_evaluations = std::numeric_limits<long>::max();
 };
 
 /// Activation distances of a schedule's stages, falling.

@@ -140,6 +140,8 @@ class Newton {
   std::optional<End> give_up()
   {
     if (!keep_going_()) return End{StageStatus::interrupted, "interrupted"};
+    if (result_.evaluations > stage_.most_evaluations)
+      return End{StageStatus::spent, "no minimum within the evaluations that it may have"};
     if (now_.contact.regularity < stage_.least_curvature)
       return End{StageStatus::merging, "a contact comes near to merging with another"};
     // A state may have to slide a long way through a channel as narrow as the gaps, in many short steps:

@@ -29,9 +29,20 @@ struct Stage {
   double tolerance = 1e-3;    ///< stop when the Newton step can lower E by less than tolerance * mu
   bool keep_path = false;     ///< StageResult::path is wanted
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all
+  /// Ends as `spent` after the step with which there are more (StageResult::evaluations).
+  long most_evaluations = std::numeric_limits<long>::max();
 };
 
-enum class StageStatus { minimum, stalled, iteration_limit, unbounded, not_a_sheet, merging, interrupted };
+enum class StageStatus {
+  minimum,
+  stalled,
+  iteration_limit,
+  unbounded,
+  not_a_sheet,
+  merging,
+  spent,
+  interrupted
+};
 
 /// Outcome of a stage.
 struct StageResult {

@@ -2,6 +2,7 @@
 #include "limits/donors.hpp"
 #include "limits/limit_report.hpp"
 #include "limits/relatives.hpp"
+#include "limits/rest_searches.hpp"
 #include "numerics/parallel.hpp"
 
 #include <fmt/format.h>
@@ -16,8 +17,8 @@
 namespace hauberk {
 namespace {
 
-/// Elements of the largest cell that has all LimitSettings::fold_starts.
-constexpr int cell_of_all_starts = 4;
+/// Activation distance (L) of the last stage of limits that are not reported.
+constexpr double last_in_company = 1e-3;
 
 /// One start of one task.
 struct Attempt {
@@ -37,28 +38,13 @@ struct TaskState {
   int iterations = 0;               ///< of what led nowhere
   long evaluations = 0;             ///< the same
   std::size_t missing = 0;          ///< starts not done
+  bool sparing = false;             ///< RestSearches::sparing
   bool narrow = false;              ///< it may fold: the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
   bool learning = false;            ///< others have taught it something, or have begun to
 
   bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
 };
-
-struct TaskStarts {
-  std::size_t count = 1;
-  bool narrow = false;  ///< the last of them is that without the widest stage
-};
-
-TaskStarts starts_of(const Model& model, const LimitTask& task, const LimitSettings& settings, bool asked)
-{
-  if (!asked) return {};
-  const auto starts = static_cast<std::size_t>(std::max(1, settings.starts));
-  if (!settings.lessons || !may_fold(model, task)) return {starts, false};
-  // A fabric with room folds one way under the widest stage and another way without it. Fewer starts in large
-  // cells, where each is expensive.
-  const int most = settings.fold_starts / std::max(1, model.element_count() / cell_of_all_starts);
-  return {std::max(starts, static_cast<std::size_t>(std::max(1, most))) + 1, true};
-}
 
 /// A scene that another one contains, with what its limits came to.
 struct Solved {
@@ -72,27 +58,22 @@ class Computation {
  public:
   Computation(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
               const LimitSettings& settings, const LimitsObserver& observer)
-      : model_(model),
-        spec_(spec),
-        tasks_(with_neighbours(model, tasks, settings.lessons ? settings.neighbours : 0.0)),
-        asked_(tasks.size()),
-        settings_(settings),
-        observer_(observer),
-        states_(tasks_.size())
+      : model_(model), spec_(spec), asked_(tasks.size()), settings_(settings), observer_(observer)
   {
-    for (std::size_t k = 0; k < tasks_.size(); ++k) {
-      const TaskStarts starts = starts_of(model, tasks_[k], settings, k < asked_);
-      states_[k].narrow = starts.narrow;
-      states_[k].starts.resize(starts.count);
-      states_[k].missing = states_[k].starts.size();
-      results_.push_back(limit_header(model, tasks_[k]));
+    for (const RestSearches& searches : rest_searches(model, tasks, settings)) {
+      tasks_.push_back(searches.task);
+      TaskState& state = states_.emplace_back();
+      state.narrow = searches.narrow;
+      state.sparing = searches.sparing;
+      state.starts.resize(searches.starts);
+      state.missing = searches.starts;
+      results_.push_back(limit_header(model, searches.task));
       results_.back().status = LimitStatus::interrupted;
     }
   }
 
   std::vector<LimitResult> run(unsigned threads, const std::vector<std::optional<LimitResult>>& known)
   {
-    std::vector<std::pair<std::size_t, std::size_t>> items;  // task, start
     const bool complete =
         known.size() == asked_ && std::all_of(known.begin(), known.end(), [](const auto& r) {
           return r.has_value() && r->confidence.is_final();
@@ -110,20 +91,15 @@ class Computation {
         states_[k].missing = 0;
         continue;
       }
-      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) items.emplace_back(k, s);
+      total_ += states_[k].starts.size();
       ++unfinished_;
       if (k < asked_) ++unfinished_asked_;
     }
-    total_ = items.size();
     threads = thread_count(threads);
-    // Threads that have no item of their own help with the pairs of large scenes.
-    settings_.schedule.threads =
-        static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items.size())));
     if (observer_.on_start) observer_.on_start(0, total_);
     if (unfinished_asked_ < asked_ && unfinished_asked_ > 0) tell();
-    parallel_for(items.size(), threads, [&](std::size_t i) {
-      if (going()) solve(items[i].first, items[i].second);
-    });
+    solve_from_rest(false, threads);
+    if (!complete) solve_from_rest(true, threads);
     if (unfinished_ == 0 && !complete) {
       const Donors donors(model_, tasks_);
       if (settings_.lessons && inherit(donors, threads)) learn(donors, threads);
@@ -158,7 +134,9 @@ class Computation {
     const auto add = [&](auto item) {
       if (share.has(count++)) items.emplace_back(std::move(item));
     };
+    bool sparing = false;
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      const std::size_t before = items.size();
       for (std::size_t s = 0; s < states_[k].starts.size(); ++s) add([this, k, s] { attempt(k, s); });
       for (int t = 0; k < asked_ && t < settings_.tilts; ++t)
         add([this, k, t] {
@@ -168,10 +146,11 @@ class Computation {
           } catch (const std::exception&) {  // it throws again where it is asked for
           }
         });
+      sparing |= states_[k].sparing && items.size() > before;
     }
     threads = thread_count(threads);
-    settings_.schedule.threads =
-        static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items.size())));
+    if (sparing) find_allowance(threads);
+    share_out(threads, items.size());
     total_ = items.size();
     if (observer_.on_start) observer_.on_start(0, total_);
     parallel_for(items.size(), threads, [&](std::size_t i) {
@@ -193,6 +172,74 @@ class Computation {
   }
 
  private:
+  /// All starts of the tasks that are not known yet, of those that are sparing or of the others.
+  void solve_from_rest(bool sparing, unsigned threads)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> items;  // task, start
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      if (states_[k].known || states_[k].sparing != sparing) continue;
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) items.emplace_back(k, s);
+    }
+    if (items.empty() || !going()) return;
+    if (sparing) find_allowance(threads);
+    share_out(threads, items.size());
+    parallel_for(items.size(), threads, [&](std::size_t i) {
+      if (going()) solve(items[i].first, items[i].second);
+    });
+  }
+
+  /// Of searches in company of taut limits: what the most expensive of those may have. Searches those from
+  /// rest that are not there.
+  void find_allowance(unsigned threads)
+  {
+    std::vector<std::size_t> taut;
+    std::vector<std::pair<std::size_t, std::size_t>> missing;
+    for (std::size_t k = 0; k < asked_; ++k) {
+      if (!is_taut(model_, tasks_[k])) continue;
+      taut.push_back(k);
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s)
+        if (!states_[k].starts[s].locked) missing.emplace_back(k, s);
+    }
+    share_out(threads, missing.size());
+    parallel_for(missing.size(), threads, [&](std::size_t i) {
+      const auto& [k, start] = missing[i];
+      states_[k].starts[start] = attempt(k, start);
+    });
+    for (const std::size_t k : taut) allowance_ = std::max(allowance_, allowance_of(k));
+  }
+
+  /// Threads that have no item of their own help with the pairs of large scenes.
+  void share_out(unsigned threads, std::size_t items)
+  {
+    settings_.schedule.threads =
+        static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items)));
+  }
+
+  /// What a search may have that begins again for a task that is held taut.
+  long allowance_of(std::size_t task) const
+  {
+    long most = 0;
+    for (const Attempt& a : states_[task].starts)
+      if (a.locked) most = std::max(most, a.locked->evaluations);
+    return allowance(most);
+  }
+
+  /// The settings of searches that may have so many evaluations.
+  LimitSettings within(long evaluations) const
+  {
+    LimitSettings settings = settings_;
+    settings.schedule.most_evaluations = evaluations;
+    return settings;
+  }
+
+  /// The settings of a limit that is not reported. A lesson widens all gaps again, so it has few stages.
+  LimitSettings in_company(std::size_t task) const
+  {
+    LimitSettings settings = states_[task].sparing ? within(allowance_) : settings_;
+    settings.schedule.last = std::max(settings.schedule.last, last_in_company);
+    return settings;
+  }
+
   std::size_t search_relative(const Relative& relative, unsigned threads, const Share& share)
   {
     const Solved s = unsolved(relative);
@@ -256,13 +303,14 @@ class Computation {
   {
     Attempt out;
     const KeepGoing keep_going = [this] { return going(); };
+    const LimitSettings settings = task < asked_ ? settings_ : in_company(task);
     try {
       out.locked = searched(fmt::format("limit {} start {}", task, start), out.seconds, [&] {
         return !states_[task].is_narrow(start)
-                   ? limit_from_start(model_, tasks_[task], settings_, static_cast<int>(start), keep_going)
-                   : limit_from_state(model_, tasks_[task], settings_,
-                                      perturbed(model_, start_state(model_, settings_),
-                                                settings_.perturbation, settings_.seed, Copies::alike),
+                   ? limit_from_start(model_, tasks_[task], settings, static_cast<int>(start), keep_going)
+                   : limit_from_state(model_, tasks_[task], settings,
+                                      perturbed(model_, start_state(model_, settings), settings.perturbation,
+                                                settings.seed, Copies::alike),
                                       keep_going);
       });
     } catch (const std::exception& error) {
@@ -285,10 +333,15 @@ class Computation {
     });
   }
 
-  Locked search_from_state(std::size_t task, const State& from, double& seconds) const
+  /// `allowed`: evaluations that it may have; null: as many as it takes.
+  Locked search_from_state(std::size_t task, const State& from, double& seconds,
+                           std::optional<long> allowed = std::nullopt) const
   {
-    return searched(fmt::format("limit {} from {}", task, name_of_state(from)), seconds, [&] {
-      return limit_from_state(model_, tasks_[task], settings_, from, [this] { return going(); });
+    std::string name = fmt::format("limit {} from {}", task, name_of_state(from));
+    if (allowed) name += fmt::format(" within {}", *allowed);
+    return searched(name, seconds, [&] {
+      return limit_from_state(model_, tasks_[task], allowed ? within(*allowed) : settings_, from,
+                              [this] { return going(); });
     });
   }
 
@@ -440,13 +493,13 @@ class Computation {
   /// Locked state of a task from a state that `place` names; null: it threw, which the task remarks, and what
   /// was known before stands.
   std::optional<FoundState> begun_from(std::size_t task, const State& from, const std::string& place,
-                                       std::uint64_t seed)
+                                       std::uint64_t seed, std::optional<long> allowed = std::nullopt)
   {
     std::optional<FoundState> out;
     std::string problem;
     double seconds = 0.0;
     try {
-      out = FoundState{search_from_state(task, from, seconds), learnt_origin + place, seed};
+      out = FoundState{search_from_state(task, from, seconds, allowed), learnt_origin + place, seed};
     } catch (const std::exception& failure) {
       problem = fmt::format("from the state of {}: {}", place, failure.what());
     }
@@ -456,8 +509,9 @@ class Computation {
     return out;
   }
 
-  /// Locked state of a task from where a donor's best state is; null where there is none, too.
-  std::optional<FoundState> taught(const Donors& donors, std::size_t task, std::size_t donor)
+  /// Locked state of a task from where a donor's best state is; null where there is none, too. `further`:
+  /// that one is known to be further than the task's own.
+  std::optional<FoundState> taught(const Donors& donors, std::size_t task, std::size_t donor, bool further)
   {
     const std::size_t from = donors.task(donor);
     const std::vector<FoundState> states = found_of(from);
@@ -465,7 +519,9 @@ class Computation {
     if (!best) return std::nullopt;
     const std::optional<State> start = donors.state(donor, states[*best].locked);
     if (!start) return std::nullopt;
-    return begun_from(task, *start, learnt_from(donors, donor), states[*best].seed);
+    std::optional<long> allowed;
+    if (!further && is_taut(model_, tasks_[task])) allowed = allowance_of(task);
+    return begun_from(task, *start, learnt_from(donors, donor), states[*best].seed, allowed);
   }
 
   /// A limit whose lessons were stopped is no answer: a run that goes on has to ask again.
@@ -475,15 +531,13 @@ class Computation {
     results_[task].message = fmt::format("what the state of {} leads to was not found", place);
   }
 
-  /// Solves again what is needed of tasks whose results came with the call.
-  void find_states(const Donors& donors, const std::vector<Lesson>& lessons, unsigned threads)
+  /// Solves again those of the tasks whose results came with the call.
+  void find_states(const std::vector<std::size_t>& needed, unsigned threads)
   {
     std::vector<std::size_t> unknown;
-    for (const auto& [task, donor] : lessons) {
-      for (const std::size_t k : {task, donors.task(donor)}) {
-        if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
-          unknown.push_back(k);
-      }
+    for (const std::size_t k : needed) {
+      if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
+        unknown.push_back(k);
     }
     std::vector<std::pair<std::size_t, std::size_t>> again;
     for (const std::size_t k : unknown)
@@ -494,6 +548,17 @@ class Computation {
     });
     parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
     for (const std::size_t k : unknown) states_[k].known = false;
+  }
+
+  /// The same of the tasks of lessons.
+  void find_states(const Donors& donors, const std::vector<Lesson>& lessons, unsigned threads)
+  {
+    std::vector<std::size_t> needed;
+    for (const auto& [task, donor] : lessons) {
+      needed.push_back(task);
+      needed.push_back(donors.task(donor));
+    }
+    find_states(needed, threads);
   }
 
   /// A relative to be solved, each of its limits standing alone; no tasks: this scene has no use for any.
@@ -609,7 +674,7 @@ class Computation {
   void learn(const Donors& donors, unsigned threads)
   {
     Lessons rounds(asked_, donors.count(), further_than(settings_));
-    Walks walks(donors.beside());
+    Walks walks(donors.starting_points(asked_, settings_.contact));
     const auto own = [&](std::size_t k) -> std::optional<double> {
       const LimitStatus status = results_[k].status;
       const std::size_t self = donors.own(k);
@@ -624,7 +689,8 @@ class Computation {
     };
     for (int round = 1;; ++round) {
       std::vector<Lesson> lessons = rounds.next(own, given);
-      if (lessons.empty()) {
+      const bool further = !lessons.empty();
+      if (!further) {
         lessons = walks.next(
             [&](std::size_t donor) {
               const std::size_t k = donors.task(donor);
@@ -638,7 +704,7 @@ class Computation {
       std::size_t done = 0;
       if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
       parallel_for(lessons.size(), threads, [&](std::size_t i) {
-        if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor);
+        if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor, further);
         const std::lock_guard lock(mutex_);
         ++done;
         if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
@@ -680,9 +746,10 @@ class Computation {
 
   const Model& model_;
   const SceneSpec& spec_;
-  const std::vector<LimitTask> tasks_;  ///< those asked for, then neighbours
+  std::vector<LimitTask> tasks_;  ///< those asked for, then their company
   const std::size_t asked_;
   LimitSettings settings_;
+  long allowance_ = 0;  ///< of searches of tasks that are sparing
   const LimitsObserver& observer_;
   std::size_t total_ = 0, done_ = 0;
   std::mutex mutex_;  ///< guards all below
@@ -697,32 +764,6 @@ class Computation {
 
 double further_than(const LimitSettings& settings) { return std::max(1e-8, settings.schedule.last); }
 
-std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart)
-{
-  std::vector<LimitTask> all = tasks;
-  if (apart <= 0.0) return all;
-  for (const LimitTask& task : tasks) {
-    if (!task.direction.is_angle()) continue;
-    // A taut fabric whose axes are held learns nothing from others: their states break what it holds.
-    const bool taut = model.load->periodic() && !may_fold(model, task);
-    if (taut && !model.load->conditions(task.direction).empty()) continue;
-    const bool lone = std::none_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
-      const double to = std::abs(o.direction.degrees() - task.direction.degrees());
-      return o.direction.is_angle() && o.sense == task.sense && to > 0.0 && to <= apart * 1.001;
-    });
-    if (!lone || bounded_by_links(model, task) != Boundedness::attained) continue;
-    for (const double by : {-apart, apart}) {
-      const LimitTask beside{Direction::at_degrees(task.direction.degrees() + by), task.sense};
-      const bool there = std::any_of(all.begin(), all.end(), [&](const LimitTask& o) {
-        return o.direction.is_angle() && o.sense == task.sense &&
-               std::abs(o.direction.degrees() - beside.direction.degrees()) < 1e-9;
-      });
-      if (!there && bounded_by_links(model, beside) == Boundedness::attained) all.push_back(beside);
-    }
-  }
-  return all;
-}
-
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,
                                         unsigned threads, const LimitsObserver& observer,
@@ -733,10 +774,9 @@ std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spe
 
 double count_searches(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings)
 {
-  double count = static_cast<double>(
-      with_neighbours(model, tasks, settings.lessons ? settings.neighbours : 0.0).size() - tasks.size());
-  for (const LimitTask& task : tasks)
-    count += static_cast<double>(starts_of(model, task, settings, true).count) + settings.tilts;
+  double count = static_cast<double>(tasks.size()) * settings.tilts;
+  for (const RestSearches& searches : rest_searches(model, tasks, settings))
+    count += static_cast<double>(searches.starts);
   return count;
 }
 

@@ -41,12 +41,20 @@ double uncertainty(const Model& m, const LimitSettings& settings, const LimitRes
   return r.error_estimate ? *r.error_estimate / scale_of(m) : settings.schedule.last;
 }
 
-/// The limit's own state was found by its own searches, from rest.
-bool found_alone(const LimitResult& r)
+/// Seed of the start, one of the limit's own from rest, that found its state; null: no start did.
+std::optional<std::uint64_t> seed_of(const LimitResult& r)
 {
-  return std::any_of(r.starts.begin(), r.starts.end(), [&r](const LockedState& s) {
-    return s.value == *r.value && s.origin.starts_with("start");
-  });
+  for (const LockedState& s : r.starts)
+    if (s.value == *r.value && s.origin.starts_with("start")) return s.seed;
+  return std::nullopt;
+}
+
+/// Two limits of one load, both found from rest, each from a start of its own: from the same start one would
+/// be the mirror image of the other's search.
+bool independent(const LimitResult& a, const LimitResult& b)
+{
+  const std::optional<std::uint64_t> own = seed_of(a), other = seed_of(b);
+  return own && other && *own != *other;
 }
 
 }  // namespace
@@ -113,8 +121,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
       if (*there > value + margin) {
         if (*there - value > most) furthest = fmt::format("{}: further by {:.3g}", by, *there - value);
         most = std::max(most, *there - value);
-      } else if (donors.same_load(donor, tasks[k]) && *there > value - margin && found_alone(own) &&
-                 found_alone(other)) {
+      } else if (donors.same_load(donor, tasks[k]) && *there > value - margin && independent(own, other)) {
         own.confidence.confirmed_by.push_back(by);
       }
     }

@@ -11,6 +11,9 @@ namespace {
 constexpr double same_angle = 1e-7, widest = 30.0;
 constexpr int strides = 2;
 
+/// Elements of the largest cell whose stretches that hold a strain learn from those beside them.
+constexpr int largest_taut_walk = 16;
+
 /// Activation distance (L) of a stage whose gaps, a tenth of it, have room for what a scene's symmetry is off
 /// by (symmetry_tolerance).
 constexpr double room_of_image = 1e-5;
@@ -75,6 +78,26 @@ bool may_fold(const Model& m, const LimitTask& task)
   return !m.lattice.empty() && pushes(m, task) && bounded_by_links(m, task) == Boundedness::attained;
 }
 
+bool is_taut(const Model& m, const LimitTask& task)
+{
+  if (!m.load->periodic() || !task.direction.is_angle() || may_fold(m, task)) return false;
+  const LimitTask across{Direction::at_degrees(task.direction.degrees() + 90.0), task.sense};
+  return bounded_by_links(m, task) == Boundedness::attained &&
+         bounded_by_links(m, across) == Boundedness::attained;
+}
+
+bool begins_again(const Model& m, const LimitTask& task, ContactChoice contact)
+{
+  if (!m.load->periodic() || !task.direction.is_angle()) return false;
+  return may_fold(m, task) || (is_taut(m, task) && contact != ContactChoice::constrained);
+}
+
+bool learns_beside(const Model& m, const LimitTask& task)
+{
+  return !is_taut(m, task) || m.element_count() <= largest_taut_walk ||
+         m.load->conditions(task.direction).empty();
+}
+
 Donors::Donors(const Model& m, const std::vector<LimitTask>& tasks)
     : model_(m), tasks_(tasks), symmetries_(point_symmetries(m))
 {
@@ -120,32 +143,50 @@ std::optional<double> Donors::reached(std::size_t donor, const Vector& macro, co
   return along.sense == Sense::positive ? v : -v;
 }
 
-std::vector<Lesson> Donors::beside() const
+void Donors::add_beside(std::size_t task, std::vector<Lesson>& out) const
+{
+  for (const double side : {-1.0, 1.0}) {
+    double passed = 0.0;  // angle of the last donor taken
+    for (int stride = 0; stride < strides; ++stride) {
+      std::optional<std::size_t> next;
+      double nearest = widest + same_angle;
+      for (std::size_t d = 0; d < images_.size(); ++d) {
+        const std::optional<LimitTask>& other = images_[d];
+        if (!other || !other->direction.is_angle() || other->sense != tasks_[task].sense) continue;
+        const double by = side * turn(tasks_[task].direction.degrees(), other->direction.degrees());
+        // Of donors with one load those of the task itself come first.
+        const bool nearer =
+            by < nearest - same_angle || (next && by < nearest + same_angle && is_own(d) && !is_own(*next));
+        if (by < passed + same_angle || !nearer) continue;
+        nearest = by;
+        next = d;
+      }
+      if (!next) break;
+      out.push_back({task, *next});
+      passed = nearest;
+    }
+  }
+}
+
+void Donors::add_across(std::size_t task, std::vector<Lesson>& out) const
+{
+  for (std::size_t d = 0; d < images_.size(); ++d) {
+    const std::optional<LimitTask>& other = images_[d];
+    if (!other || !other->direction.is_angle() || other->sense == tasks_[task].sense) continue;
+    const double by = std::abs(turn(tasks_[task].direction.degrees(), other->direction.degrees()));
+    if (by < 90.0 - same_angle) continue;
+    out.push_back({task, d});
+    return;
+  }
+}
+
+std::vector<Lesson> Donors::starting_points(std::size_t learners, ContactChoice contact) const
 {
   std::vector<Lesson> out;
-  for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    if (!tasks_[k].direction.is_angle() || !may_fold(model_, tasks_[k])) continue;
-    for (const double side : {-1.0, 1.0}) {
-      double passed = 0.0;  // angle of the last donor taken
-      for (int stride = 0; stride < strides; ++stride) {
-        std::optional<std::size_t> next;
-        double nearest = widest + same_angle;
-        for (std::size_t d = 0; d < images_.size(); ++d) {
-          const std::optional<LimitTask>& other = images_[d];
-          if (!other || !other->direction.is_angle() || other->sense != tasks_[k].sense) continue;
-          const double by = side * turn(tasks_[k].direction.degrees(), other->direction.degrees());
-          // Of donors with one load those of the task itself come first.
-          const bool nearer =
-              by < nearest - same_angle || (next && by < nearest + same_angle && is_own(d) && !is_own(*next));
-          if (by < passed + same_angle || !nearer) continue;
-          nearest = by;
-          next = d;
-        }
-        if (!next) break;
-        out.push_back({k, *next});
-        passed = nearest;
-      }
-    }
+  for (std::size_t k = 0; k < learners; ++k) {
+    if (!begins_again(model_, tasks_[k], contact)) continue;
+    if (is_taut(model_, tasks_[k])) add_across(k, out);
+    if (learns_beside(model_, tasks_[k])) add_beside(k, out);
   }
   return out;
 }

@@ -11,6 +11,19 @@ namespace hauberk {
 /// shears. Fabrics that are stretched alone are taut.
 bool may_fold(const Model& model, const LimitTask& task);
 
+/// True for a stretch of a periodic cell, at an angle, which links hold together along it and across: a sheet
+/// that is pulled until nothing gives, as a rule at once to where it locks for good, though not always.
+bool is_taut(const Model& model, const LimitTask& task);
+
+/// Whether a limit begins again from states of others that are not further than its own: compressions that
+/// may fold, and stretches of taut sheets, but for gaps as constraints (ContactChoice::constrained),
+/// which touch at such a state and take thousands of steps from there.
+bool begins_again(const Model& model, const LimitTask& task, ContactChoice contact);
+
+/// Whether limits of its sense beside it are among these others: not for large cells that are taut and hold a
+/// strain, which states of other directions break.
+bool learns_beside(const Model& model, const LimitTask& task);
+
 /// Donors are numbered task by task; each has one donor for every symmetry of the scene, the identity first.
 /// Immutable, thread safe.
 class Donors {
@@ -35,11 +48,16 @@ class Donors {
   /// does not keep what that task holds.
   std::optional<double> reached(std::size_t donor, const Vector& macro, const LimitTask& along) const;
 
-  /// Each task that may fold with the donors whose loads are the next two to either side of its own, among
-  /// loads of its sense within 30 degrees: a longer stride at times leaves a fold that a short one keeps.
-  std::vector<Lesson> beside() const;
+  /// Pairs of learners, those of the first `learners` tasks that begin again, and donors whose states are
+  /// starting points for them: beside, the donors whose loads are the next two to either side of the
+  /// learner's, among loads of its sense within 30 degrees (a longer stride at times leaves a fold that a
+  /// short one keeps); across, for one that is taut, that of the other sense at right angles.
+  std::vector<Lesson> starting_points(std::size_t learners, ContactChoice contact) const;
 
  private:
+  void add_beside(std::size_t task, std::vector<Lesson>& out) const;
+  void add_across(std::size_t task, std::vector<Lesson>& out) const;
+
   const Model& model_;
   const std::vector<LimitTask>& tasks_;
   std::vector<SceneSymmetry> symmetries_;

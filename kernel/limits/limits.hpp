@@ -30,7 +30,9 @@ struct LimitSettings {
   int starts = 1;
   double perturbation = 0.01;         ///< of small perturbations, L: break symmetries without leaving rest
   double further_perturbation = 0.1;  ///< of large ones, L, as far as nothing collides
-  double neighbours = 0.0;            ///< degrees: how far from a lone limit it is looked for others, 0: not
+  /// Degrees: how far from a lone limit others are solved of which it learns; 0: none are
+  /// (rest_searches.hpp).
+  double neighbours = 0.0;
   /// Whether limits learn from each other, from symmetric images, from loads beside their own and from scenes
   /// that this one contains; otherwise each stands alone, and what contradicts it is told.
   bool lessons = true;
@@ -124,7 +126,7 @@ struct LimitsObserver : LimitsProgress {
   std::function<void(const std::vector<LimitResult>&)> on_limit;
   /// At the end: the furthest locked state of every task that was asked for; null where there is none.
   std::function<void(const std::vector<std::optional<State>>&)> on_states;
-  /// At the end: limits that were solved for their states alone and are not reported (neighbours, scenes
+  /// At the end: limits that were solved for their states alone and are not reported (company, scenes
   /// that this one contains).
   std::function<void(const std::vector<LimitResult>&)> on_unreported;
   /// Searches that are known, and that are to be remembered, by names within this computation; null: none.
@@ -134,11 +136,6 @@ struct LimitsObserver : LimitsProgress {
 /// By how much one state must be further than another, as scaled value, to count as further: more than the
 /// gaps that the schedule leaves.
 double further_than(const LimitSettings& settings);
-
-/// The tasks, then those `apart` degrees to either side of every one that has no other of its sense within
-/// that angle; only tasks that links bound have neighbours and are neighbours. Directions along
-/// components and stretches of periodic cells that hold a strain have none.
-std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<LimitTask>& tasks, double apart);
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
@@ -150,17 +147,18 @@ std::vector<LimitTask> with_neighbours(const Model& model, const std::vector<Lim
 /// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
 /// folds keep from their furthest state, are searched from `fold_starts` starts and once more without the
 /// widest stage, and walk: each begins again from the states of the loads beside its own, as long as these
-/// come to further ones. A limit that has no other of its sense within `settings.neighbours` learns from
-/// limits at that angle to either side, which are not reported. `known`: results that are there already, by
-/// task; empty: none. What one limit throws is its result (status failed) and does not stop the others. Tasks
-/// that were not finished when `keep_going` said no are `interrupted`, with the best of the starts that were
-/// done. What the observer throws is rethrown.
+/// come to further ones. So do stretches of taut sheets, within an allowance, and from where the fabric
+/// locks when it is pushed together across them. Limits that are not reported keep them company
+/// (rest_searches.hpp). `known`: results that are there already, by task; empty: none. What one limit throws
+/// is its result (status failed) and does not stop the others. Tasks that were not finished when `keep_going`
+/// said no are `interrupted`, with the best of the starts that were done. What the observer throws is
+/// rethrown.
 std::vector<LimitResult> compute_limits(const Model& model, const SceneSpec& spec,
                                         const std::vector<LimitTask>& tasks, const LimitSettings& settings,
                                         unsigned threads, const LimitsObserver& observer = {},
                                         const std::vector<std::optional<LimitResult>>& known = {});
 
-/// Starts and tilts of all tasks and their neighbours, the searches with which compute_limits begins: it does
+/// Starts and tilts of all tasks and their company, the searches with which compute_limits begins: it does
 /// at least these, but for starts of a load that the first one shows to be unbounded.
 double count_searches(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings);
 

@@ -3,6 +3,7 @@
 #include "equilibrium/gaps.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
+#include "limits/rest_searches.hpp"
 #include "model/links.hpp"
 
 #include <algorithm>
@@ -120,8 +121,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   if (settings.contact != ContactChoice::constrained)
     p.stages = planned_stages(settings.contact, settings.schedule);
   if (settings.contact == ContactChoice::mesh) p.mesh = mesh_plan(m);
-  p.neighbours = with_neighbours(m, tasks, settings.neighbours).size() - tasks.size();
-  p.neighbour_degrees = settings.neighbours;
+  p.company = rest_searches(m, tasks, settings).size() - tasks.size();
   p.searches = count_searches(m, tasks, settings);
   for (std::size_t i = 0; i < m.rest.size(); ++i) p.inert += spins(m, i) ? 1 : 0;
   p.links_per_element.assign(m.rest.size(), 0);

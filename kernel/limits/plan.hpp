@@ -52,9 +52,8 @@ struct Plan {
   Schedule schedule;
   std::vector<PlannedStage> stages;  ///< of barriers; none of `constrained`
   std::optional<MeshPlan> mesh;      ///< of contact `mesh`
-  std::size_t neighbours = 0;        ///< limits beside those asked for, which only teach
-  double neighbour_degrees = 0.0;
-  double searches = 0.0;  ///< that stand alone (count_searches)
+  std::size_t company = 0;           ///< limits that are solved with those asked for, which only teach
+  double searches = 0.0;             ///< that stand alone (count_searches)
   std::vector<PairPlan> pairs;
   int image_pairs = 0;     ///< element pairs within reach at rest
   Image farthest_image{};  ///< largest image indices among them

@@ -95,6 +95,7 @@ Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettin
         out.status == LockStatus::locked && reached(out.state) < reached(from) - further_than(settings);
     if (!shorter || first <= schedule.last) break;
     schedule.first = first;
+    schedule.most_evaluations = settings.schedule.most_evaluations - out.evaluations;
     Locked narrow = hauberk::lock(m, from, load, settings.contact, schedule, keep_going);
     if (narrow.status == LockStatus::interrupted) return narrow;
     const int iterations = out.iterations + narrow.iterations;

@@ -73,8 +73,7 @@ std::vector<double> doubtful(const std::vector<LimitResult>& limits, Quantity qu
   for (const LimitResult& limit : limits) {
     const bool part = quantity == &ProfilePoint::eta ||
                       limit.sense == (quantity == &ProfilePoint::e_s ? labels.positive : labels.negative);
-    const bool doubt = limit.confidence.word == "contradicted" ||
-                       (limit.confidence.word == "single" && limit.sense == "compress");
+    const bool doubt = limit.confidence.word == "contradicted" || limit.confidence.word == "single";
     const double degrees = reduced(limit.direction.degrees());
     if (limit.direction.is_angle() && part && doubt &&
         std::find(out.begin(), out.end(), degrees) == out.end())

@@ -141,11 +141,8 @@ std::vector<std::string> decisions(const Plan& p)
     out.push_back(fmt::format("stages: {}, activation distances {:g} L to {:g} L", p.stages.size(),
                               p.stages.front().g_hat, p.stages.back().g_hat));
   }
-  if (p.neighbours > 0) {
-    out.push_back(
-        fmt::format("search: limits without company learn from {} neighbours {:g} degrees beside them",
-                    p.neighbours, p.neighbour_degrees));
-  }
+  if (p.company > 0)
+    out.push_back(fmt::format("search: limits learn from {} others that are not reported", p.company));
   return out;
 }
 

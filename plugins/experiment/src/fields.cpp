@@ -177,12 +177,15 @@ Field solver_field()
                        "starts; false: each stands alone."),
                "true"),
            with_default(
-               at_least(number("neighbours",
-                               "A limit at an angle without another of its sense within this many degrees "
-                               "learns from limits that far to either side, which are not reported; 0: none.",
-                               "degree"),
-                        0.0),
-               "10"),
+               at_least(
+                   number(
+                       "neighbours",
+                       "A limit at an angle without another of its sense within this many degrees learns from "
+                       "limits that far to either side, which are not reported; a stretch of a sheet also "
+                       "from the compression across. 0: none.",
+                       "degree"),
+                   0.0),
+               "20"),
            with_default(
                at_least(
                    integer("tilts",

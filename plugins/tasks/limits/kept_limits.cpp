@@ -62,6 +62,7 @@ std::optional<LimitResult> read_limit(const json::object& entry, const std::vect
     r.starts.emplace_back();
     r.starts.back().origin = text_of(start.at("origin"));
     r.starts.back().value = number_or_zero(start.at("value"));
+    r.starts.back().seed = start.at("seed").to_number<std::uint64_t>();
   }
   r.contacts.resize(entry.at("contacts").as_array().size());
   return r;

@@ -17,7 +17,7 @@ std::string cell(const std::optional<double>& value) { return value ? fmt::forma
 std::string mark(const LimitResult& l)
 {
   if (l.confidence.word == "contradicted") return "!";
-  if (l.confidence.word == "single" && l.sense == "compress") return "?";
+  if (l.confidence.word == "single") return "?";
   return l.better_state ? "*" : "";
 }
 

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""How often limits that are found with default settings are short of the furthest state that is known.
+
+    share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress]
+
+Families of periodic cells (weaves at several ratios of ring to wire, sheets of other elements), z fixed, z fixed with a
+clearance of 0.1 mm, and z free; axial limits at five directions, all of them in one run and each alone. The furthest
+known state is that of these, of stronger searches (64 starts, 4 tilted loads with 8 starts, limits every 15 degrees)
+and of scenes that a scene contains: that with a clearance in that without, z fixed in z free.
+A limit is short where it misses that by more than a thousandth. Prints a line per limit that is short, one per
+family with the seconds of every kind of run, and the table. Runs that FOLDER holds are not repeated.
+"""
+
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DIRECTIONS = [0, 20, 45, 75, 90]
+RATIOS = {"european_4in1": (3.3, 5.5, 6.667), "european_6in1": (5.5, 8.0), "japanese_4in1": (4.0, 7.0),
+          "japanese_6in1": (5.0, 8.0)}
+SHEETS = ["share/experiments/octahedra_sheet.json", "share/experiments/threefold_round.json",
+          "share/experiments/chainmail_limits.json", "tests/experiments/scenes/square_frames.json"]
+VARIANTS = {"0.1 mm": ({}, {"clearance": 0.1}), "z fixed": ({}, {}), "z free": ({"out_of_plane": "free"}, {})}
+STRONGER = {"64 starts": (DIRECTIONS, {"starts": 64}), "tilts": (DIRECTIONS, {"starts": 8, "tilts": 4}),
+            "every 15": (sorted({*range(0, 180, 15), *DIRECTIONS}), {})}
+SHORT = 1e-3
+
+
+def families():
+    def weave(name, parameters):
+        return {"name": name, "task": "limits", "length_unit": "mm", "cell": {"weave": {"name": name, **parameters}}}
+
+    found = {}
+    for name, ratios in RATIOS.items():
+        for ratio in ratios:
+            found[f"{name} {ratio}"] = weave(name, {"parameters": {"inner_diameter": 8, "wire_diameter": 8 / ratio}})
+    for name in ("fourfold", "threefold", *RATIOS):
+        found[name] = weave(name, {})
+    for path in SHEETS:
+        stem = pathlib.Path(path).stem
+        found[stem] = {"name": stem, "extends": str(ROOT / path), "expect": []}
+    return found
+
+
+class Study:
+    def __init__(self, program, folder, senses):
+        self.program, self.folder, self.senses = program, pathlib.Path(folder), senses
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def run(self, name, experiment, load, solver, directions):
+        """Values towards their sense and words by direction and sense; and seconds."""
+        name = name.replace(" ", "_")
+        out, took = self.folder / name, self.folder / f"{name}.seconds"
+        if not took.exists():
+            shutil.rmtree(out, ignore_errors=True)
+            load = {"plugin": "in_plane_periodic", "senses": self.senses, **load, "directions_deg": directions}
+            file = self.folder / f"{name}.json"
+            file.write_text(json.dumps({**experiment, "load_case": load, "solver": solver}))
+            begin = time.monotonic()
+            done = subprocess.run([self.program, "run", str(file), "-o", str(out), "--quiet", "--yes"],
+                                  capture_output=True, text=True)
+            if done.returncode not in (0, 1):
+                raise RuntimeError(f"{file}: exit code {done.returncode}: {done.stderr}")
+            took.write_text(str(time.monotonic() - begin))
+        limits = json.loads((out / "results.json").read_text())["limits"]
+        return {(l["direction_deg"], l["sense"]): (l["value"] * (1 if l["sense"] == "stretch" else -1), l["confidence"]["word"])
+                for l in limits if l["status"] == "locked"}, float(took.read_text())
+
+    def family(self, name, experiment, table):
+        contained = {}  # the furthest of the variant before, whose states are this one's too
+        for variant, (load, solver) in VARIANTS.items():
+            where = f"{name}, {variant}"
+            found, seconds = {}, {}
+            found["fan"], seconds["fan"] = self.run(f"{where} fan", experiment, load, solver, DIRECTIONS)
+            found["alone"], seconds["alone"] = {}, 0.0
+            for degrees in DIRECTIONS:
+                values, took = self.run(f"{where} {degrees}", experiment, load, solver, [degrees])
+                found["alone"].update(values)
+                seconds["alone"] += took
+            for kind, (directions, settings) in STRONGER.items():
+                found[kind], seconds[kind] = self.run(f"{where} {kind}", experiment, load, {**solver, **settings}, directions)
+            for limit in sorted(found["fan"] | found["alone"]):
+                furthest, by = max((values[limit][0], kind) for kind, values in found.items() if limit in values)
+                furthest, by = max((furthest, by), (contained.get(limit, float("-inf")), "a scene within"))
+                contained[limit] = furthest
+                for kind in ("fan", "alone"):
+                    count = table.setdefault((limit[1], kind), [0, 0])
+                    count[0] += 1
+                    value, word = found[kind].get(limit, (float("-inf"), "none"))
+                    if furthest - value > SHORT * abs(furthest):
+                        count[1] += 1
+                        print(f"short: {where}, {limit[0]} degrees, {limit[1]}, {kind}: {value:.6g} ({word}) for {furthest:.6g}"
+                              f" ({by})", flush=True)
+            print(f"{where}: " + ", ".join(f"{kind} {s:.1f} s" for kind, s in seconds.items()), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("folder")
+    parser.add_argument("--only", default="", help="families whose names contain one of these")
+    parser.add_argument("--senses", default="stretch,compress")
+    options = parser.parse_args()
+    study, table = Study(options.program, options.folder, options.senses.split(",")), {}
+    for name, experiment in families().items():
+        if any(part in name for part in options.only.split(",")):
+            study.family(name, experiment, table)
+    print("| | limits | short by more than 0.1 % |\n| --- | --- | --- |")
+    for (sense, kind), (limits, short) in sorted(table.items()):
+        print(f"| {sense}, {kind} | {limits} | {short} |")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,88 @@
+/// Limits of which searches from rest alone say too little, asked for one by one with default settings.
+
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+#include <boost/json/array.hpp>
+
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hauberk::test {
+namespace {
+
+namespace json = boost::json;
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// One limit, and how far it is known to go.
+struct LoneLimit {
+  const char *name, *weave, *inner, *wire;
+  int degrees;
+  const char* sense;
+  double furthest;           ///< of searches of many directions
+  const char* switched_off;  ///< the setting without which the search ends less far
+};
+
+void PrintTo(const LoneLimit& l, std::ostream* out) { *out << l.name; }
+
+json::value results_of(const LoneLimit& l, const TemporaryFolder& folder, const std::string& more)
+{
+  const std::string text =
+      R"({ "name": "lone", "task": "limits", "length_unit": "mm", "cell": { "weave": { "name": ")" +
+      std::string(l.weave) + R"(", "parameters": { "inner_diameter": )" + l.inner + R"(, "wire_diameter": )" +
+      l.wire + R"( } } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [)" +
+      std::to_string(l.degrees) + R"(], "senses": [")" + l.sense + R"("] },
+  "solver": { )" +
+      more + " } }";
+  const std::string out = folder / "out";
+  const Outcome o = run_program({"run", folder.write("lone.json", text), "-o", out, "--force"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_EQ(run_program({"verify", out}).code, 0);
+  return read_results(out);
+}
+
+class LoneLimits : public testing::TestWithParam<LoneLimit> {};
+
+TEST_P(LoneLimits, GoAsFarAsInCompany)
+{
+  const LoneLimit& l = GetParam();
+  const TemporaryFolder folder;
+  const double sign = std::string(l.sense) == "stretch" ? 1.0 : -1.0;
+  const double by_default = sign * number_at(results_of(l, folder, ""), "/limits/0/value");
+  EXPECT_GT(by_default, l.furthest - 1e-6);
+  const double less = sign * number_at(results_of(l, folder, l.switched_off), "/limits/0/value");
+  EXPECT_LT(less, l.furthest - 1e-3) << "nothing is needed: no test";
+}
+
+INSTANTIATE_TEST_SUITE_P(Weaves, LoneLimits,
+                         testing::Values(
+                             // 8 starts agree on 0.22993, and 4 tilts with them.
+                             LoneLimit{"stretch", "european_6in1", "8", "1", 20, "stretch", 0.23808258,
+                                       R"("neighbours": 0, "starts": 8)"},
+                             // 128 starts agree on -0.49974, and two limits 10 degrees beside it with them.
+                             LoneLimit{"compression", "european_4in1", "8", "1.2", 0, "compress", 0.52367946,
+                                       R"("neighbours": 10)"}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// Limits that a mirror makes of each other come from one search, seen twice: neither confirms the other.
+TEST(MirrorImages, ConfirmNothing)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const std::string scene = HAUBERK_SCENES "/square_frames.json";
+  const Outcome o = run_program({"run", scene, "-o", out, "--set", "/load_case/directions_deg=[42,48]",
+                                 "--set", "/solver/lessons=false"});
+  ASSERT_EQ(o.code, 0) << o.out << o.err;
+  const json::value results = read_results(out);
+  EXPECT_NEAR(number_at(results, "/limits/0/value"), number_at(results, "/limits/1/value"), 1e-7);
+  for (const json::value& limit : results.at("limits").as_array())
+    EXPECT_EQ(limit.at_pointer("/confidence/word").as_string(), "single");
+  EXPECT_NE(o.out.find('?'), std::string::npos) << o.out;
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -193,19 +193,23 @@ class Computation {
   void find_allowance(unsigned threads)
   {
     std::vector<std::size_t> taut;
+    for (std::size_t k = 0; k < asked_; ++k)
+      if (is_taut(model_, tasks_[k])) taut.push_back(k);
+    find_starts(taut, threads);
+    for (const std::size_t k : taut) allowance_ = std::max(allowance_, allowance_of(k));
+  }
+
+  /// Searches from rest, for tasks that no other thread works on, what is not there.
+  void find_starts(const std::vector<std::size_t>& tasks, unsigned threads)
+  {
     std::vector<std::pair<std::size_t, std::size_t>> missing;
-    for (std::size_t k = 0; k < asked_; ++k) {
-      if (!is_taut(model_, tasks_[k])) continue;
-      taut.push_back(k);
+    for (const std::size_t k : tasks)
       for (std::size_t s = 0; s < states_[k].starts.size(); ++s)
         if (!states_[k].starts[s].locked) missing.emplace_back(k, s);
-    }
-    share_out(threads, missing.size());
     parallel_for(missing.size(), threads, [&](std::size_t i) {
       const auto& [k, start] = missing[i];
       states_[k].starts[start] = attempt(k, start);
     });
-    for (const std::size_t k : taut) allowance_ = std::max(allowance_, allowance_of(k));
   }
 
   /// Threads that have no item of their own help with the pairs of large scenes.
@@ -215,7 +219,7 @@ class Computation {
         static_cast<unsigned>(std::max<std::size_t>(1, threads / std::max<std::size_t>(1, items)));
   }
 
-  /// What a search may have that begins again for a task that is held taut.
+  /// What a search may have that begins again for a taut task.
   long allowance_of(std::size_t task) const
   {
     long most = 0;
@@ -539,13 +543,7 @@ class Computation {
       if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
         unknown.push_back(k);
     }
-    std::vector<std::pair<std::size_t, std::size_t>> again;
-    for (const std::size_t k : unknown)
-      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) again.emplace_back(k, s);
-    parallel_for(again.size(), threads, [&](std::size_t i) {
-      const auto& [k, start] = again[i];
-      states_[k].starts[start] = attempt(k, start);
-    });
+    find_starts(unknown, threads);
     parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
     for (const std::size_t k : unknown) states_[k].known = false;
   }

@@ -16,8 +16,8 @@ void cylinder_roll_fields(std::vector<Field>& out)
   hold.name = "hold";
   hold.kind = Field::Kind::list;
   hold.doc =
-      "What is held at a limit; n is along the load, m across it: places keep every element where it is along "
-      "the sheet; twist and transverse put the patch on a cylinder. places hold along components, too, the others along angles only.";
+      "What is held at a limit; n is along the load, m across it. With twist and transverse the patch is on a "
+      "cylinder. places hold along components, too, the others along angles only.";
   hold.default_json = "[\"twist\", \"transverse\"]";
   hold.max_items = 3;
   hold.children = {std::move(held)};

@@ -16,9 +16,8 @@ void paraboloid_bending_fields(std::vector<Field>& out)
   hold.name = "hold";
   hold.kind = Field::Kind::list;
   hold.doc =
-      "What is held at a limit; n is along the load, m across it: places keep every element's x and y at rest, "
-      "twist and transverse make n^T H m and m^T H m of the curvature H zero. places hold along components, too, "
-      "the others along angles only.";
+      "What is held at a limit; n is along the load, m across it. places hold along components, too, the "
+      "others along angles only.";
   hold.default_json = "[]";
   hold.max_items = 3;
   hold.children = {std::move(held)};

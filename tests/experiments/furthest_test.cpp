@@ -7,15 +7,11 @@
 
 #include <ostream>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace hauberk::test {
 namespace {
 
 namespace json = boost::json;
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// One limit, and how far it is known to go.
 struct LoneLimit {

@@ -60,6 +60,14 @@ void collect(const Field& field, const std::string& place, std::vector<Section>&
   }
 }
 
+/// What a field means; of a list of names also what each of them does.
+std::string meaning(const Field& field)
+{
+  const bool names = field.kind == Kind::list && !field.children.empty() &&
+                     field.children[0].kind == Kind::choice && !field.children[0].doc.empty();
+  return names ? field.doc + " " + field.children[0].doc : field.doc;
+}
+
 void write_section(const Section& section, std::string& out)
 {
   out += "\n## `" + (section.place.empty() ? std::string("/") : section.place) + "`\n\n";
@@ -70,7 +78,7 @@ void write_section(const Section& section, std::string& out)
     out += "| " + (field.required ? "**" + key + "**" : key) + " | " + escape_cell(describe_expected(field)) +
            " | " + escape_cell(field.unit) + " | " +
            (field.default_json.empty() ? "" : "`" + escape_cell(field.default_json) + "`") + " | " +
-           escape_cell(field.doc) + " |\n";
+           escape_cell(meaning(field)) + " |\n";
   }
   std::vector<Section> below;
   for (const Field& field : *section.fields) collect(field, section.place + "/" + field.name, below);

@@ -37,10 +37,9 @@ Field path_field()
 
 Field transition_field()
 {
-  Field contacts =
-      at_least_items(list("contacts", "Contact formulations to compare, as in solver.contact.",
-                          choice("contact", "A formulation.", {"nearest", "published", "arc", "auto"})),
-                     1);
+  Field contacts = at_least_items(list("contacts", "Contact formulations to compare, as in solver.contact.",
+                                       choice("contact", "", {"nearest", "published", "arc", "auto"})),
+                                  1);
   return object(
       "transition",
       "Contact of two placed elements, their images left out, while one of them moves: nearest points, "

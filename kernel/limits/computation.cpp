@@ -38,16 +38,18 @@ struct TaskState {
   int iterations = 0;               ///< of what led nowhere
   long evaluations = 0;             ///< the same
   std::size_t missing = 0;          ///< starts not done
-  bool sparing = false;             ///< RestSearches::sparing
+  std::size_t sparing_from = 0;     ///< RestSearches::sparing_from
   bool narrow = false;              ///< it may fold: the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
   bool learning = false;            ///< others have taught it something, or have begun to
 
   bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
+  bool is_sparing(std::size_t start) const { return start >= sparing_from; }
 };
 
-/// A scene that another one contains, with what its limits came to.
+/// A scene that another one contains, with limits of one kind and what they came to.
 struct Solved {
+  std::string name;  ///< of the searches
   Model model;
   LimitSettings settings;
   std::vector<LimitTask> tasks;
@@ -64,7 +66,7 @@ class Computation {
       tasks_.push_back(searches.task);
       TaskState& state = states_.emplace_back();
       state.narrow = searches.narrow;
-      state.sparing = searches.sparing;
+      state.sparing_from = searches.sparing_from;
       state.starts.resize(searches.starts);
       state.missing = searches.starts;
       results_.push_back(limit_header(model, searches.task));
@@ -146,7 +148,7 @@ class Computation {
           } catch (const std::exception&) {  // it throws again where it is asked for
           }
         });
-      sparing |= states_[k].sparing && items.size() > before;
+      sparing |= states_[k].is_sparing(states_[k].starts.size() - 1) && items.size() > before;
     }
     threads = thread_count(threads);
     if (sparing) find_allowance(threads);
@@ -160,25 +162,28 @@ class Computation {
       ++done_;
       if (observer_.on_start) observer_.on_start(done_, total_);
     });
-    if (!settings_.lessons || !any_may_fold()) return going() ? std::optional(count) : std::nullopt;
+    if (!settings_.lessons || !any_begins_again()) return going() ? std::optional(count) : std::nullopt;
     for (const Relative& relative : relatives(model_, spec_)) {
-      if (!going()) break;
-      try {
-        count += search_relative(relative, threads, share.after(count));
-      } catch (const std::exception&) {  // it throws again where it is asked for
+      for (const bool taut : {false, true}) {
+        if (!going()) break;
+        try {
+          count += search_relative(relative, taut, threads, share.after(count));
+        } catch (const std::exception&) {  // it throws again where it is asked for
+        }
       }
     }
     return going() ? std::optional(count) : std::nullopt;
   }
 
  private:
-  /// All starts of the tasks that are not known yet, of those that are sparing or of the others.
+  /// Starts of the tasks that are not known yet: those that are sparing, or the others.
   void solve_from_rest(bool sparing, unsigned threads)
   {
     std::vector<std::pair<std::size_t, std::size_t>> items;  // task, start
     for (std::size_t k = 0; k < tasks_.size(); ++k) {
-      if (states_[k].known || states_[k].sparing != sparing) continue;
-      for (std::size_t s = 0; s < states_[k].starts.size(); ++s) items.emplace_back(k, s);
+      if (states_[k].known) continue;
+      for (std::size_t s = 0; s < states_[k].starts.size(); ++s)
+        if (states_[k].is_sparing(s) == sparing) items.emplace_back(k, s);
     }
     if (items.empty() || !going()) return;
     if (sparing) find_allowance(threads);
@@ -189,23 +194,24 @@ class Computation {
   }
 
   /// Of searches in company of taut limits: what the most expensive of those may have. Searches those from
-  /// rest that are not there.
+  /// rest that are not there and are not sparing.
   void find_allowance(unsigned threads)
   {
     std::vector<std::size_t> taut;
     for (std::size_t k = 0; k < asked_; ++k)
       if (is_taut(model_, tasks_[k])) taut.push_back(k);
-    find_starts(taut, threads);
+    find_starts(taut, false, threads);
     for (const std::size_t k : taut) allowance_ = std::max(allowance_, allowance_of(k));
   }
 
-  /// Searches from rest, for tasks that no other thread works on, what is not there.
-  void find_starts(const std::vector<std::size_t>& tasks, unsigned threads)
+  /// Searches from rest, for tasks that no other thread works on, what is not there: starts that are sparing,
+  /// or the others.
+  void find_starts(const std::vector<std::size_t>& tasks, bool sparing, unsigned threads)
   {
     std::vector<std::pair<std::size_t, std::size_t>> missing;
     for (const std::size_t k : tasks)
       for (std::size_t s = 0; s < states_[k].starts.size(); ++s)
-        if (!states_[k].starts[s].locked) missing.emplace_back(k, s);
+        if (states_[k].is_sparing(s) == sparing && !states_[k].starts[s].locked) missing.emplace_back(k, s);
     parallel_for(missing.size(), threads, [&](std::size_t i) {
       const auto& [k, start] = missing[i];
       states_[k].starts[start] = attempt(k, start);
@@ -223,8 +229,9 @@ class Computation {
   long allowance_of(std::size_t task) const
   {
     long most = 0;
-    for (const Attempt& a : states_[task].starts)
-      if (a.locked) most = std::max(most, a.locked->evaluations);
+    const TaskState& t = states_[task];
+    for (std::size_t s = 0; s < t.starts.size() && !t.is_sparing(s); ++s)
+      if (t.starts[s].locked) most = std::max(most, t.starts[s].locked->evaluations);
     return allowance(most);
   }
 
@@ -236,19 +243,20 @@ class Computation {
     return settings;
   }
 
-  /// The settings of a limit that is not reported. A lesson widens all gaps again, so it has few stages.
-  LimitSettings in_company(std::size_t task) const
+  /// The settings of a start. A limit that is not reported has few stages: a lesson widens all gaps again.
+  LimitSettings settings_of(std::size_t task, std::size_t start) const
   {
-    LimitSettings settings = states_[task].sparing ? within(allowance_) : settings_;
-    settings.schedule.last = std::max(settings.schedule.last, last_in_company);
+    LimitSettings settings = settings_;
+    if (states_[task].is_sparing(start)) settings = within(task < asked_ ? allowance_of(task) : allowance_);
+    if (task >= asked_) settings.schedule.last = std::max(settings.schedule.last, last_in_company);
     return settings;
   }
 
-  std::size_t search_relative(const Relative& relative, unsigned threads, const Share& share)
+  std::size_t search_relative(const Relative& relative, bool taut, unsigned threads, const Share& share)
   {
-    const Solved s = unsolved(relative);
+    const Solved s = unsolved(relative, taut);
     if (s.tasks.empty()) return 0;
-    std::optional<MemoryWithin> memory = memory_of(relative);
+    std::optional<MemoryWithin> memory = memory_of(s);
     LimitsObserver observer;
     observer.keep_going = observer_.keep_going;
     observer.on_start = observer_.on_start;
@@ -307,7 +315,7 @@ class Computation {
   {
     Attempt out;
     const KeepGoing keep_going = [this] { return going(); };
-    const LimitSettings settings = task < asked_ ? settings_ : in_company(task);
+    const LimitSettings settings = settings_of(task, start);
     try {
       out.locked = searched(fmt::format("limit {} start {}", task, start), out.seconds, [&] {
         return !states_[task].is_narrow(start)
@@ -543,7 +551,7 @@ class Computation {
       if (states_[k].known && std::find(unknown.begin(), unknown.end(), k) == unknown.end())
         unknown.push_back(k);
     }
-    find_starts(unknown, threads);
+    for (const bool sparing : {false, true}) find_starts(unknown, sparing, threads);
     parallel_for(unknown.size(), threads, [&](std::size_t i) { tilt(unknown[i]); });
     for (const std::size_t k : unknown) states_[k].known = false;
   }
@@ -559,25 +567,40 @@ class Computation {
     find_states(needed, threads);
   }
 
-  /// A relative to be solved, each of its limits standing alone; no tasks: this scene has no use for any.
-  Solved unsolved(const Relative& relative) const
+  /// Whether a task inherits from scenes that this one contains: as one that is taut, or as one that may
+  /// fold.
+  bool inherits(std::size_t task, bool taut) const
+  {
+    return taut ? is_taut(model_, tasks_[task]) && begins_again(model_, tasks_[task], settings_.contact)
+                : states_[task].narrow;
+  }
+
+  /// A relative to be solved, for tasks that inherit as taut ones or as others; no tasks: this scene has no
+  /// use for any. Limits that fold stand alone, since their states begin a search and are no answers; taut
+  /// ones are as far as the relative's own answer, which lessons find where searches from rest do not.
+  Solved unsolved(const Relative& relative, bool taut) const
   {
     Solved s;
+    s.name = relative.name + (taut ? ", taut" : "");
     const LoadCase& load = relative.load ? *relative.load : *model_.load;
     s.model = make_model(relative.scene, load, model_.clearance * model_.length);
     const bool other_elements = s.model.dofs() != model_.dofs();  // fewer of them, or of their coordinates
     for (std::size_t k = 0; k < asked_; ++k) {
       const Direction& along = tasks_[k].direction;
-      if (states_[k].narrow &&
-          (other_elements || load.conditions(along).size() != model_.load->conditions(along).size()))
+      const std::size_t held = model_.load->conditions(along).size();
+      const bool more_held = load.conditions(along).size() != held;
+      // A taut fabric under a condition goes no further for another one.
+      if (inherits(k, taut) && (other_elements || (more_held && !(taut && held > 0))))
         s.tasks.push_back(tasks_[k]);
     }
     s.settings = settings_;
-    s.settings.lessons = false;  // its states begin a search, they are no answers
+    s.settings.given.clear();
     // A cell's own start is one of its multiple's, which moves copies alike; the others are new.
     const bool cell = relative.scene.elements.size() != spec_.elements.size();
-    s.settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
-    s.settings.given.clear();
+    if (!taut) {
+      s.settings.lessons = false;
+      s.settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
+    }
     if (settings_.start && !s.tasks.empty()) {
       if (!cell) s.settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
       if (cell || !s.settings.start) s.tasks.clear();
@@ -586,18 +609,18 @@ class Computation {
   }
 
   /// The memory's part that is a relative's.
-  std::optional<MemoryWithin> memory_of(const Relative& relative) const
+  std::optional<MemoryWithin> memory_of(const Solved& relative) const
   {
     if (observer_.memory == nullptr) return std::nullopt;
     return MemoryWithin(*observer_.memory, relative.name + ": ");
   }
 
-  /// The states that the limits of a relative end in when each stands alone.
-  Solved solved(const Relative& relative, unsigned threads)
+  /// The states that the limits of a relative end in.
+  Solved solved(const Relative& relative, bool taut, unsigned threads)
   {
-    Solved s = unsolved(relative);
+    Solved s = unsolved(relative, taut);
     if (s.tasks.empty()) return s;
-    std::optional<MemoryWithin> memory = memory_of(relative);
+    std::optional<MemoryWithin> memory = memory_of(s);
     LimitsObserver observer;
     observer.keep_going = observer_.keep_going;
     observer.on_states = [&s](const auto& states) { s.states = states; };
@@ -608,27 +631,43 @@ class Computation {
     return s;
   }
 
-  bool any_may_fold() const
+  bool any_begins_again() const
   {
-    return std::any_of(states_.begin(), states_.end(), [](const auto& state) { return state.narrow; });
+    for (std::size_t k = 0; k < asked_; ++k)
+      if (inherits(k, false) || inherits(k, true)) return true;
+    return false;
   }
 
   /// States of scenes that this one contains, carried over.
   std::vector<GivenState> inherited(unsigned threads)
   {
     std::vector<GivenState> out = settings_.given;
-    if (!any_may_fold()) return out;
+    if (!any_begins_again()) return out;
     for (const Relative& relative : relatives(model_, spec_)) {
-      const Solved s = solved(relative, threads);
-      if (s.tasks.empty() || !going()) continue;
-      const Carrier carrier(s.model, relative.scene, model_, spec_);
-      if (!carrier.joined()) continue;
-      for (std::size_t k = 0; k < s.tasks.size(); ++k) {
-        const std::optional<State> state = s.states[k] ? carrier.state(*s.states[k]) : std::nullopt;
-        if (state) out.push_back({s.tasks[k].direction, s.tasks[k].sense, *state, relative.name});
+      for (const bool taut : {false, true}) {
+        const Solved s = solved(relative, taut, threads);
+        if (s.tasks.empty() || !going()) continue;
+        const Carrier carrier(s.model, relative.scene, model_, spec_);
+        if (!carrier.joined()) continue;
+        for (std::size_t k = 0; k < s.tasks.size(); ++k) {
+          const std::optional<State> state = s.states[k] ? carrier.state(*s.states[k]) : std::nullopt;
+          if (state) out.push_back({s.tasks[k].direction, s.tasks[k].sense, *state, relative.name});
+        }
       }
     }
     return out;
+  }
+
+  /// Of a search from a state: for a taut task its allowance, unless the state is further than its own.
+  std::optional<long> allowance_from(std::size_t task, const State& from) const
+  {
+    if (!is_taut(model_, tasks_[task])) return std::nullopt;
+    const std::vector<FoundState> known = found_of(task);
+    const auto best = furthest(model_, tasks_[task], settings_, known);
+    const bool further =
+        best && reached(model_, tasks_[task], from) >
+                    reached(model_, tasks_[task], known[*best].locked.state) + further_than(settings_);
+    return further ? std::nullopt : std::optional(allowance_of(task));
   }
 
   /// Each limit begins once more from every state that is given for it. False: interrupted.
@@ -648,12 +687,15 @@ class Computation {
     std::vector<std::optional<FoundState>> found(items.size());
     parallel_for(items.size(), threads, [&](std::size_t i) {
       const auto& [k, from] = items[i];
-      if (going()) found[i] = begun_from(k, from->state, from->origin, settings_.seed);
+      if (going()) {
+        const std::optional<long> allowed = allowance_from(k, from->state);
+        found[i] = begun_from(k, from->state, from->origin, settings_.seed, allowed);
+      }
     });
     if (!going()) {
       // Also where scenes were not solved that would have given a state.
       for (std::size_t k = 0; k < asked_; ++k)
-        if (states_[k].narrow) stopped(k, "a scene that this one contains");
+        if (inherits(k, false) || inherits(k, true)) stopped(k, "a scene that this one contains");
       for (const auto& [k, from] : items) stopped(k, from->origin);
       return false;
     }

@@ -143,11 +143,12 @@ std::optional<double> Donors::reached(std::size_t donor, const Vector& macro, co
   return along.sense == Sense::positive ? v : -v;
 }
 
-void Donors::add_beside(std::size_t task, std::vector<Lesson>& out) const
+void Donors::add_beside(std::size_t task, std::size_t learners, std::vector<Lesson>& out) const
 {
   for (const double side : {-1.0, 1.0}) {
     double passed = 0.0;  // angle of the last donor taken
-    for (int stride = 0; stride < strides; ++stride) {
+    bool company = false;
+    for (int stride = 0; stride < strides;) {
       std::optional<std::size_t> next;
       double nearest = widest + same_angle;
       for (std::size_t d = 0; d < images_.size(); ++d) {
@@ -164,6 +165,9 @@ void Donors::add_beside(std::size_t task, std::vector<Lesson>& out) const
       if (!next) break;
       out.push_back({task, *next});
       passed = nearest;
+      const bool in_company = this->task(*next) >= learners;
+      if (!in_company || !company) ++stride;
+      company = company || in_company;
     }
   }
 }
@@ -186,7 +190,7 @@ std::vector<Lesson> Donors::starting_points(std::size_t learners, ContactChoice 
   for (std::size_t k = 0; k < learners; ++k) {
     if (!begins_again(model_, tasks_[k], contact)) continue;
     if (is_taut(model_, tasks_[k])) add_across(k, out);
-    if (learns_beside(model_, tasks_[k])) add_beside(k, out);
+    if (learns_beside(model_, tasks_[k])) add_beside(k, learners, out);
   }
   return out;
 }

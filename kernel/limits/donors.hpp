@@ -51,11 +51,12 @@ class Donors {
   /// Pairs of learners, those of the first `learners` tasks that begin again, and donors whose states are
   /// starting points for them: beside, the donors whose loads are the next two to either side of the
   /// learner's, among loads of its sense within 30 degrees (a longer stride at times leaves a fold that a
-  /// short one keeps); across, for one that is taut, that of the other sense at right angles.
+  /// short one keeps), those that are no learners counted as one; across, for one that is taut, that of the
+  /// other sense at right angles.
   std::vector<Lesson> starting_points(std::size_t learners, ContactChoice contact) const;
 
  private:
-  void add_beside(std::size_t task, std::vector<Lesson>& out) const;
+  void add_beside(std::size_t task, std::size_t learners, std::vector<Lesson>& out) const;
   void add_across(std::size_t task, std::vector<Lesson>& out) const;
 
   const Model& model_;

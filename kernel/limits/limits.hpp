@@ -139,16 +139,16 @@ double further_than(const LimitSettings& settings);
 
 /// All tasks, every start an item of its own for the threads; results do not depend on `threads`.
 ///
-/// After its starts each task learns from tilted loads. Compressions of periodic cells then begin once more
-/// from where those of every scene lock that this one contains (relatives.hpp), and all tasks from what
-/// `settings.given` has for them. Then limits learn from each other: a locked state of
-/// any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that hold
-/// nothing that it breaks, so where its value along another task's direction is further than that task's own
-/// limit, that one is locked again from it, until none is. Compressions of periodic cells, which a fabric's
-/// folds keep from their furthest state, are searched from `fold_starts` starts and once more without the
-/// widest stage, and walk: each begins again from the states of the loads beside its own, as long as these
-/// come to further ones. So do stretches of taut sheets, within an allowance, and from where the fabric
-/// locks when it is pushed together across them. Limits that are not reported keep them company
+/// After its starts each task learns from tilted loads. Compressions of periodic cells and stretches of taut
+/// sheets then begin once more from where those of every scene lock that this one contains (relatives.hpp),
+/// and all tasks from what `settings.given` has for them. Then limits learn from each other: a locked state
+/// of any task, and every image that a symmetry of the scene makes of it, is a reachable state for all that
+/// hold nothing that it breaks, so where its value along another task's direction is further than that task's
+/// own limit, that one is locked again from it, until none is. Compressions of periodic cells, which a
+/// fabric's folds keep from their furthest state, are searched from `fold_starts` starts and once more
+/// without the widest stage, and walk: each begins again from the states of the loads beside its own, as long
+/// as these come to further ones. So do stretches of taut sheets, within an allowance, and from where the
+/// fabric locks when it is pushed together across them. Limits that are not reported keep them company
 /// (rest_searches.hpp). `known`: results that are there already, by task; empty: none. What one limit throws
 /// is its result (status failed) and does not stop the others. Tasks that were not finished when `keep_going`
 /// said no are `interrupted`, with the best of the starts that were done. What the observer throws is

@@ -11,6 +11,10 @@ namespace {
 /// Elements of the largest cell that has all LimitSettings::fold_starts.
 constexpr int cell_of_all_starts = 4;
 
+/// Starts of a taut limit that begins again, at least, in cells of so many elements at most: a large
+/// perturbation at times leads further than the small one of the first.
+constexpr int taut_starts = 2, cell_of_taut_starts = 16;
+
 /// Of the starts of a limit that is asked for, what one beside it has.
 constexpr int share_beside = 4;
 
@@ -23,9 +27,18 @@ int fold_starts(const Model& model, const LimitSettings& settings)
 RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSettings& settings)
 {
   const int starts = std::max(1, settings.starts);
-  if (!settings.lessons || !may_fold(model, task)) return {task, static_cast<std::size_t>(starts), false};
+  RestSearches out{task, static_cast<std::size_t>(starts), false};
+  if (!settings.lessons) return out;
+  if (is_taut(model, task) && begins_again(model, task, settings.contact) &&
+      model.element_count() <= cell_of_taut_starts && starts < taut_starts) {
+    out.starts = taut_starts;
+    out.sparing_from = static_cast<std::size_t>(starts);
+  }
+  if (!may_fold(model, task)) return out;
   // A fabric with room folds one way under the widest stage and another way without it.
-  return {task, static_cast<std::size_t>(std::max(starts, fold_starts(model, settings))) + 1, true};
+  out.starts = static_cast<std::size_t>(std::max(starts, fold_starts(model, settings))) + 1;
+  out.narrow = true;
+  return out;
 }
 
 RestSearches beside(const Model& model, const LimitTask& task, const LimitSettings& settings)
@@ -80,26 +93,28 @@ std::vector<RestSearches> rest_searches(const Model& model, const std::vector<Li
   const auto has_none = [&](const LimitTask& task) {
     return !task.direction.is_angle() || bounded_by_links(model, task) != Boundedness::attained;
   };
-  const auto add_beside = [&](const LimitTask& task, bool sparing) {
-    if (has_company(task, tasks, apart)) return;
-    for (const double by : {-apart, apart}) {
+  const auto add_beside = [&](const LimitTask& task, double by, bool sparing) {
+    if (has_company(task, tasks, by)) return;
+    for (const double angle : {-by, by}) {
       RestSearches searches =
-          beside(model, {Direction::at_degrees(task.direction.degrees() + by), task.sense}, settings);
-      searches.sparing = sparing;
+          beside(model, {Direction::at_degrees(task.direction.degrees() + angle), task.sense}, settings);
+      if (sparing) searches.sparing_from = 0;
       add(out, model, searches);
     }
   };
   for (const LimitTask& task : tasks) {
     if (has_none(task)) continue;
-    if (may_fold(model, task) || !model.load->periodic()) add_beside(task, false);
+    const bool folds = may_fold(model, task);
+    if (folds) add_beside(task, 0.5 * apart, false);
+    if (folds || !model.load->periodic()) add_beside(task, apart, false);
   }
   for (const LimitTask& task : tasks) {
     if (!is_taut(model, task) || !begins_again(model, task, settings.contact)) continue;
-    if (learns_beside(model, task)) add_beside(task, true);
+    if (learns_beside(model, task)) add_beside(task, apart, true);
     RestSearches across;
     across.task = {Direction::at_degrees(std::remainder(task.direction.degrees() + 90.0, 180.0)),
                    Sense::negative};
-    across.sparing = true;
+    across.sparing_from = 0;
     add(out, model, across);
   }
   return out;

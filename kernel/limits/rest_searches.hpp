@@ -5,6 +5,7 @@
 #include "limits/limits.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace hauberk {
@@ -13,8 +14,10 @@ namespace hauberk {
 struct RestSearches {
   LimitTask task;
   std::size_t starts = 1;
-  bool narrow = false;   ///< the last of the starts is that without the widest stage
-  bool sparing = false;  ///< in company of taut limits alone, it may not cost more than their `allowance`
+  bool narrow = false;  ///< the last of the starts is that without the widest stage
+  /// Starts from this one on may not cost more than the `allowance`: of the taut limits in whose company it
+  /// is, which have none that may cost more, or of its own starts before these.
+  std::size_t sparing_from = std::numeric_limits<std::size_t>::max();
 };
 
 /// Evaluations of closest points that a search may have which begins again for a taut limit (is_taut), or is
@@ -26,9 +29,10 @@ long allowance(long evaluations);
 /// `settings.neighbours` is not 0; only limits that links bound have company and are company.
 ///
 /// Beside: a limit at an angle that has no other of its sense within `settings.neighbours` has two at that
-/// angle to either side; of compressions of periodic cells these have a quarter of its starts. Taut limits
+/// angle to either side; compressions of periodic cells also two at half of it where they have none within
+/// that, and theirs have a quarter of the starts. Taut limits
 /// have them as far as they learn from them (learns_beside). Across: a taut limit that begins again has the
-/// other sense at right angles.
+/// other sense at right angles, and in small cells another start of its own.
 std::vector<RestSearches> rest_searches(const Model& model, const std::vector<LimitTask>& tasks,
                                         const LimitSettings& settings);
 

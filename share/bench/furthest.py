@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """How often limits that are found with default settings are short of the furthest state that is known.
 
-    share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress]
+    share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress] [--defaults] [--known FILE]
 
 Families of periodic cells (weaves at several ratios of ring to wire, sheets of other elements), z fixed, z fixed with a
 clearance of 0.1 mm, and z free; axial limits at five directions, all of them in one run and each alone. The furthest
-known state is that of these, of stronger searches (64 starts, 4 tilted loads with 8 starts, limits every 15 degrees)
-and of scenes that a scene contains: that with a clearance in that without, z fixed in z free.
-A limit is short where it misses that by more than a thousandth. Prints a line per limit that is short, one per
-family with the seconds of every kind of run, and the table. Runs that FOLDER holds are not repeated.
+known state is that of these, of stronger searches (64 starts, 4 tilted loads with 8 starts, limits every 15 degrees),
+of scenes that a scene contains (that with a clearance in that without, z fixed in z free, a cell in its multiples) and of
+all runs whose values the file of known ones has (furthest.json beside this script), where what is further is entered.
+--defaults leaves the stronger searches out. A limit is short where it misses the furthest by more than a thousandth.
+Prints a line per limit that is short, one per family with the seconds of every kind of run, and the table. Runs that
+FOLDER holds are not repeated.
 """
 
 import argparse
@@ -20,10 +22,12 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DIRECTIONS = [0, 20, 45, 75, 90]
-RATIOS = {"european_4in1": (3.3, 5.5, 6.667), "european_6in1": (5.5, 8.0), "japanese_4in1": (4.0, 7.0),
+RATIOS = {"european_4in1": (3.3, 5.5, 6.667, 10.0), "european_6in1": (5.5, 8.0), "japanese_4in1": (4.0, 7.0),
           "japanese_6in1": (5.0, 8.0)}
 SHEETS = ["share/experiments/octahedra_sheet.json", "share/experiments/threefold_round.json",
           "share/experiments/chainmail_limits.json", "tests/experiments/scenes/square_frames.json"]
+CELLS = {"european_4in1": (2, 3), "european_6in1": (2,), "japanese_4in1": (2,), "japanese_6in1": (2,), "fourfold": (2, 3),
+         "threefold": (2, 3)}
 VARIANTS = {"0.1 mm": ({}, {"clearance": 0.1}), "z fixed": ({}, {}), "z free": ({"out_of_plane": "free"}, {})}
 STRONGER = {"64 starts": (DIRECTIONS, {"starts": 64}), "tilts": (DIRECTIONS, {"starts": 8, "tilts": 4}),
             "every 15": (sorted({*range(0, 180, 15), *DIRECTIONS}), {})}
@@ -40,6 +44,10 @@ def families():
             found[f"{name} {ratio}"] = weave(name, {"parameters": {"inner_diameter": 8, "wire_diameter": 8 / ratio}})
     for name in ("fourfold", "threefold", *RATIOS):
         found[name] = weave(name, {})
+    for name, repeats in CELLS.items():
+        for n in repeats:
+            found[f"{name} {n}x{n}"] = weave(name, {})
+            found[f"{name} {n}x{n}"]["cell"]["repeat"] = [n, n]
     for path in SHEETS:
         stem = pathlib.Path(path).stem
         found[stem] = {"name": stem, "extends": str(ROOT / path), "expect": []}
@@ -47,9 +55,23 @@ def families():
 
 
 class Study:
-    def __init__(self, program, folder, senses):
-        self.program, self.folder, self.senses = program, pathlib.Path(folder), senses
+    def __init__(self, program, folder, senses, stronger, known):
+        self.program, self.folder, self.senses, self.stronger = program, pathlib.Path(folder), senses, stronger
         self.folder.mkdir(parents=True, exist_ok=True)
+        self.file = known
+        self.known = json.loads(known.read_text()) if known.exists() else {}
+
+    def remember(self, where, limit, value, by):
+        """The furthest that any run came to in this limit, and by which kind of run."""
+        at = f"{float(limit[0]):g} {limit[1]}"
+        there = self.known.setdefault(where, {}).get(at, [float("-inf"), ""])
+        if value > there[0] + 1e-9:
+            self.known[where][at] = [value, by]
+        return tuple(self.known[where][at])
+
+    def keep(self):
+        lines = (f"{json.dumps(k)}: {json.dumps(v, sort_keys=True)}" for k, v in sorted(self.known.items()))
+        self.file.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
     def run(self, name, experiment, load, solver, directions):
         """Values towards their sense and words by direction and sense; and seconds."""
@@ -74,6 +96,11 @@ class Study:
         contained = {}  # the furthest of the variant before, whose states are this one's too
         for variant, (load, solver) in VARIANTS.items():
             where = f"{name}, {variant}"
+            if name.endswith(("2x2", "3x3")):
+                cell = self.known.get(f"{name[:-4]}, {variant}", {})
+                for at, (value, _) in cell.items():
+                    limit = (float(at.split()[0]), at.split()[1])
+                    contained[limit] = max(value, contained.get(limit, float("-inf")))
             found, seconds = {}, {}
             found["fan"], seconds["fan"] = self.run(f"{where} fan", experiment, load, solver, DIRECTIONS)
             found["alone"], seconds["alone"] = {}, 0.0
@@ -81,11 +108,12 @@ class Study:
                 values, took = self.run(f"{where} {degrees}", experiment, load, solver, [degrees])
                 found["alone"].update(values)
                 seconds["alone"] += took
-            for kind, (directions, settings) in STRONGER.items():
+            for kind, (directions, settings) in (STRONGER.items() if self.stronger else ()):
                 found[kind], seconds[kind] = self.run(f"{where} {kind}", experiment, load, {**solver, **settings}, directions)
             for limit in sorted(found["fan"] | found["alone"]):
                 furthest, by = max((values[limit][0], kind) for kind, values in found.items() if limit in values)
                 furthest, by = max((furthest, by), (contained.get(limit, float("-inf")), "a scene within"))
+                furthest, by = self.remember(where, limit, furthest, by)
                 contained[limit] = furthest
                 for kind in ("fan", "alone"):
                     count = table.setdefault((limit[1], kind), [0, 0])
@@ -95,6 +123,7 @@ class Study:
                         count[1] += 1
                         print(f"short: {where}, {limit[0]} degrees, {limit[1]}, {kind}: {value:.6g} ({word}) for {furthest:.6g}"
                               f" ({by})", flush=True)
+            self.keep()
             print(f"{where}: " + ", ".join(f"{kind} {s:.1f} s" for kind, s in seconds.items()), flush=True)
 
 
@@ -104,8 +133,10 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--only", default="", help="families whose names contain one of these")
     parser.add_argument("--senses", default="stretch,compress")
+    parser.add_argument("--defaults", action="store_true", help="no stronger searches")
+    parser.add_argument("--known", type=pathlib.Path, default=pathlib.Path(__file__).with_suffix(".json"))
     options = parser.parse_args()
-    study, table = Study(options.program, options.folder, options.senses.split(",")), {}
+    study, table = Study(options.program, options.folder, options.senses.split(","), not options.defaults, options.known), {}
     for name, experiment in families().items():
         if any(part in name for part in options.only.split(",")):
             study.family(name, experiment, table)

@@ -44,7 +44,7 @@ void add(Scenes& scenes, const std::string& name, const Source& source, std::opt
 std::vector<std::string> one_limit(const char* sense, std::vector<std::string> more = {})
 {
   std::vector<std::string> set{"/load_case/directions_deg=[0]",
-                               fmt::format("/load_case/senses=[\"{}\"]", sense), "/solver/neighbours=0",
+                               fmt::format("/load_case/senses=[\"{}\"]", sense), "/solver/lessons=false",
                                "/solver/starts=1"};
   set.insert(set.end(), more.begin(), more.end());
   return set;

@@ -7,6 +7,7 @@
 
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace hauberk::test {
 namespace {
@@ -63,6 +64,52 @@ INSTANTIATE_TEST_SUITE_P(Weaves, LoneLimits,
                              LoneLimit{"compression", "european_4in1", "8", "1.2", 0, "compress", 0.52367946,
                                        R"("neighbours": 10)"}),
                          [](const auto& info) { return std::string(info.param.name); });
+
+/// A sheet with more freedom stretches no less far. Its own searches, and those of limits beside and across,
+/// end less far here: it begins again from the state of the sheet within it.
+TEST(ScenesWithin, AreInheritedByStretches)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  std::vector<std::string> run{"run",   HAUBERK_SCENES "/square_frames.json", "-o", out, "--force",
+                               "--set", "/load_case/directions_deg=[45]"};
+  ASSERT_EQ(run_program(run).code, 0);
+  const double within = number_at(read_results(out), "/limits/0/value");
+  run.insert(run.end(), {"--set", "/load_case/out_of_plane=\"free\""});
+  const Outcome o = run_program(run);
+  ASSERT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_EQ(run_program({"verify", out}).code, 0);
+  const json::value results = read_results(out);
+  EXPECT_GT(number_at(results, "/limits/0/value"), within - 1e-7);
+  for (const json::value& start : results.at_pointer("/limits/0/starts").as_array()) {
+    const double value = start.at("value").to_number<double>();
+    if (start.at("origin").as_string() == "from z fixed") {
+      EXPECT_GT(value, within - 1e-7);
+    } else {
+      EXPECT_LT(value, within - 1e-3) << "nothing is inherited: no test";
+    }
+  }
+}
+
+/// A state with more held is a start, and at times the one that leads furthest, also for stretches: here by 9
+/// %.
+TEST(ScenesWithin, LeadOn)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  ASSERT_EQ(run_program({"run", HAUBERK_SCENES "/conforming.json", "-o", out, "--set",
+                         "/load_case/directions_deg=[90]", "--set", "/solver/lessons=true"})
+                .code,
+            0);
+  const json::value results = read_results(out);
+  const double value = number_at(results, "/limits/0/value");
+  EXPECT_NEAR(value, 0.1440063, 1e-6);
+  for (const json::value& start : results.at_pointer("/limits/0/starts").as_array()) {
+    if (start.at("value").to_number<double>() > value - 1e-3) {
+      EXPECT_EQ(start.at("origin").as_string(), "from shear held");
+    }
+  }
+}
 
 /// Limits that a mirror makes of each other come from one search, seen twice: neither confirms the other.
 TEST(MirrorImages, ConfirmNothing)

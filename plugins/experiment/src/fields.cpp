@@ -160,7 +160,7 @@ Field solver_field()
                at_least(integer("starts",
                                 "Perturbed starts per limit; those of loads that push small periodic cells "
                                 "together, such as compressions and shears along components, have at "
-                                "least 32."),
+                                "least 32, those that stretch sheets of small cells at least 2."),
                         1),
                "1"),
            with_default(
@@ -181,8 +181,9 @@ Field solver_field()
                    number(
                        "neighbours",
                        "A limit at an angle without another of its sense within this many degrees learns from "
-                       "limits that far to either side, which are not reported; a stretch of a sheet also "
-                       "from the compression across. 0: none.",
+                       "limits that far to either side, which are not reported; a compression without one "
+                       "within half of that also from limits that far, a stretch of a sheet also from the "
+                       "compression across. 0: none.",
                        "degree"),
                    0.0),
                "20"),

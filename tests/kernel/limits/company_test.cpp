@@ -30,13 +30,14 @@ struct Fabric {
     model = make_model(scene, load, 0.0);
     settings.neighbours = 20.0;
   }
-  /// Direction, sense (+-) and starts of each, "sparing" where it is.
+  /// Direction, sense (+-) and starts of each, and how many of these may cost what they want.
   std::vector<std::string> searches(const std::vector<LimitTask>& tasks) const
   {
     std::vector<std::string> out;
     for (const RestSearches& s : rest_searches(model, tasks, settings)) {
       out.push_back(s.task.direction.text() + (s.task.sense == Sense::positive ? ", +, " : ", -, ") +
-                    std::to_string(s.starts) + (s.sparing ? ", sparing" : ""));
+                    std::to_string(s.starts) +
+                    (s.sparing_from < s.starts ? ", sparing from " + std::to_string(s.sparing_from) : ""));
     }
     return out;
   }
@@ -48,8 +49,8 @@ using Texts = std::vector<std::string>;
 
 TEST(Company, StretchesOfSheetsHaveItBesideAndAcross)
 {
-  const Texts lone{"10 degrees, +, 1", "-10 degrees, +, 1, sparing", "30 degrees, +, 1, sparing",
-                   "-80 degrees, -, 1, sparing"};
+  const Texts lone{"10 degrees, +, 2, sparing from 1", "-10 degrees, +, 1, sparing from 0",
+                   "30 degrees, +, 1, sparing from 0", "-80 degrees, -, 1, sparing from 0"};
   EXPECT_EQ(Fabric(japanese(false), held_shear).searches({at(10.0, Sense::positive)}), lone);
   EXPECT_EQ(Fabric(japanese(false), held_nothing).searches({at(10.0, Sense::positive)}), lone);
   // Of two within 20 degrees each has the other; 100 degrees pushed together is asked for with all its
@@ -57,13 +58,31 @@ TEST(Company, StretchesOfSheetsHaveItBesideAndAcross)
   const Texts three =
       Fabric(japanese(false), held_shear)
           .searches({at(10.0, Sense::positive), at(25.0, Sense::positive), at(100.0, Sense::negative)});
-  EXPECT_EQ(three, (Texts{"10 degrees, +, 1", "25 degrees, +, 1", "100 degrees, -, 33", "80 degrees, -, 9",
-                          "120 degrees, -, 9", "-65 degrees, -, 1, sparing"}));
+  EXPECT_EQ(three, (Texts{"10 degrees, +, 2, sparing from 1", "25 degrees, +, 2, sparing from 1",
+                          "100 degrees, -, 33", "90 degrees, -, 9", "110 degrees, -, 9", "80 degrees, -, 9",
+                          "120 degrees, -, 9", "-65 degrees, -, 1, sparing from 0"}));
+  // Compressions that are 15 degrees apart have others between them.
+  const Texts pushed =
+      Fabric(japanese(false), held_shear)
+          .searches({at(100.0, Sense::negative), at(115.0, Sense::negative), at(125.0, Sense::negative)});
+  EXPECT_EQ(pushed, (Texts{"100 degrees, -, 33", "115 degrees, -, 33", "125 degrees, -, 33",
+                           "90 degrees, -, 9", "110 degrees, -, 9"}));
   // In large cells what is held is broken by states of other directions.
   EXPECT_EQ(Fabric(repeated(japanese(false), 3, 2), held_shear).searches({at(10.0, Sense::positive)}),
-            (Texts{"10 degrees, +, 1", "-80 degrees, -, 1, sparing"}));
+            (Texts{"10 degrees, +, 1", "-80 degrees, -, 1, sparing from 0"}));
+  Texts large = lone;
+  large[0] = "10 degrees, +, 1";
   EXPECT_EQ(Fabric(repeated(japanese(false), 3, 2), held_nothing).searches({at(10.0, Sense::positive)}),
-            lone);
+            large);
+}
+
+TEST(Company, StartsThatAreAskedForMayCostWhatTheyWant)
+{
+  Fabric sheet(japanese(false), held_shear);
+  for (const int starts : {2, 3}) {
+    sheet.settings.starts = starts;
+    EXPECT_EQ(sheet.searches({at(10.0, Sense::positive)})[0], "10 degrees, +, " + std::to_string(starts));
+  }
 }
 
 TEST(Company, OthersHaveNone)
@@ -76,7 +95,7 @@ TEST(Company, OthersHaveNone)
   EXPECT_EQ(sheet.searches({at(10.0, Sense::positive)}), Texts{"10 degrees, +, 1"});
   sheet.settings.contact = ContactChoice::automatic;
   sheet.settings.neighbours = 0.0;
-  EXPECT_EQ(sheet.searches({at(10.0, Sense::positive)}), Texts{"10 degrees, +, 1"});
+  EXPECT_EQ(sheet.searches({at(10.0, Sense::positive)}), Texts{"10 degrees, +, 2, sparing from 1"});
   sheet.settings.neighbours = 20.0;
   sheet.settings.lessons = false;
   EXPECT_EQ(sheet.searches({at(10.0, Sense::positive)}), Texts{"10 degrees, +, 1"});

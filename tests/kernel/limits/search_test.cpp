@@ -94,7 +94,7 @@ TEST(Search, AnInterruptKeepsStartsThatWereDone)
     observer.moment_to_report = moment;
     const LimitResult r = compute_limits(s.model, s.scene, tasks, s.settings, 1, observer)[0];
     EXPECT_EQ(r.status, LimitStatus::interrupted);
-    EXPECT_EQ(r.message, "1 of 1 starts were done");
+    EXPECT_EQ(r.message, "1 of 2 starts were done");
     const bool kept = moment > std::chrono::minutes(0);
     EXPECT_EQ(r.value, kept ? whole.value : std::nullopt);
     EXPECT_EQ(r.force_balance, kept ? whole.force_balance : std::nullopt);
@@ -145,10 +145,11 @@ TEST(Search, ALoneLimitAsksItsNeighbours)
   const std::vector<LimitResult> r = s.limits({0.0}, observer);
   ASSERT_EQ(r.size(), 1U);
   EXPECT_NEAR(*r[0].value, furthest_fold, 1e-4);
-  ASSERT_EQ(asked.size(), 2U) << "who counts work is told of them";
+  ASSERT_EQ(asked.size(), 4U) << "who counts work is told of them";
   for (const LimitResult& l : asked) EXPECT_GT(l.evaluations, 0);
-  EXPECT_EQ(asked[0].direction.degrees(), -10.0);
-  // One that has company within that angle asks nobody else.
+  EXPECT_EQ(asked[0].direction.degrees(), -5.0);
+  EXPECT_EQ(asked[2].direction.degrees(), -10.0);
+  // One that has company within half of that angle asks nobody else.
   long alone = 0, together = 0;
   s.settings.neighbours = 0.0;
   for (const LimitResult& l : s.limits({50.0, 55.0})) alone += l.evaluations;

@@ -624,6 +624,9 @@ class Computation {
     LimitsObserver observer;
     observer.keep_going = observer_.keep_going;
     observer.on_states = [&s](const auto& states) { s.states = states; };
+    observer.on_unreported = [this](const std::vector<LimitResult>& limits) {
+      unreported_.insert(unreported_.end(), limits.begin(), limits.end());
+    };
     observer.memory = memory ? &*memory : nullptr;
     std::vector<LimitResult> limits =
         compute_limits(s.model, relative.scene, s.tasks, s.settings, threads, observer);

@@ -301,6 +301,20 @@ TEST(Relatives, ScenesThatWereSolvedAreTold)
   for (const LimitResult& r : told) EXPECT_GT(r.evaluations, 0);
 }
 
+/// Stretches inherit from scenes that learn themselves, and those from what they contain.
+TEST(Relatives, ScenesWithinThoseAreToldToo)
+{
+  const InPlanePeriodic load = sheet(shear, {true, 0.0});
+  const SceneSpec scene = loose(2, 1);
+  const Model m = make_model(scene, load, 0.0);
+  std::vector<LimitResult> told;
+  LimitsObserver observer;
+  observer.on_unreported = [&told](const std::vector<LimitResult>& limits) { told = limits; };
+  compute_limits(m, scene, {{Direction::at_degrees(45.0), Sense::positive}}, few(), 2, observer);
+  ASSERT_EQ(told.size(), 4U) << "z fixed, and of it one cell; one cell, and of it z fixed";
+  for (const LimitResult& r : told) EXPECT_GT(r.evaluations, 0);
+}
+
 /// A state that is given is not lost to stages that are too wide for its fold.
 TEST(Relatives, GivenStatesAreKept)
 {

@@ -1,8 +1,8 @@
 #include "limits/confidence.hpp"
 #include "limits/donors.hpp"
 #include "limits/limit_report.hpp"
-#include "limits/relatives.hpp"
 #include "limits/rest_searches.hpp"
+#include "limits/scenes_within.hpp"
 #include "numerics/parallel.hpp"
 
 #include <fmt/format.h>
@@ -47,20 +47,16 @@ struct TaskState {
   bool is_sparing(std::size_t start) const { return start >= sparing_from; }
 };
 
-/// A scene that another one contains, with limits of one kind and what they came to.
-struct Solved {
-  std::string name;  ///< of the searches
-  Model model;
-  LimitSettings settings;
-  std::vector<LimitTask> tasks;
-  std::vector<std::optional<State>> states;  ///< per task
-};
-
 class Computation {
  public:
   Computation(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
               const LimitSettings& settings, const LimitsObserver& observer)
-      : model_(model), spec_(spec), asked_(tasks.size()), settings_(settings), observer_(observer)
+      : model_(model),
+        spec_(spec),
+        asked_(tasks.size()),
+        settings_(settings),
+        observer_(observer),
+        within_(model, spec, tasks_, asked_, settings_, observer)
   {
     for (const RestSearches& searches : rest_searches(model, tasks, settings)) {
       tasks_.push_back(searches.task);
@@ -162,16 +158,7 @@ class Computation {
       ++done_;
       if (observer_.on_start) observer_.on_start(done_, total_);
     });
-    if (!settings_.lessons || !any_begins_again()) return going() ? std::optional(count) : std::nullopt;
-    for (const Relative& relative : relatives(model_, spec_)) {
-      for (const bool taut : {false, true}) {
-        if (!going()) break;
-        try {
-          count += search_relative(relative, taut, threads, share.after(count));
-        } catch (const std::exception&) {  // it throws again where it is asked for
-        }
-      }
-    }
+    if (settings_.lessons) count += within_.search(threads, share.after(count));
     return going() ? std::optional(count) : std::nullopt;
   }
 
@@ -250,20 +237,6 @@ class Computation {
     if (states_[task].is_sparing(start)) settings = within(task < asked_ ? allowance_of(task) : allowance_);
     if (task >= asked_) settings.schedule.last = std::max(settings.schedule.last, last_in_company);
     return settings;
-  }
-
-  std::size_t search_relative(const Relative& relative, bool taut, unsigned threads, const Share& share)
-  {
-    const Solved s = unsolved(relative, taut);
-    if (s.tasks.empty()) return 0;
-    std::optional<MemoryWithin> memory = memory_of(s);
-    LimitsObserver observer;
-    observer.keep_going = observer_.keep_going;
-    observer.on_start = observer_.on_start;
-    observer.memory = &*memory;
-    return Computation(s.model, relative.scene, s.tasks, s.settings, observer)
-        .search(threads, share)
-        .value_or(0);
   }
 
   bool going() const { return !observer_.keep_going || observer_.keep_going(); }
@@ -567,100 +540,6 @@ class Computation {
     find_states(needed, threads);
   }
 
-  /// Whether a task inherits from scenes that this one contains: as one that is taut, or as one that may
-  /// fold.
-  bool inherits(std::size_t task, bool taut) const
-  {
-    return taut ? is_taut(model_, tasks_[task]) && begins_again(model_, tasks_[task], settings_.contact)
-                : states_[task].narrow;
-  }
-
-  /// A relative to be solved, for tasks that inherit as taut ones or as others; no tasks: this scene has no
-  /// use for any. Limits that fold stand alone, since their states begin a search and are no answers; taut
-  /// ones are as far as the relative's own answer, which lessons find where searches from rest do not.
-  Solved unsolved(const Relative& relative, bool taut) const
-  {
-    Solved s;
-    s.name = relative.name + (taut ? ", taut" : "");
-    const LoadCase& load = relative.load ? *relative.load : *model_.load;
-    s.model = make_model(relative.scene, load, model_.clearance * model_.length);
-    const bool other_elements = s.model.dofs() != model_.dofs();  // fewer of them, or of their coordinates
-    for (std::size_t k = 0; k < asked_; ++k) {
-      const Direction& along = tasks_[k].direction;
-      const std::size_t held = model_.load->conditions(along).size();
-      const bool more_held = load.conditions(along).size() != held;
-      // A taut fabric under a condition goes no further for another one.
-      if (inherits(k, taut) && (other_elements || (more_held && !(taut && held > 0))))
-        s.tasks.push_back(tasks_[k]);
-    }
-    s.settings = settings_;
-    s.settings.given.clear();
-    // A cell's own start is one of its multiple's, which moves copies alike; the others are new.
-    const bool cell = relative.scene.elements.size() != spec_.elements.size();
-    if (!taut) {
-      s.settings.lessons = false;
-      s.settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
-    }
-    if (settings_.start && !s.tasks.empty()) {
-      if (!cell) s.settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
-      if (cell || !s.settings.start) s.tasks.clear();
-    }
-    return s;
-  }
-
-  /// The memory's part that is a relative's.
-  std::optional<MemoryWithin> memory_of(const Solved& relative) const
-  {
-    if (observer_.memory == nullptr) return std::nullopt;
-    return MemoryWithin(*observer_.memory, relative.name + ": ");
-  }
-
-  /// The states that the limits of a relative end in.
-  Solved solved(const Relative& relative, bool taut, unsigned threads)
-  {
-    Solved s = unsolved(relative, taut);
-    if (s.tasks.empty()) return s;
-    std::optional<MemoryWithin> memory = memory_of(s);
-    LimitsObserver observer;
-    observer.keep_going = observer_.keep_going;
-    observer.on_states = [&s](const auto& states) { s.states = states; };
-    observer.on_unreported = [this](const std::vector<LimitResult>& limits) {
-      unreported_.insert(unreported_.end(), limits.begin(), limits.end());
-    };
-    observer.memory = memory ? &*memory : nullptr;
-    std::vector<LimitResult> limits =
-        compute_limits(s.model, relative.scene, s.tasks, s.settings, threads, observer);
-    std::move(limits.begin(), limits.end(), std::back_inserter(unreported_));
-    return s;
-  }
-
-  bool any_begins_again() const
-  {
-    for (std::size_t k = 0; k < asked_; ++k)
-      if (inherits(k, false) || inherits(k, true)) return true;
-    return false;
-  }
-
-  /// States of scenes that this one contains, carried over.
-  std::vector<GivenState> inherited(unsigned threads)
-  {
-    std::vector<GivenState> out = settings_.given;
-    if (!any_begins_again()) return out;
-    for (const Relative& relative : relatives(model_, spec_)) {
-      for (const bool taut : {false, true}) {
-        const Solved s = solved(relative, taut, threads);
-        if (s.tasks.empty() || !going()) continue;
-        const Carrier carrier(s.model, relative.scene, model_, spec_);
-        if (!carrier.joined()) continue;
-        for (std::size_t k = 0; k < s.tasks.size(); ++k) {
-          const std::optional<State> state = s.states[k] ? carrier.state(*s.states[k]) : std::nullopt;
-          if (state) out.push_back({s.tasks[k].direction, s.tasks[k].sense, *state, relative.name});
-        }
-      }
-    }
-    return out;
-  }
-
   /// Of a search from a state: for a taut task its allowance, unless the state is further than its own.
   std::optional<long> allowance_from(std::size_t task, const State& from) const
   {
@@ -676,7 +555,8 @@ class Computation {
   /// Each limit begins once more from every state that is given for it. False: interrupted.
   bool inherit(const Donors& donors, unsigned threads)
   {
-    const std::vector<GivenState> given = inherited(threads);
+    std::vector<GivenState> given = within_.states(threads, unreported_);
+    given.insert(given.begin(), settings_.given.begin(), settings_.given.end());
     std::vector<std::pair<std::size_t, const GivenState*>> items;
     std::vector<Lesson> learners;
     for (std::size_t k = 0; k < asked_; ++k) {
@@ -698,7 +578,7 @@ class Computation {
     if (!going()) {
       // Also where scenes were not solved that would have given a state.
       for (std::size_t k = 0; k < asked_; ++k)
-        if (inherits(k, false) || inherits(k, true)) stopped(k, "a scene that this one contains");
+        if (within_.inherits(k)) stopped(k, "a scene that this one contains");
       for (const auto& [k, from] : items) stopped(k, from->origin);
       return false;
     }
@@ -794,6 +674,7 @@ class Computation {
   LimitSettings settings_;
   long allowance_ = 0;  ///< of searches of tasks that are sparing
   const LimitsObserver& observer_;
+  ScenesWithin within_;
   std::size_t total_ = 0, done_ = 0;
   std::mutex mutex_;  ///< guards all below
   std::vector<TaskState> states_;
@@ -823,11 +704,12 @@ double count_searches(const Model& model, const std::vector<LimitTask>& tasks, c
   return count;
 }
 
-bool compute_searches(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
-                      const LimitSettings& settings, unsigned threads, const LimitsObserver& observer,
-                      const Share& share)
+std::optional<std::size_t> compute_searches(const Model& model, const SceneSpec& spec,
+                                            const std::vector<LimitTask>& tasks,
+                                            const LimitSettings& settings, unsigned threads,
+                                            const LimitsObserver& observer, const Share& share)
 {
-  return Computation(model, spec, tasks, settings, observer).search(threads, share).has_value();
+  return Computation(model, spec, tasks, settings, observer).search(threads, share);
 }
 
 }  // namespace hauberk

@@ -165,11 +165,12 @@ double count_searches(const Model& model, const std::vector<LimitTask>& tasks, c
 /// Of a computation that is divided: does a share of the searches that stand alone, for `observer.memory`,
 /// which must not be null. These are all starts and tilts of the tasks and the starts of the scenes that this
 /// one contains; what limits learn from each other needs all of them and is left to compute_limits. Searches
-/// that throw are left to it, too. Of the observer only `keep_going` and `on_start` are called. False:
-/// interrupted.
-bool compute_searches(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
-                      const LimitSettings& settings, unsigned threads, const LimitsObserver& observer,
-                      const Share& share);
+/// that throw are left to it, too. Of the observer only `keep_going` and `on_start` are called. Returns how
+/// many all shares of them are; null: interrupted.
+std::optional<std::size_t> compute_searches(const Model& model, const SceneSpec& spec,
+                                            const std::vector<LimitTask>& tasks,
+                                            const LimitSettings& settings, unsigned threads,
+                                            const LimitsObserver& observer, const Share& share);
 
 /// Both senses of equal directions joined: e_s, e_c, and for strains eta = (e_s - e_c)/(1 + e_c).
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load);

@@ -91,8 +91,7 @@ TEST(ScenesWithin, AreInheritedByStretches)
   }
 }
 
-/// A state with more held is a start, and at times the one that leads furthest, also for stretches: here by 9
-/// %.
+/// A state with more held is a start, and at times the one that leads furthest, also for stretches.
 TEST(ScenesWithin, LeadOn)
 {
   const TemporaryFolder folder;

@@ -287,32 +287,27 @@ TEST(Relatives, StoppedLimitsGoOnToTheSameEnd)
   EXPECT_GT(among_lessons, 0) << "some were stopped while they learnt";
 }
 
-/// Who counts work is told of limits that were solved for their states alone.
-TEST(Relatives, ScenesThatWereSolvedAreTold)
+/// The limits that are solved for their states alone when one at 45 degrees is asked for.
+std::vector<LimitResult> unreported(const SceneSpec& scene, const LoadCase& load, Sense sense)
 {
-  const InPlanePeriodic load = sheet(shear);
-  const SceneSpec scene = loose(2, 1);
   const Model m = make_model(scene, load, 0.0);
   std::vector<LimitResult> told;
   LimitsObserver observer;
   observer.on_unreported = [&told](const std::vector<LimitResult>& limits) { told = limits; };
-  compute_limits(m, scene, {{Direction::at_degrees(45.0), Sense::negative}}, few(), 2, observer);
-  ASSERT_EQ(told.size(), 2U) << "lateral strain held; one cell";
-  for (const LimitResult& r : told) EXPECT_GT(r.evaluations, 0);
+  compute_limits(m, scene, {{Direction::at_degrees(45.0), sense}}, few(), 2, observer);
+  return told;
 }
 
-/// Stretches inherit from scenes that learn themselves, and those from what they contain.
-TEST(Relatives, ScenesWithinThoseAreToldToo)
+/// Who counts work is told of limits that were solved for their states alone, also of those within them:
+/// stretches inherit from scenes that learn themselves.
+TEST(Relatives, ScenesThatWereSolvedAreTold)
 {
-  const InPlanePeriodic load = sheet(shear, {true, 0.0});
-  const SceneSpec scene = loose(2, 1);
-  const Model m = make_model(scene, load, 0.0);
-  std::vector<LimitResult> told;
-  LimitsObserver observer;
-  observer.on_unreported = [&told](const std::vector<LimitResult>& limits) { told = limits; };
-  compute_limits(m, scene, {{Direction::at_degrees(45.0), Sense::positive}}, few(), 2, observer);
-  ASSERT_EQ(told.size(), 4U) << "z fixed, and of it one cell; one cell, and of it z fixed";
-  for (const LimitResult& r : told) EXPECT_GT(r.evaluations, 0);
+  const std::vector<LimitResult> pushed = unreported(loose(2, 1), sheet(shear), Sense::negative);
+  ASSERT_EQ(pushed.size(), 2U) << "lateral strain held; one cell";
+  const std::vector<LimitResult> pulled = unreported(loose(2, 1), sheet(shear, {true, 0.0}), Sense::positive);
+  ASSERT_EQ(pulled.size(), 4U) << "z fixed, and of it one cell; one cell, and of it z fixed";
+  for (const auto* limits : {&pushed, &pulled})
+    for (const LimitResult& r : *limits) EXPECT_GT(r.evaluations, 0);
 }
 
 /// A state that is given is not lost to stages that are too wide for its fold.

@@ -64,10 +64,10 @@ class Study:
     def remember(self, where, limit, value, by):
         """The furthest that any run came to in this limit, and by which kind of run."""
         at = f"{float(limit[0]):g} {limit[1]}"
-        there = self.known.setdefault(where, {}).get(at, [float("-inf"), ""])
-        if value > there[0] + 1e-9:
-            self.known[where][at] = [value, by]
-        return tuple(self.known[where][at])
+        known = self.known.setdefault(where, {})
+        if at not in known or value > known[at][0] + 1e-9:
+            known[at] = [value, by]
+        return tuple(known[at])
 
     def keep(self):
         lines = (f"{json.dumps(k)}: {json.dumps(v, sort_keys=True)}" for k, v in sorted(self.known.items()))

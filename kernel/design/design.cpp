@@ -128,8 +128,9 @@ bool meets_targets(const DesignSpec& design, const std::vector<double>& values)
 {
   if (!design.tolerance || values.size() != design.targets.size()) return false;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const double target = design.targets[k].value;
-    if (!(std::abs(values[k] - target) <= *design.tolerance * std::abs(target))) return false;
+    const DesignTarget& t = design.targets[k];
+    const double share = t.aim == Aim::reach ? *design.tolerance : met_share(t.aim);
+    if (!is_within(share, t.aim, t.value, values[k])) return false;
   }
   return true;
 }
@@ -242,6 +243,7 @@ void enter(DesignResult& out, DesignProblem& problem, const DesignSpec& design, 
     t.direction_deg = design.targets[i].direction_deg;
     t.target = design.targets[i].value;
     t.weight = design.targets[i].weight;
+    t.aim = design.targets[i].aim;
     if (i < p.values.size()) t.provisional = p.values[i];
     out.targets.push_back(t);
   }
@@ -350,10 +352,10 @@ std::string recomputed_message(const std::vector<DesignTargetResult>& targets, d
   double worst = 0.0;
   std::size_t off = 0;
   for (const DesignTargetResult& t : targets) {
-    const double miss = t.recomputed ? std::abs(*t.recomputed - t.target) / std::abs(t.target)
-                                     : std::numeric_limits<double>::infinity();
-    worst = std::max(worst, miss);
-    off += miss > tolerance ? 1 : 0;
+    const double off_by = t.recomputed ? std::abs(miss(t.aim, t.target, *t.recomputed)) / std::abs(t.target)
+                                       : std::numeric_limits<double>::infinity();
+    worst = std::max(worst, off_by);
+    off += off_by > (t.aim == Aim::reach ? tolerance : met_share(t.aim)) ? 1 : 0;
   }
   if (off == 0) return "every target is met to within design.tolerance";
   return fmt::format(
@@ -367,14 +369,13 @@ std::string recomputed_message(const std::vector<DesignTargetResult>& targets, d
 void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,
                    const std::vector<LimitResult>& final)
 {
-  constexpr double met_within = 0.05;
   const auto before = target_values(design, initial), after = target_values(design, final);
   const std::size_t per = design.quantity == DesignQuantity::eta ? 2 : 1;
   const auto objective = [&](const std::vector<std::optional<double>>& v) {
     double sum = 0.0;
     for (std::size_t i = 0; i < v.size(); ++i) {
       if (!v[i]) return std::numeric_limits<double>::quiet_NaN();
-      const double r = *v[i] - design.targets[i].value;
+      const double r = miss(design.targets[i].aim, design.targets[i].value, *v[i]);
       sum += 0.5 * design.targets[i].weight * r * r;
     }
     return sum;
@@ -384,7 +385,7 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
     t.initial = before[i];
     t.recomputed = after[i];
     for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
-    t.met = t.recomputed && std::abs(*t.recomputed - t.target) <= met_within * std::abs(t.target);
+    t.met = t.recomputed && is_within(met_share(t.aim), t.aim, t.target, *t.recomputed);
   }
   if (result.status == "targets_met") result.message = recomputed_message(result.targets, *design.tolerance);
   result.objective_initial = objective(before);

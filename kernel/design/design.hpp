@@ -31,6 +31,7 @@ struct DesignTarget {
   double direction_deg = 0.0;
   double value = 0.0;  ///< file units
   double weight = 1.0;
+  Aim aim = Aim::reach;
 };
 
 /// What is designed, and under which constraints (lengths in file units).
@@ -49,7 +50,8 @@ struct DesignSpec {
   /// Activation distance that ends the stages of the first search, from every start. Limits at a coarse
   /// stage are smooth functions of the parameters, on the scale of its gaps, where exact ones have kinks.
   double coarse_last = 3e-3;
-  /// Each search ends once every value is within this fraction of its target.
+  /// Each search ends once every value is within this fraction of its target, or of a bound within
+  /// `met_share`.
   std::optional<double> tolerance;
 };
 
@@ -90,7 +92,8 @@ bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);
 
-/// Whether every value is within `tolerance` of its target, which ends a search; false without a tolerance.
+/// Whether every value is within `tolerance` of its target (bounds: within `met_share`), which ends a search;
+/// false without a tolerance.
 bool meets_targets(const DesignSpec& design, const std::vector<double>& values);
 
 /// Values of the designed quantity from limits in the order of `target_tasks`; null where not locked.

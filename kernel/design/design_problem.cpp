@@ -155,9 +155,10 @@ bool DesignProblem::residuals(std::span<const double> x, std::span<double> r, st
   for (std::size_t i = 0; i < scene_->design.targets.size(); ++i) {
     const DesignTarget& t = scene_->design.targets[i];
     const double w = std::sqrt(t.weight);
-    r[i] = w * (p->values[i] - t.value);
+    r[i] = w * miss(t.aim, t.value, p->values[i]);
+    const double slope = t.aim != Aim::reach && r[i] == 0.0 ? 0.0 : w;  // a bound that is kept has none
     for (std::size_t v = 0; v < x.size(); ++v)
-      jacobian[entry++] = w * p->value_gradients(static_cast<int>(i), static_cast<int>(v));
+      jacobian[entry++] = slope * p->value_gradients(static_cast<int>(i), static_cast<int>(v));
   }
   return true;
 }

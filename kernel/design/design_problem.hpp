@@ -13,7 +13,7 @@
 
 namespace hauberk {
 
-/// min_x sum_i w_i/2 (value_i(x) - target_i)^2 under hole and rest clearances. There are no
+/// min_x sum_i w_i/2 miss_i(value_i(x))^2 (target.hpp) under hole and rest clearances. There are no
 /// equality constraints, and no Hessian is known: an optimizer has the residuals for Gauss and Newton's.
 /// Evaluations run directions in parallel; results do not depend on the number of threads. Not thread safe
 /// itself.

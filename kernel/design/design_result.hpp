@@ -1,6 +1,7 @@
 #pragma once
 /// What is told of a design, as written to results.json; units as in limits/limit_result.hpp.
 
+#include "design/target.hpp"
 #include "limits/limit_result.hpp"
 #include "model/scene.hpp"
 
@@ -20,9 +21,10 @@ struct DesignVariableResult {
 struct DesignTargetResult {
   double direction_deg = 0.0;
   double target = 0.0, weight = 1.0;
+  Aim aim = Aim::reach;
   std::optional<double> initial, provisional, recomputed;
   bool better_state = false;
-  bool met = false;  ///< |recomputed - target| <= 5 % of |target|
+  bool met = false;  ///< `recomputed` is within `met_share` of the target
 };
 
 struct DesignIterate {

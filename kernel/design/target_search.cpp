@@ -308,7 +308,7 @@ void TargetSearch::enter_objective(DesignPoint& p, const std::vector<Estimate>& 
       p.value_gradients.row(i) = estimates[k].gradient.transpose();
     }
     const DesignTarget& t = design.targets[k];
-    const double r = p.values[k] - t.value;
+    const double r = miss(t.aim, t.value, p.values[k]);
     p.objective += 0.5 * t.weight * r * r;
     p.gradient += t.weight * r * p.value_gradients.row(i).transpose();
   }

@@ -26,6 +26,7 @@ inline constexpr std::array report_names{report_text_file, report_table_file, re
 /// One direction of a design; values in the unit of its quantity.
 struct ReportTarget {
   double direction_deg = 0.0, target = 0.0;
+  Aim aim = Aim::reach;
   std::optional<double> published;  ///< what a publication reached
   std::optional<double> initial, provisional, recomputed;
   std::optional<double>

@@ -15,8 +15,8 @@ constexpr std::array columns{
     // What the row is about.
     "row", "name", "file", "quantity", "unit", "direction_deg",
     // A direction of a design.
-    "target", "published", "initial", "provisional", "recomputed", "deviation", "rechecked", "recheck_change",
-    "better_state", "met",
+    "target", "aim", "published", "initial", "provisional", "recomputed", "deviation", "rechecked",
+    "recheck_change", "better_state", "met",
     // A direction of limits.
     "e_s", "e_c", "eta",
     // A design; sums.
@@ -101,6 +101,7 @@ std::string target_line(const ReportEntry& entry, const ReportTarget& target)
   row["unit"] = text_cell(entry.unit);
   row["direction_deg"] = number_cell(target.direction_deg);
   row["target"] = number_cell(target.target);
+  row["aim"] = to_string(target.aim);
   row["published"] = number_cell(target.published);
   row["initial"] = number_cell(target.initial);
   row["provisional"] = number_cell(target.provisional);

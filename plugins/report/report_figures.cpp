@@ -28,7 +28,7 @@ Deviation deviation(const ReportDesign& design, TargetValue value, TargetValue w
   double sum = 0.0, worst = 0.0;
   for (const ReportTarget& t : design.targets) {
     if (!(t.*value) || (with != nullptr && !(t.*with))) continue;
-    const double d = std::abs(*(t.*value) - t.target);
+    const double d = std::abs(miss(t.aim, t.target, *(t.*value)));
     sum += d * d;
     worst = std::max(worst, d);
     ++out.values;

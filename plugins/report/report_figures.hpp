@@ -9,8 +9,8 @@
 
 namespace hauberk::detail {
 
-/// Deviations from targets, in per cent of the mean absolute target of all directions (null where that is
-/// zero, or no direction has a value).
+/// Deviations from targets, none where a bound is kept, in per cent of the mean absolute target of all
+/// directions (null where that is zero, or no direction has a value).
 struct Deviation {
   std::size_t values = 0;  ///< directions that count
   std::optional<double> rms, worst;

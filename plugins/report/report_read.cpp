@@ -106,6 +106,16 @@ std::optional<PublishedDesign> read_published(const JsonPlace& design)
   return out;
 }
 
+/// Absent: a value to reach.
+Aim read_aim(const JsonPlace& target)
+{
+  const auto name = target.find("aim");
+  if (!name) return Aim::reach;
+  for (const Aim aim : {Aim::reach, Aim::no_further, Aim::no_nearer})
+    if (name->text() == to_string(aim)) return aim;
+  name->fail("expected reach, no_further or no_nearer");
+}
+
 ReportDesign read_design(const JsonPlace& design, const JsonPlace& asked)
 {
   ReportDesign out;
@@ -124,6 +134,7 @@ ReportDesign read_design(const JsonPlace& design, const JsonPlace& asked)
     ReportTarget target;
     target.direction_deg = item.at("direction_deg").number();
     target.target = item.at("target").number();
+    target.aim = read_aim(item);
     target.published = published_value(asked, target.direction_deg);
     target.initial = item.optional_number("initial");
     target.provisional = item.optional_number("provisional");
@@ -144,6 +155,7 @@ DesignResult plotted(const ReportDesign& design, const JsonPlace& initial)
     out.targets.emplace_back();
     out.targets.back().direction_deg = target.direction_deg;
     out.targets.back().target = target.target;
+    out.targets.back().aim = target.aim;
   }
   out.initial_limits = read_limits(initial.at("limits"));
   return out;

@@ -23,12 +23,20 @@ std::string value_cell(const std::optional<double>& x) { return cell(x, "{:.5g}"
 std::string percent_cell(const std::optional<double>& x) { return cell(x, "{:.2f}"); }
 std::string signed_percent_cell(const std::optional<double>& x) { return cell(x, "{:+.2f}"); }
 
+/// A bound is marked as one.
+std::string target_cell(const ReportTarget& t)
+{
+  if (t.aim == Aim::reach) return value_cell(t.target);
+  return value_cell(t.target) + (t.aim == Aim::no_further ? " or nearer" : " or further");
+}
+
 constexpr const char* deviations_explained =
     "Deviations of a design are differences from its targets, in per cent of the mean of its targets' "
     "magnitudes: "
     "root mean square and largest, of the limits that were recomputed from the rest state after the search. "
     "`there`: in the directions whose published values are known, for ours and theirs. The published "
-    "largest one is of these, or of the published range. A target is met within 5 % of it.\n\n";
+    "largest one is of these, or of the published range. A target is met within 5 % of it; a bound that is kept has no"
+    " deviation, and is met within a thousandth.\n\n";
 
 constexpr const char* recheck_explained =
     "`rechecked` limits are those of the designed scene, computed apart from the design and from more "
@@ -104,7 +112,7 @@ std::string design_section(const ReportEntry& entry)
   MarkdownTable table({"direction", "target", "published", "initial", "provisional", "recomputed",
                        "deviation, % of target", "rechecked", "change, % of target", "met"});
   for (const ReportTarget& t : design.targets) {
-    table.row({fmt::format("{:g}", t.direction_deg), value_cell(t.target), value_cell(t.published),
+    table.row({fmt::format("{:g}", t.direction_deg), target_cell(t), value_cell(t.published),
                value_cell(t.initial), value_cell(t.provisional),
                value_cell(t.recomputed) + (t.better_state ? "\u2020" : ""),
                signed_percent_cell(detail::relative_percent(t.target, t.recomputed, t.target)),

@@ -91,6 +91,7 @@ json::array targets_json(const std::vector<DesignTargetResult>& targets)
     out.push_back({{"direction_deg", number(t.direction_deg)},
                    {"target", number(t.target)},
                    {"weight", number(t.weight)},
+                   {"aim", to_string(t.aim)},
                    {"initial", number(t.initial)},
                    {"provisional", number(t.provisional)},
                    {"recomputed", number(t.recomputed)},

@@ -145,7 +145,7 @@ void Progress::design(const DesignProgress& progress, const DesignSpec& design, 
       fmt::format("  {:>10} {:>10} {:>10} {:>9}", "direction", "target", design.quantity_name, "off by")};
   for (std::size_t k = 0; k < it.values.size() && k < design.targets.size(); ++k) {
     const DesignTarget& t = design.targets[k];
-    const double off = t.value != 0.0 ? 100.0 * (it.values[k] - t.value) / std::abs(t.value) : 0.0;
+    const double off = t.value != 0.0 ? 100.0 * miss(t.aim, t.value, it.values[k]) / std::abs(t.value) : 0.0;
     lines.push_back(
         fmt::format("  {:>10g} {:>10.4f} {:>10.4f} {:>7.1f} %", t.direction_deg, t.value, it.values[k], off));
   }

@@ -3,6 +3,7 @@
 #include "document/json_text.hpp"
 #include "program.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
@@ -66,6 +67,66 @@ TEST(Design, OfAWeaveThatIsAlsoSweptRunsByItself)
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_NEAR(number_at(read_results(folder / "again"), "/limits/0/value"),
               number_at(read_results(folder / "out"), "/limits/0/value"), 1e-6);
+}
+
+/// The wire of threefold elements moves both their limits.
+class DesignBounds : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(DesignBounds, MoveWhatBreaksThemAndNothingElse)
+{
+  constexpr double wire = 0.95;
+  const TemporaryFolder folder;
+  const std::string sense = GetParam();
+  const auto designed = [&](const std::string& name, double bound, const std::string& aim) {
+    const std::string file =
+        folder.write(name + ".json", fmt::format(R"({{ "extends": "{0}/threefold_round.json",
+  "name": "bound", "task": "design", "load_case": {{ "directions_deg": [90], "senses": ["{1}"] }},
+  "solver": {{ "starts": 2, "lessons": false }},
+  "design": {{ "quantity": "{1}", "tolerance": 0.001, "perturbation": 0,
+    "variables": [{{ "parameters": ["centre.r0", "centre.r1", "side.r0", "side.r1"], "tied": true, "per": "all",
+                     "lower": 0.85, "upper": 1.05 }}],
+    "targets": [{{ "direction_deg": 90, "value": {2}, "aim": "{3}" }}] }} }})",
+                                                 HAUBERK_SOURCE_DIR "/share/experiments", sense, bound, aim));
+    const std::string out = folder / name;
+    const Outcome o = run_program({"run", file, "-o", out});
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    const Outcome checked = run_program({"verify", out});
+    EXPECT_EQ(checked.code, 0) << checked.out;
+    json::value results = read_results(out);
+    EXPECT_TRUE(results.at_pointer("/design/targets/0/met").as_bool()) << o.out;
+    EXPECT_EQ(results.at_pointer("/design/targets/0/aim").as_string(), aim);
+    return results;
+  };
+  const json::value kept = designed("kept", sense == "stretch" ? 0.9 : -0.9, "no_further");
+  EXPECT_EQ(number_at(kept, "/design/variables/0/final"), wire) << "a bound that is kept moves nothing";
+  EXPECT_EQ(number_at(kept, "/design/objective"), 0.0);
+  const double free = number_at(kept, "/design/targets/0/recomputed");
+  for (const double share : {0.9, 1.1}) {
+    const double bound = share * free;
+    const std::string broken = share < 1.0 ? "no_further" : "no_nearer",
+                      whole = share < 1.0 ? "no_nearer" : "no_further";
+    const json::value moved = designed(fmt::format("moved_{}", share), bound, broken);
+    // Limits are nearer at the stages that the search begins with, so that it may go beyond what it must not
+    // fall short of.
+    EXPECT_NEAR(number_at(moved, "/design/targets/0/recomputed"), bound, 0.005 * std::abs(bound)) << broken;
+    EXPECT_NE(number_at(moved, "/design/variables/0/final"), wire);
+    const json::value same = designed(fmt::format("same_{}", share), bound, whole);
+    EXPECT_EQ(number_at(same, "/design/variables/0/final"), wire) << whole;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Senses, DesignBounds, ::testing::Values("stretch", "compress"));
+
+TEST(Design, ABoundOfZeroIsRefused)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mail.json", design_text());
+  const Outcome o = run_program({"run", file, "-o", folder / "out", "--set",
+                                 "/design/targets/0/aim=no_further", "--set", "/design/targets/0/value=0"});
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("expected a bound other than 0 for aim no_further; aim reach takes 0"),
+            std::string::npos)
+      << o.err;
 }
 
 TEST(Design, PlainValuesMoveTheLimitToItsTarget)

@@ -44,10 +44,18 @@ Field design_field()
        required(number("lower", "Lower bound.", "as declared by the shape")),
        required(number("upper", "Upper bound.", "as declared by the shape"))});
   Field target = object(
-      "target", "A value to reach in one direction.",
+      "target", "A value to reach in one direction, or a bound to keep.",
       {required(number("direction_deg", "Direction, modulo 180.", "degree")),
        required(number("value", "Value of the quantity to reach.", "as the quantity")),
        with_default(at_least(number("weight", "Weight of the squared residual.", "1"), 0.0, true), "1"),
+       with_default(
+           choice(
+               "aim",
+               "Reach the value, or keep it as a bound: end no further than it, or no nearer, further being "
+               "away from zero. What keeps its bound adds nothing to the objective; a bound counts as met "
+               "to within a thousandth.",
+               {"reach", "no_further", "no_nearer"}),
+           "\"reach\""),
        number("published",
               "Value that a publication reached here. `hauberk report` prints it beside the result; it is "
               "never used.",

@@ -33,6 +33,20 @@ void check_target_value(const Node& value, const std::string& quantity, Problems
   }
 }
 
+/// A bound of zero could not be told from one that is missed by a share of it.
+Aim read_aim(const Node& item, Problems& problems)
+{
+  const std::string name = string_or(item, "aim", "reach");
+  for (const Aim aim : {Aim::no_further, Aim::no_nearer}) {
+    if (name != to_string(aim)) continue;
+    const Node* value = item.find("value");
+    if (value != nullptr && value->number == 0.0)
+      problems.add(*value, "expected a bound other than 0 for aim " + name + "; aim reach takes 0");
+    return aim;
+  }
+  return Aim::reach;
+}
+
 std::vector<ExperimentTarget> read_targets(const Node& section, Problems& problems)
 {
   std::vector<ExperimentTarget> targets;
@@ -45,7 +59,8 @@ std::vector<ExperimentTarget> read_targets(const Node& section, Problems& proble
     if (direction != nullptr) directions.emplace_back(direction, direction->number);
     if (value != nullptr) check_target_value(*value, string_or(section, "quantity", ""), problems);
     if (direction == nullptr || value == nullptr) continue;
-    targets.push_back({direction->number, value->number, number_or(item, "weight", 1.0)});
+    targets.push_back(
+        {direction->number, value->number, number_or(item, "weight", 1.0), read_aim(item, problems)});
   }
   check_directions(directions, problems);
   return targets;

@@ -3,6 +3,8 @@
 
 #include <hauberk/experiment/task_format.hpp>
 
+#include "design/target.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +27,7 @@ struct ExperimentVariable {
 
 struct ExperimentTarget {
   double direction_deg = 0.0, value = 0.0, weight = 1.0;
+  Aim aim = Aim::reach;
 };
 
 /// The section `design`.

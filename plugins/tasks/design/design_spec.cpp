@@ -39,7 +39,7 @@ DesignSpec design_spec(const Experiment& experiment)
     design.variables.push_back(std::move(variable));
   }
   for (const ExperimentTarget& t : from.targets)
-    design.targets.push_back({t.direction_deg, t.value, t.weight});
+    design.targets.push_back({t.direction_deg, t.value, t.weight, t.aim});
   design.hole_clearance = from.hole_clearance;
   design.rest_clearance = from.rest_clearance;
   design.value = from.plain_value ? DesignValue::plain : DesignValue::less_contact;

@@ -16,6 +16,20 @@ std::string known(double objective)
   return std::isfinite(objective) ? fmt::format("{:.4e}", objective) : std::string("not known");
 }
 
+/// What stands behind the verdict on a target that is a bound.
+const char* bound_text(Aim aim)
+{
+  switch (aim) {
+    case Aim::no_further:
+      return ", no further";
+    case Aim::no_nearer:
+      return ", no nearer";
+    case Aim::reach:
+      break;
+  }
+  return "";
+}
+
 std::string design_table(const DesignResult& d, int starts)
 {
   std::string text = fmt::format("Design of {}: {}", d.quantity, d.status);
@@ -27,7 +41,7 @@ std::string design_table(const DesignResult& d, int starts)
                       "provisional", "recomputed", "met");
   std::size_t met = 0;
   for (const DesignTargetResult& t : d.targets) {
-    const std::string verdict = t.met ? "yes" : "no";
+    const std::string verdict = std::string(t.met ? "yes" : "no") + bound_text(t.aim);
     text += fmt::format("{:>10g} {:>10.6g} {:>10} {:>12} {:>11}  {}\n", t.direction_deg, t.target,
                         cell(t.initial), cell(t.provisional), cell(t.recomputed), verdict);
     met += t.met ? 1 : 0;

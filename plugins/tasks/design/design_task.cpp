@@ -331,6 +331,7 @@ class DesignTask final : public TaskRun {
       r.direction_deg = t.direction_deg;
       r.target = t.value;
       r.weight = t.weight;
+      r.aim = t.aim;
       d.targets.push_back(r);
     }
   }
@@ -342,8 +343,9 @@ class DesignTask final : public TaskRun {
     double sum = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       d.targets[i].initial = values[i];
-      const double r = values[i].value_or(std::numeric_limits<double>::quiet_NaN()) - spec_.targets[i].value;
-      sum += 0.5 * spec_.targets[i].weight * r * r;
+      const DesignTarget& t = spec_.targets[i];
+      const double r = miss(t.aim, t.value, values[i].value_or(std::numeric_limits<double>::quiet_NaN()));
+      sum += 0.5 * t.weight * r * r;
     }
     d.objective_initial = sum;
   }

@@ -15,8 +15,41 @@ namespace {
 
 namespace json = boost::json;
 
-/// A target counts as met within this share of it.
-constexpr double met_share = 0.05;
+/// What is asked of a value in one direction.
+struct Target {
+  double value = 0.0, weight = 1.0;
+  std::string aim;  ///< "reach", or a bound: "no_further", "no_nearer", further being away from zero
+
+  /// value - target, and zero where a bound is kept.
+  double miss(double found) const
+  {
+    const double difference = found - value, beyond = value < 0.0 ? -difference : difference;
+    if (aim == "no_further") return beyond > 0.0 ? difference : 0.0;
+    if (aim == "no_nearer") return beyond < 0.0 ? difference : 0.0;
+    return difference;
+  }
+  /// A value is met within 5 % of it, a bound within a thousandth.
+  bool met(double found) const
+  {
+    return std::abs(miss(found)) <= (aim == "reach" ? 0.05 : 1e-3) * std::abs(value);
+  }
+};
+
+/// What a target aims at; absent: to reach its value.
+std::string aim_of(const json::value& target, const std::string& at)
+{
+  const json::object* members = target.if_object();
+  const json::value* aim = members != nullptr ? members->if_contains("aim") : nullptr;
+  return aim != nullptr ? text(*aim, at + "/aim") : "reach";
+}
+
+Target target_at(const json::value& t, const std::string& at)
+{
+  Target out{number(member(t, "target", at), at), number(member(t, "weight", at), at), aim_of(t, at)};
+  if (out.aim != "reach" && out.aim != "no_further" && out.aim != "no_nearer")
+    throw Malformed(at + "/aim: \"" + out.aim + "\" is not known here");
+  return out;
+}
 
 /// What a profile may rest on: only a locked state is a limit.
 std::optional<double> value_of(const std::vector<Limit>& limits, double direction_deg,
@@ -45,13 +78,13 @@ std::optional<double> quantity(const std::string& name, const std::vector<Limit>
   return value_of(limits, direction_deg, name);
 }
 
-/// sum of 1/2 weight (value - target)^2; nothing when a value is absent.
+/// sum of 1/2 weight miss^2; nothing when a value is absent.
 struct Objective {
   std::optional<double> sum = 0.0;
-  void add(const std::optional<double>& value, double target, double weight)
+  void add(const std::optional<double>& value, const Target& target)
   {
     if (value && sum)
-      *sum += 0.5 * weight * (*value - target) * (*value - target);
+      *sum += 0.5 * target.weight * target.miss(*value) * target.miss(*value);
     else
       sum.reset();
   }
@@ -72,9 +105,8 @@ void check_targets(const json::value& design, const std::vector<Limit>& initial,
   std::size_t i = 0;
   for (const json::value& t : array(member(design, "targets", "/design"), "/design/targets")) {
     const std::string at = fmt::format("/design/targets/{}", i++);
-    const double direction = number(member(t, "direction_deg", at), at),
-                 target = number(member(t, "target", at), at);
-    const double weight = number(member(t, "weight", at), at);
+    const double direction = number(member(t, "direction_deg", at), at);
+    const Target target = target_at(t, at);
     const auto first = optional_number(t, "initial", at), last = optional_number(t, "recomputed", at);
     for (const auto& [what, reported, limits] :
          {std::tuple("initial", first, &initial), std::tuple("recomputed", last, &final)}) {
@@ -83,10 +115,10 @@ void check_targets(const json::value& design, const std::vector<Limit>& initial,
         problems.push_back(
             fmt::format("{}: {} {} reported, {} from the limits", at, what, show(reported), show(found)));
     }
-    const bool met = last && std::abs(*last - target) <= met_share * std::abs(target);
+    const bool met = last && target.met(*last);
     if (flag(t, "met", at) != met) problems.push_back(fmt::format("{}: met should be {}", at, met));
-    before.add(first, target, weight);
-    after.add(last, target, weight);
+    before.add(first, target);
+    after.add(last, target);
   }
   for (const auto& [key, objective] :
        {std::pair("objective_initial", before.sum), std::pair("objective", after.sum)}) {
@@ -116,7 +148,8 @@ void check_question(const json::value& asked, const json::value& design, double 
                             number(member(given[k], "direction_deg", of), of), tolerance) &&
                       equal(number(member(found[k], "target", at), at),
                             number(member(given[k], "value", of), of), tolerance) &&
-                      equal(number(member(found[k], "weight", at), at), weight, tolerance);
+                      equal(number(member(found[k], "weight", at), at), weight, tolerance) &&
+                      aim_of(found[k], at) == aim_of(given[k], of);
     if (!same) problems.push_back(at + ": not the experiment's");
   }
 }
@@ -167,8 +200,7 @@ void check_history(const json::value& design, double tolerance, Sentences& probl
     Objective objective;
     for (std::size_t k = 0; k < values.size(); ++k)
       objective.add(values[k].is_null() ? std::nullopt : std::optional(number(values[k], at + "/values")),
-                    number(member(targets[k], "target", at), at),
-                    number(member(targets[k], "weight", at), at));
+                    target_at(targets[k], at));
     const auto reported = optional_number(h, "objective", at);
     if (objective.sum && !equal(reported, objective.sum, tolerance))
       problems.push_back(fmt::format("{}/objective: {} reported, {} from its values", at, show(reported),

@@ -49,6 +49,7 @@ constexpr std::array rules{
     VerifyRule{"/experiment/design/targets/*/direction_deg", {design}, "the design's targets"},
     VerifyRule{"/experiment/design/targets/*/value", {design}, "the design's targets"},
     VerifyRule{"/experiment/design/targets/*/weight", {design}, "the design's targets"},
+    VerifyRule{"/experiment/design/targets/*/aim", {design}, "the design's targets"},
     VerifyRule{
         "/experiment/design/variables/**", {design}, "the design's variables: names, bounds, elements"},
     VerifyRule{"/experiment/sweep/**", {sweep}, "axes, measures and rows of the table"},

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 namespace hauberk::test {
 namespace {
@@ -79,6 +80,39 @@ TEST(DesignResiduals, GiveTheObjectiveAndItsGradient)
   ASSERT_TRUE(problem.residuals(x, r, J));
   EXPECT_NEAR(0.5 * (r[0] * r[0] + r[1] * r[1]), e.value, 1e-15);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(J[i] * r[0] + J[4 + i] * r[1], e.gradient[i], 1e-14) << i;
+}
+
+/// A bound that is kept adds nothing, one that is not is a target.
+TEST(DesignResiduals, OfBoundsThatAreKeptAreNone)
+{
+  const SceneSpec scene = uneven_chainmail();
+  const Sheet load(2);
+  DesignSpec design = spec();
+  const auto evaluated = [&] {
+    DesignProblem problem({scene, load, 0.0, LimitSettings{}, design, 2, [] { return true; }});
+    const std::vector<double> x = problem.scene_variables();
+    OptimizationProblem::Evaluation e = problem.evaluate(x, true);
+    EXPECT_TRUE(e.ok) << e.why;
+    std::vector<double> r(2), J(8);
+    EXPECT_TRUE(problem.residuals(x, r, J));
+    return std::tuple(e, r, J);
+  };
+  const auto [e, r, J] = evaluated();
+  ASSERT_NE(r[0], 0.0);
+  const bool beyond = r[0] > 0.0;
+  design.targets[0].aim = beyond ? Aim::no_nearer : Aim::no_further;
+  const auto [kept, kept_r, kept_J] = evaluated();
+  EXPECT_NEAR(kept.value, 0.5 * r[1] * r[1], 1e-15);
+  EXPECT_EQ(kept_r[0], 0.0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(kept_J[i], 0.0) << i;
+    EXPECT_NEAR(kept.gradient[i], J[4 + i] * r[1], 1e-14) << i;
+  }
+  design.targets[0].aim = beyond ? Aim::no_further : Aim::no_nearer;
+  const auto [broken, broken_r, broken_J] = evaluated();
+  EXPECT_EQ(broken.value, e.value);
+  EXPECT_EQ(broken_r, r);
+  EXPECT_EQ(broken_J, J);
 }
 
 TEST(DesignConstraints, HolesAreThePublishedOnes)

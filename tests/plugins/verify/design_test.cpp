@@ -101,6 +101,32 @@ TEST(Design, WhatDoesNotFollowIsCaught)
   EXPECT_TRUE(has(tampered("/design/initial/limits/0/value", 0.4), "FAIL /design/initial/limits/0"));
 }
 
+/// The bound that the final value keeps, and the initial one, too.
+TEST(Design, BoundsAreCheckedAsBounds)
+{
+  const auto bounded = [](const char* asked, const char* reported, bool met, double objective) {
+    json::value document = design_document();
+    document.at_pointer("/experiment/design/targets/0").as_object()["aim"] = asked;
+    document.at_pointer("/design/targets/0").as_object()["aim"] = reported;
+    document.at_pointer("/design/targets/0/met") = met;
+    for (const char* pointer : {"/design/objective", "/design/objective_initial",
+                                "/design/history/0/objective", "/design/history/1/objective"})
+      document.at_pointer(pointer) = objective;
+    return document;
+  };
+  // 0.4333 and 0.45 for 0.46.
+  const VerifyReport checked = verify(bounded("no_further", "no_further", true, 0.0));
+  EXPECT_TRUE(checked.ok) << checked.text();
+  const std::string broken = report(bounded("no_nearer", "no_nearer", true, 0.0));
+  EXPECT_NE(broken.find("met should be false"), std::string::npos)
+      << "2 % beyond a bound is not met: " << broken;
+  EXPECT_NE(broken.find("/design/objective: 0 reported, 0.0001"), std::string::npos) << broken;
+  const std::string other = report(bounded("no_nearer", "no_further", true, 0.0));
+  EXPECT_NE(other.find("/design/targets/0: not the experiment's"), std::string::npos) << other;
+  EXPECT_NE(report(bounded("sideways", "sideways", true, 0.0)).find("\"sideways\" is not known here"),
+            std::string::npos);
+}
+
 TEST(Profiles, OnlyLockedLimitsCount)
 {
   json::value document = chain_document();

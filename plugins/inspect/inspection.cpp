@@ -253,13 +253,10 @@ void count_pieces(Inspection& out)
 /// Bed and overhangs, with z upwards as it lies.
 void look_at_printing(const ModelFile& model, Inspection& out)
 {
-  out.lowest = infinite;
-  double highest = -infinite;
-  for (const InspectedBody& body : out.bodies) {
-    out.lowest = std::min(out.lowest, body.box[0].z());
-    highest = std::max(highest, body.box[1].z());
-  }
-  const double on_bed = out.lowest + 1e-3 * (highest - out.lowest);
+  out.box = {Vec3::Constant(infinite), Vec3::Constant(-infinite)};
+  for (const InspectedBody& body : out.bodies)
+    out.box = {out.box[0].cwiseMin(body.box[0]), out.box[1].cwiseMax(body.box[1])};
+  const double on_bed = out.box[0].z() + 1e-3 * (out.box[1].z() - out.box[0].z());
   double area = 0.0, steep = 0.0;
   for (std::size_t k = 0; k < out.bodies.size(); ++k) {
     const InspectedBody& body = out.bodies[k];

@@ -48,9 +48,9 @@ struct Inspection {
   std::vector<NearBodies> too_near;        ///< nearer than asked for, the nearest first
   std::vector<std::array<int, 2>> within;  ///< one of the two is wholly within the other's surface
   std::vector<LinkedBodies> links;
-  int pieces = 0;       ///< that hang together by links, of closed bodies
-  double lowest = 0.0;  ///< z of the lowest point
-  int on_bed = 0;       ///< closed bodies that reach down to it, to a thousandth of the model's height
+  int pieces = 0;             ///< that hang together by links, of closed bodies
+  std::array<Vec3, 2> box{};  ///< lowest and highest coordinates of all bodies
+  int on_bed = 0;  ///< closed bodies that reach down to its lowest z, to a thousandth of the model's height
   double overhang =
       0.0;  ///< part of the area that faces down, steeper than 45 degrees, and does not lie on the bed
 

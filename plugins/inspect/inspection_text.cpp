@@ -35,6 +35,12 @@ std::string lines(const Items& items, const Line& line)
   return out;
 }
 
+std::string size_text(const std::array<Vec3, 2>& box, const std::string& unit)
+{
+  const Vec3 size = box[1] - box[0];
+  return fmt::format("{:.4g} x {:.4g} x {:.4g}{}", size.x(), size.y(), size.z(), unit);
+}
+
 /// Bodies that look alike, as one line: rings of one size are many.
 std::string bodies_text(const Inspection& inspection, const std::string& unit)
 {
@@ -54,13 +60,11 @@ std::string bodies_text(const Inspection& inspection, const std::string& unit)
   }
   return lines(kinds, [&unit](const Kind& kind) {
     const InspectedBody& body = *kind.first;
-    const Vec3 size = body.box[1] - body.box[0];
-    return fmt::format(
-        "{} of {} triangles: {}, volume {:.6g}{}, thinnest wall seen {:.4g}{}; {}: {:.4g} x {:.4g} x {:.4g}{}",
-        counted(kind.count, "body", "bodies"), body.triangles,
-        body.handles == 0 ? "no hole" : counted(body.handles, "hole", "holes"), body.volume,
-        unit.empty() ? "" : unit + "^3", body.thinnest_wall, unit,
-        kind.count == 1 ? body.name : "the first, " + body.name, size.x(), size.y(), size.z(), unit);
+    return fmt::format("{} of {} triangles: {}, volume {:.6g}{}, thinnest wall seen {:.4g}{}; {}: {}",
+                       counted(kind.count, "body", "bodies"), body.triangles,
+                       body.handles == 0 ? "no hole" : counted(body.handles, "hole", "holes"), body.volume,
+                       unit.empty() ? "" : unit + "^3", body.thinnest_wall, unit,
+                       kind.count == 1 ? body.name : "the first, " + body.name, size_text(body.box, unit));
   });
 }
 
@@ -155,9 +159,10 @@ std::string inspection_text(const Inspection& inspection, double gap)
   const std::size_t closed = inspection.bodies.size() - damaged.size();
   if (closed > 0)
     out += fmt::format(
-        "as it lies: {} of {} on the bed (z = {:.6g}{}); {:.0f} % of the surface hangs over, steeper than 45 degrees\n",
-        inspection.on_bed, counted(closed, "body", "bodies"), inspection.lowest, unit,
-        100.0 * inspection.overhang);
+        "as it lies, {}: {} of {} stand on its lowest z, {:.6g}{}, which a slicer puts on the bed; {:.0f} % of the "
+        "surface hangs over, steeper than 45 degrees\n",
+        size_text(inspection.box, unit), inspection.on_bed, counted(closed, "body", "bodies"),
+        inspection.box[0].z(), unit, 100.0 * inspection.overhang);
   return out;
 }
 
@@ -201,9 +206,10 @@ json::object inspection_json(const Inspection& inspection, double gap)
       {"within", std::move(within)},
       {"links", std::move(links)},
       {"pieces", inspection.pieces},
-      {"printing",
-       json::object{
-           {"lowest", inspection.lowest}, {"on_bed", inspection.on_bed}, {"overhang", inspection.overhang}}}};
+      {"printing", json::object{{"box", json::array{vector(inspection.box[0]), vector(inspection.box[1])}},
+                                {"lowest", inspection.box[0].z()},
+                                {"on_bed", inspection.on_bed},
+                                {"overhang", inspection.overhang}}}};
 }
 
 }  // namespace hauberk::inspecting

@@ -54,4 +54,6 @@ WeaveLookup weave_lookup(const std::string& file)
   return weave_lookup(fs::path(file).parent_path(), shared_data_folder() / "weaves");
 }
 
+std::vector<std::string> library_weaves() { return names_in(shared_data_folder() / "weaves"); }
+
 }  // namespace hauberk

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hauberk {
 
@@ -12,5 +13,9 @@ WeaveLookup weave_lookup(const std::filesystem::path& folder, const std::filesys
 
 /// The same for the experiment file `file`, with ../share/hauberk/weaves seen from this program's folder.
 WeaveLookup weave_lookup(const std::string& file);
+
+/// Names of the weaves that the program has, in alphabetical order; none where its folder of them cannot be
+/// read.
+std::vector<std::string> library_weaves();
 
 }  // namespace hauberk

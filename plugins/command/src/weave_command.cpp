@@ -12,6 +12,7 @@
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <filesystem>
@@ -43,7 +44,7 @@ Description weave_description()
           "is at rest, taut and pushed together, what it weighs, and what a printer's gap leaves of it. "
           "Lengths as 8mm, 0.8cm, 5/16in, 18awg (American) or 18swg (British gauge).",
       .more = "Exit code 1 where the rings are too small for their wire.",
-      .arguments = {{.name = "NAME"}},
+      .arguments = {{.name = "NAME", .optional = true}},
       .options = {
           {.name = "inner", .takes = Takes::text, .value = "LENGTH", .help = "inner diameter of the rings"},
           {.name = "wire", .takes = Takes::text, .value = "LENGTH", .help = "diameter of their wire"},
@@ -67,6 +68,12 @@ int weave_command(const std::vector<std::string>& words)
   catch_interrupts();
   Options options(weave_description());
   options.parse(words);
+  if (options.positionals().empty())
+    throw UsageError(fmt::format("NAME is missing; the library has {}", fmt::join(library_weaves(), ", ")),
+                     options.usage());
+  if (options.positionals().size() > 1)
+    throw UsageError(fmt::format("one NAME expected, found also '{}'", options.positionals()[1]),
+                     options.usage());
   maker::Question question;
   question.weave = options.positional();
   question.inner = length_option(options, "inner", nullptr);

@@ -208,6 +208,9 @@ assert "apart in this state" in run("export", folder / "ovals.json", "-o", folde
 said = run("export", chain, "-o", folder / "no.stl", "--require-gap", "0.7", "--repeat", "2,1", expected=1)
 assert "link 0 [0, 0] and link 0 [1, 0] are 0.6 mm apart" in said, said
 run("export", chain, "-o", folder / "yes.stl", "--require-gap", "0.59", "--repeat", "2,1")
+# Six digits are what is printed, and what counts.
+run("export", chain, "-o", folder / "yes_2.stl", "--require-gap", "0.600002", "--repeat", "2,1")
+run("export", chain, "-o", folder / "no.stl", "--require-gap", "0.60001", "--repeat", "2,1", expected=1)
 for words in (["no.ply"], ["no.stl", "--repeat", "0,1"], ["no.stl", "--repeat", "2,1,3"], ["no.stl", "--chord", "-1"],
               ["no.stl", "--state", "limit:0"], ["no.png", "--view", "up"], ["no.png", "--size", "0,9"],
               ["no.stl", "--outline", "disk:0"], ["no.stl", "--chord", "1e-9"], ["no.vtu", "--forces"],

@@ -167,6 +167,11 @@ assert pairs(answer) == [((0, 1), 1), ((1, 2), 1), ((2, 3), 1)] and answer["piec
 answer, _ = inspect(write_obj("apart.obj", *(ring((c, 0, 0), X, Y, 1.0, 0.2) for c in (0, 20, 33, 70))))
 assert answer["nearest"]["bodies"] == [1, 2] and abs(answer["nearest"]["distance"] - 10.6) < 1e-3
 assert answer["pieces"] == 4 and answer["printing"]["on_bed"] == 4
+# A model whose lowest point is not at 0, and its size: of four rings of radius 1.2 about z, 70 from the first to the last.
+answer, text = inspect(write_obj("apart.obj", *(ring((c, 0, -7), X, Y, 1.0, 0.2) for c in (0, 20, 33, 70))))
+(x0, y0, z0), (x1, y1, z1) = answer["printing"]["box"]
+assert abs(x1 - x0 - 72.4) < 0.01 and abs(y1 - y0 - 2.4) < 0.01 and abs(z1 - z0 - 0.4) < 0.01 and abs(z0 + 7.2) < 0.01
+assert "as it lies, 72.4 x 2.4 x 0.4: 4 of 4 bodies stand on its lowest z, -7.2, which a slicer puts on the bed" in text, text
 
 # Linked twice: curves on a torus that go around the other way's hole twice each.
 solomon = [tube(lambda s, phase=phase: ((3 + math.cos(4 * math.pi * s + phase)) * math.cos(2 * math.pi * s),

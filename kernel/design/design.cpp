@@ -124,13 +124,19 @@ std::vector<LimitTask> target_tasks(const DesignSpec& design)
   return tasks;
 }
 
+namespace {
+
+/// The part of a target within which a search counts it as met.
+double share_of_search(Aim aim, double tolerance) { return aim == Aim::reach ? tolerance : met_share(aim); }
+
+}  // namespace
+
 bool meets_targets(const DesignSpec& design, const std::vector<double>& values)
 {
   if (!design.tolerance || values.size() != design.targets.size()) return false;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const DesignTarget& t = design.targets[k];
-    const double share = t.aim == Aim::reach ? *design.tolerance : met_share(t.aim);
-    if (!is_within(share, t.aim, t.value, values[k])) return false;
+    if (!is_within(share_of_search(t.aim, *design.tolerance), t.aim, t.value, values[k])) return false;
   }
   return true;
 }
@@ -355,7 +361,7 @@ std::string recomputed_message(const std::vector<DesignTargetResult>& targets, d
     const double off_by = t.recomputed ? std::abs(miss(t.aim, t.target, *t.recomputed)) / std::abs(t.target)
                                        : std::numeric_limits<double>::infinity();
     worst = std::max(worst, off_by);
-    off += off_by > (t.aim == Aim::reach ? tolerance : met_share(t.aim)) ? 1 : 0;
+    off += off_by > share_of_search(t.aim, tolerance) ? 1 : 0;
   }
   if (off == 0) return "every target is met to within design.tolerance";
   return fmt::format(

@@ -17,6 +17,13 @@ std::string to_string(Aim aim)
   return "reach";
 }
 
+std::optional<Aim> aim_named(const std::string& name)
+{
+  for (const Aim aim : {Aim::reach, Aim::no_further, Aim::no_nearer})
+    if (name == to_string(aim)) return aim;
+  return std::nullopt;
+}
+
 double miss(Aim aim, double target, double value)
 {
   const double difference = value - target;

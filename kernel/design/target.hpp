@@ -1,6 +1,7 @@
 #pragma once
 /// What is asked of the limit in one direction, and how far a value misses it.
 
+#include <optional>
 #include <string>
 
 namespace hauberk {
@@ -15,6 +16,8 @@ enum class Aim {
 
 /// "reach", "no_further", "no_nearer", as in files.
 std::string to_string(Aim aim);
+/// The aim of this name; null: there is none.
+std::optional<Aim> aim_named(const std::string& name);
 
 /// The residual of a value: value - target (in the value's unit), and zero where the bound of an aim is kept.
 /// Its square has a continuous gradient: value's, times `miss`.

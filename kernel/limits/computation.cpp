@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <mutex>
 
 namespace hauberk {

@@ -106,7 +106,7 @@ std::string target_line(const ReportEntry& entry, const ReportTarget& target)
   row["initial"] = number_cell(target.initial);
   row["provisional"] = number_cell(target.provisional);
   row["recomputed"] = number_cell(target.recomputed);
-  row["deviation"] = number_cell(difference(target.recomputed, target.target));
+  row["deviation"] = number_cell(detail::miss_of(target));
   row["rechecked"] = number_cell(target.rechecked);
   row["recheck_change"] = number_cell(difference(target.rechecked, target.recomputed));
   row["better_state"] = truth(target.better_state);

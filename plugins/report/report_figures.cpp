@@ -22,6 +22,12 @@ void raise(std::optional<double>& largest, const std::optional<double>& x)
 
 }  // namespace
 
+std::optional<double> miss_of(const ReportTarget& target)
+{
+  return target.recomputed ? std::optional(miss(target.aim, target.target, *target.recomputed))
+                           : std::nullopt;
+}
+
 Deviation deviation(const ReportDesign& design, TargetValue value, TargetValue with)
 {
   Deviation out;

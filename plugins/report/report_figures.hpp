@@ -18,6 +18,9 @@ struct Deviation {
 
 using TargetValue = std::optional<double> ReportTarget::*;
 
+/// Recomputed less target, 0 where a bound is kept; null without a value.
+std::optional<double> miss_of(const ReportTarget& target);
+
 /// Of `value` in the directions that have it and `with` (null: no further condition).
 Deviation deviation(const ReportDesign& design, TargetValue value, TargetValue with = nullptr);
 

@@ -111,8 +111,7 @@ Aim read_aim(const JsonPlace& target)
 {
   const auto name = target.find("aim");
   if (!name) return Aim::reach;
-  for (const Aim aim : {Aim::reach, Aim::no_further, Aim::no_nearer})
-    if (name->text() == to_string(aim)) return aim;
+  if (const auto aim = aim_named(name->text())) return *aim;
   name->fail("expected reach, no_further or no_nearer");
 }
 

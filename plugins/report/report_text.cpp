@@ -115,7 +115,7 @@ std::string design_section(const ReportEntry& entry)
     table.row({fmt::format("{:g}", t.direction_deg), target_cell(t), value_cell(t.published),
                value_cell(t.initial), value_cell(t.provisional),
                value_cell(t.recomputed) + (t.better_state ? "\u2020" : ""),
-               signed_percent_cell(detail::relative_percent(t.target, t.recomputed, t.target)),
+               signed_percent_cell(detail::relative_percent(0.0, detail::miss_of(t), t.target)),
                value_cell(t.rechecked),
                signed_percent_cell(detail::relative_percent(t.recomputed, t.rechecked, t.target)),
                t.met ? "yes" : "no"});

@@ -36,15 +36,11 @@ void check_target_value(const Node& value, const std::string& quantity, Problems
 /// A bound of zero could not be told from one that is missed by a share of it.
 Aim read_aim(const Node& item, Problems& problems)
 {
-  const std::string name = string_or(item, "aim", "reach");
-  for (const Aim aim : {Aim::no_further, Aim::no_nearer}) {
-    if (name != to_string(aim)) continue;
-    const Node* value = item.find("value");
-    if (value != nullptr && value->number == 0.0)
-      problems.add(*value, "expected a bound other than 0 for aim " + name + "; aim reach takes 0");
-    return aim;
-  }
-  return Aim::reach;
+  const Aim aim = aim_named(string_or(item, "aim", "")).value_or(Aim::reach);  // the fields tell of others
+  const Node* value = item.find("value");
+  if (aim != Aim::reach && value != nullptr && value->number == 0.0)
+    problems.add(*value, "expected a bound other than 0 for aim " + to_string(aim) + "; aim reach takes 0");
+  return aim;
 }
 
 std::vector<ExperimentTarget> read_targets(const Node& section, Problems& problems)

@@ -187,9 +187,10 @@ constexpr std::array rules{
                "names, bounds and elements as the experiment has them; values those of both scenes"},
     VerifyRule{"/design/targets/*/provisional", {}, cost},
     VerifyRule{"/design/targets/*/better_state", {}, cost},
-    VerifyRule{"/design/targets/**",
-               {design},
-               "directions, targets and weights the experiment's; values those of the limits; `met` follows"},
+    VerifyRule{
+        "/design/targets/**",
+        {design},
+        "directions, targets, weights and aims the experiment's; values those of the limits; `met` follows"},
     VerifyRule{"/design/start", {design}, "one of `starts`"},
     VerifyRule{"/design/starts/**", {}, cost},
     VerifyRule{"/design/starts", {}, cost},

@@ -162,6 +162,29 @@ TEST(Report, RangeThatIsPublishedBoundsTheDeviation)
   EXPECT_NEAR(worst(), 100.0 * 0.02 / 0.03, 1e-10);
 }
 
+/// A bound that is kept has no deviation, one that is broken has the difference, in the table, its sums and
+/// the text.
+TEST(Report, BoundsThatAreKeptHaveNoDeviation)
+{
+  json::value document = made_up();
+  json::array& targets = document.at_pointer("/design/targets").as_array();
+  targets[0].as_object()["aim"] = "no_further";  // 0.021 for 0.02
+  targets[2].as_object()["aim"] = "no_further";  // 0.037 for 0.04
+  const std::vector entries{read_report_entry(document, "d")};
+  const std::vector<Row> rows = rows_of(report_csv(entries));
+  EXPECT_EQ(rows[1].at("aim"), "no_further");
+  EXPECT_EQ(rows[2].at("aim"), "reach");
+  EXPECT_NEAR(std::stod(rows[1].at("deviation")), 0.001, 1e-12);
+  EXPECT_EQ(std::stod(rows[3].at("deviation")), 0.0);
+  EXPECT_NEAR(std::stod(rows[0].at("rms_percent")), 100.0 * std::sqrt(1e-6 / 3.0) / 0.03, 1e-10);
+  const std::string text = report_text(entries);
+  EXPECT_NE(text.find("| 0.02 or nearer |"), std::string::npos) << text;
+  EXPECT_EQ(text.find("-7.50"), std::string::npos)
+      << "what 90 degrees would miss as a value to reach: " << text;
+  targets[0].as_object()["aim"] = "sideways";
+  EXPECT_THROW(read_report_entry(document, "d"), InputError);
+}
+
 TEST(Report, RecheckIsEnteredDirectionByDirection)
 {
   std::vector<ReportEntry> entries{read_report_entry(made_up(), "d/results.json")};

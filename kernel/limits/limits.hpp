@@ -36,8 +36,10 @@ struct LimitSettings {
   /// Whether limits learn from each other, from symmetric images, from loads beside their own and from scenes
   /// that this one contains; otherwise each stands alone, and what contradicts it is told.
   bool lessons = true;
+  /// Whether they learn from scenes that this one contains, beside what is `given`.
+  bool inherit = true;
   /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn; of larger
-  /// cells inversely fewer.
+  /// cells inversely fewer, and half of them where a limit begins again from scenes with more held.
   int fold_starts = 32;
   int tilts = 0;       ///< random loads beside the task's own, from whose states it learns
   double tilt = 20.0;  ///< degrees: by how much they differ from it

@@ -15,6 +15,9 @@ constexpr int cell_of_all_starts = 4;
 /// perturbation at times leads further than the small one of the first.
 constexpr int taut_starts = 2, cell_of_taut_starts = 16;
 
+/// Of the starts of a limit that inherits nothing, what one has that begins again where scenes within lock.
+constexpr int share_where_inherited = 2;
+
 /// Of the starts of a limit that is asked for, what one beside it has.
 constexpr int share_beside = 4;
 
@@ -22,6 +25,17 @@ constexpr int share_beside = 4;
 int fold_starts(const Model& model, const LimitSettings& settings)
 {
   return std::max(1, settings.fold_starts / std::max(1, model.element_count() / cell_of_all_starts));
+}
+
+/// Whether another load case that holds more asks something else of a limit, which then inherits from it.
+bool holds_more_within(const Model& model, const LimitTask& task)
+{
+  const LoadCase& load = *model.load;
+  const std::vector<StricterLoadCase> stricter = load.stricter();
+  return std::any_of(stricter.begin(), stricter.end(), [&](const StricterLoadCase& s) {
+    return s.load->coordinate_count() != load.coordinate_count() ||
+           s.load->conditions(task.direction).size() != load.conditions(task.direction).size();
+  });
 }
 
 RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSettings& settings)
@@ -36,7 +50,8 @@ RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSet
   }
   if (!may_fold(model, task)) return out;
   // A fabric with room folds one way under the widest stage and another way without it.
-  out.starts = static_cast<std::size_t>(std::max(starts, fold_starts(model, settings))) + 1;
+  const int share = holds_more_within(model, task) ? share_where_inherited : 1;
+  out.starts = static_cast<std::size_t>(std::max(starts, fold_starts(model, settings) / share)) + 1;
   out.narrow = true;
   return out;
 }

@@ -10,6 +10,10 @@
 
 namespace hauberk {
 
+/// Activation distance (L) of the last stage of limits that are not reported, at least: they are solved for
+/// where they lock, not for how far that is.
+inline constexpr double last_of_unreported = 1e-3;
+
 /// How one limit is searched from rest.
 struct RestSearches {
   LimitTask task;

@@ -2,19 +2,26 @@
 
 #include "limits/donors.hpp"
 #include "limits/relatives.hpp"
+#include "limits/rest_searches.hpp"
 
 #include <algorithm>
 #include <exception>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace hauberk {
 
-/// A scene that another one contains, and its limits of one kind; no tasks: the other has no use for any.
+/// A scene that another one contains, with its limits of use to that one.
 struct ScenesWithin::Scene {
-  std::string name;  ///< of the searches
+  std::string name;  ///< of its searches, and where its states come from
+  SceneSpec spec;
+  std::shared_ptr<const LoadCase> load;  ///< null: the outermost scene's
   Model model;
   LimitSettings settings;
   std::vector<LimitTask> tasks;
+  std::vector<std::size_t> contained;          ///< scenes that this one contains itself, by index
+  std::vector<std::optional<State>> locked{};  ///< of `tasks`, once it is solved
 };
 
 ScenesWithin::ScenesWithin(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& tasks,
@@ -23,109 +30,128 @@ ScenesWithin::ScenesWithin(const Model& model, const SceneSpec& spec, const std:
 {
 }
 
-bool ScenesWithin::inherits(std::size_t task, Kind kind) const
-{
-  const LimitTask& t = tasks_[task];
-  if (kind == Kind::folding) return may_fold(model_, t);
-  return is_taut(model_, t) && begins_again(model_, t, settings_.contact);
-}
-
 bool ScenesWithin::inherits(std::size_t task) const
 {
-  return inherits(task, Kind::folding) || inherits(task, Kind::taut);
+  const LimitTask& t = tasks_[task];
+  return settings_.inherit &&
+         (may_fold(model_, t) || (is_taut(model_, t) && begins_again(model_, t, settings_.contact)));
 }
 
-bool ScenesWithin::any_inherits() const
+namespace {
+
+/// Whether a limit of a scene is of use to that of the one that contains it. A taut fabric under a condition
+/// goes no further for another one.
+bool is_useful(const Model& outer, const Model& inner, const LimitTask& task)
 {
+  if (inner.dofs() != outer.dofs()) return true;  // fewer elements, or coordinates of elements
+  const std::size_t held = outer.load->conditions(task.direction).size();
+  return inner.load->conditions(task.direction).size() != held && (held == 0 || may_fold(outer, task));
+}
+
+}  // namespace
+
+/// Those that `outer` contains, and those that they contain, each once; the indices of its own. Every scene
+/// stands behind those that it contains.
+std::vector<std::size_t> ScenesWithin::enter(const Outer& outer, std::vector<Scene>& scenes) const
+{
+  std::vector<std::size_t> own;
+  for (Relative& relative : relatives(outer.model, outer.spec)) {
+    Scene s;
+    s.name = outer.name.empty() ? relative.name : outer.name + ", " + relative.name;
+    s.spec = std::move(relative.scene);
+    s.load = relative.load ? relative.load : outer.load;
+    s.model = make_model(s.spec, s.load ? *s.load : *model_.load, model_.clearance * model_.length);
+    s.settings = settings_;
+    s.settings.given.clear();
+    s.settings.inherit = false;  // it is given what scenes within it lock in
+    s.settings.schedule.last = std::max(s.settings.schedule.last, last_of_unreported);
+    for (const LimitTask& task : outer.tasks)
+      if (is_useful(outer.model, s.model, task)) s.tasks.push_back(task);
+    if (outer.start) {
+      const bool cell = s.spec.elements.size() != outer.spec.elements.size();
+      s.settings.start =
+          cell ? std::nullopt : Carrier(outer.model, outer.spec, s.model, s.spec).state(*outer.start);
+      if (!s.settings.start) s.tasks.clear();
+    }
+    if (s.tasks.empty()) continue;
+    const auto same = std::find_if(scenes.begin(), scenes.end(), [&s](const Scene& other) {
+      return contains(s.model, s.spec, other.model, other.spec) &&
+             contains(other.model, other.spec, s.model, s.spec);
+    });
+    if (same != scenes.end()) {
+      own.push_back(static_cast<std::size_t>(same - scenes.begin()));
+      continue;
+    }
+    s.contained = enter({s.name, s.model, s.spec, s.load, s.tasks, s.settings.start}, scenes);
+    scenes.push_back(std::move(s));
+    own.push_back(scenes.size() - 1);
+  }
+  return own;
+}
+
+std::vector<ScenesWithin::Scene> ScenesWithin::all(std::vector<std::size_t>& own) const
+{
+  std::vector<Scene> scenes;
+  std::vector<LimitTask> tasks;
   for (std::size_t k = 0; k < asked_; ++k)
-    if (inherits(k)) return true;
-  return false;
+    if (inherits(k)) tasks.push_back(tasks_[k]);
+  if (!tasks.empty()) own = enter({"", model_, spec_, nullptr, tasks, settings_.start}, scenes);
+  return scenes;
 }
 
-/// Limits that fold stand alone, since their states begin a search and are no answers; taut ones are as far
-/// as the relative's own answer, which lessons find where searches from rest do not.
-ScenesWithin::Scene ScenesWithin::scene(const Relative& relative, Kind kind) const
+/// What the limits of a scene that is solved give those of one that contains it; nothing where their rests
+/// are not joined.
+void ScenesWithin::give(const Scene& from, const Model& to, const SceneSpec& spec,
+                        std::vector<GivenState>& out)
 {
-  Scene s;
-  s.name = relative.name + (kind == Kind::taut ? ", taut" : "");
-  const LoadCase& load = relative.load ? *relative.load : *model_.load;
-  s.model = make_model(relative.scene, load, model_.clearance * model_.length);
-  const bool other_elements = s.model.dofs() != model_.dofs();  // fewer of them, or of their coordinates
-  for (std::size_t k = 0; k < asked_; ++k) {
-    const Direction& along = tasks_[k].direction;
-    const std::size_t held = model_.load->conditions(along).size();
-    const bool more_held = load.conditions(along).size() != held;
-    // A taut fabric under a condition goes no further for another one.
-    const bool useful = other_elements || (more_held && (kind == Kind::folding || held == 0));
-    if (useful && inherits(k, kind)) s.tasks.push_back(tasks_[k]);
+  const Carrier carrier(from.model, from.spec, to, spec);
+  if (!carrier.joined()) return;
+  for (std::size_t k = 0; k < from.tasks.size(); ++k) {
+    const std::optional<State> state =
+        k < from.locked.size() && from.locked[k] ? carrier.state(*from.locked[k]) : std::nullopt;
+    if (state) out.push_back({from.tasks[k].direction, from.tasks[k].sense, *state, from.name});
   }
-  s.settings = settings_;
-  s.settings.given.clear();
-  // A cell's own start is one of its multiple's, which moves copies alike; the others are new.
-  const bool cell = relative.scene.elements.size() != spec_.elements.size();
-  if (kind == Kind::folding) {
-    s.settings.lessons = false;
-    s.settings.starts = cell ? std::max(settings_.starts, settings_.fold_starts) : 1;
-  }
-  if (settings_.start && !s.tasks.empty()) {
-    if (!cell) s.settings.start = Carrier(model_, spec_, s.model, relative.scene).state(*settings_.start);
-    if (cell || !s.settings.start) s.tasks.clear();
-  }
-  return s;
 }
 
 std::vector<GivenState> ScenesWithin::states(unsigned threads, std::vector<LimitResult>& solved) const
 {
   std::vector<GivenState> out;
-  if (!any_inherits()) return out;
+  std::vector<std::size_t> own;
+  std::vector<Scene> scenes = all(own);
   const auto add = [&solved](const std::vector<LimitResult>& limits) {
     solved.insert(solved.end(), limits.begin(), limits.end());
   };
-  for (const Relative& relative : relatives(model_, spec_)) {
-    for (const Kind kind : {Kind::folding, Kind::taut}) {
-      const Scene s = scene(relative, kind);
-      if (s.tasks.empty()) continue;
-      std::optional<MemoryWithin> memory;
-      if (observer_.memory != nullptr) memory.emplace(*observer_.memory, s.name + ": ");
-      std::vector<std::optional<State>> locked;
-      LimitsObserver observer;
-      observer.keep_going = observer_.keep_going;
-      observer.on_states = [&locked](const auto& states) { locked = states; };
-      observer.on_unreported = add;
-      observer.memory = memory ? &*memory : nullptr;
-      add(compute_limits(s.model, relative.scene, s.tasks, s.settings, threads, observer));
-      if (!going()) return out;
-      const Carrier carrier(s.model, relative.scene, model_, spec_);
-      if (!carrier.joined()) continue;
-      for (std::size_t k = 0; k < s.tasks.size(); ++k) {
-        const std::optional<State> state = locked[k] ? carrier.state(*locked[k]) : std::nullopt;
-        if (state) out.push_back({s.tasks[k].direction, s.tasks[k].sense, *state, relative.name});
-      }
-    }
+  for (Scene& s : scenes) {
+    for (const std::size_t k : s.contained) give(scenes[k], s.model, s.spec, s.settings.given);
+    std::optional<MemoryWithin> memory;
+    if (observer_.memory != nullptr) memory.emplace(*observer_.memory, s.name + ": ");
+    LimitsObserver observer;
+    observer.keep_going = observer_.keep_going;
+    observer.on_states = [&s](const auto& states) { s.locked = states; };
+    observer.on_unreported = add;
+    observer.memory = memory ? &*memory : nullptr;
+    add(compute_limits(s.model, s.spec, s.tasks, s.settings, threads, observer));
+    if (!going()) return out;
   }
+  for (const std::size_t k : own) give(scenes[k], model_, spec_, out);
   return out;
 }
 
 std::size_t ScenesWithin::search(unsigned threads, const Share& share) const
 {
   std::size_t count = 0;
-  if (!any_inherits()) return count;
-  for (const Relative& relative : relatives(model_, spec_)) {
-    for (const Kind kind : {Kind::folding, Kind::taut}) {
-      if (!going()) return count;
-      try {
-        const Scene s = scene(relative, kind);
-        if (s.tasks.empty()) continue;
-        MemoryWithin memory(*observer_.memory, s.name + ": ");
-        LimitsObserver observer;
-        observer.keep_going = observer_.keep_going;
-        observer.on_start = observer_.on_start;
-        observer.memory = &memory;
-        count += compute_searches(s.model, relative.scene, s.tasks, s.settings, threads, observer,
-                                  share.after(count))
-                     .value_or(0);
-      } catch (const std::exception&) {  // it throws again where it is asked for
-      }
+  std::vector<std::size_t> own;
+  for (const Scene& s : all(own)) {
+    if (!going()) return count;
+    try {
+      MemoryWithin memory(*observer_.memory, s.name + ": ");
+      LimitsObserver observer;
+      observer.keep_going = observer_.keep_going;
+      observer.on_start = observer_.on_start;
+      observer.memory = &memory;
+      count += compute_searches(s.model, s.spec, s.tasks, s.settings, threads, observer, share.after(count))
+                   .value_or(0);
+    } catch (const std::exception&) {  // it throws again where it is asked for
     }
   }
   return count;

@@ -1,18 +1,21 @@
 #pragma once
 /// What limits inherit: each begins once more from where the same limit locks in every scene that its own
-/// contains (relatives.hpp).
+/// contains (relatives.hpp). Those scenes are solved as they would be by themselves, so that no answer is
+/// less far than one with less freedom to the same question.
 
 #include "limits/limits.hpp"
 
 #include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace hauberk {
 
-struct Relative;
-
-/// The scenes that one contains, for some of its limits: those that may fold and taut ones that begin again
-/// (donors.hpp) inherit. Keeps no state; what is passed outlives it. Thread safe.
+/// The scenes that one contains, and those that they contain, each once, for some of its limits: those that
+/// may fold and taut ones that begin again (donors.hpp) inherit. Keeps no state; what is passed outlives it.
+/// Thread safe.
 class ScenesWithin {
  public:
   /// Of `tasks` the first `asked` inherit. Of the observer `keep_going`, `on_start` and `memory` are used.
@@ -30,13 +33,21 @@ class ScenesWithin {
   std::size_t search(unsigned threads, const Share& share) const;
 
  private:
-  enum class Kind { folding, taut };
   struct Scene;
+  /// One that contains others.
+  struct Outer {
+    std::string name;  ///< empty: the outermost
+    const Model& model;
+    const SceneSpec& spec;
+    std::shared_ptr<const LoadCase> load;
+    std::vector<LimitTask> tasks;  ///< that inherit
+    std::optional<State> start;
+  };
 
   bool going() const { return !observer_.keep_going || observer_.keep_going(); }
-  bool inherits(std::size_t task, Kind kind) const;
-  bool any_inherits() const;
-  Scene scene(const Relative& relative, Kind kind) const;
+  std::vector<Scene> all(std::vector<std::size_t>& own) const;
+  std::vector<std::size_t> enter(const Outer& outer, std::vector<Scene>& scenes) const;
+  static void give(const Scene& from, const Model& to, const SceneSpec& spec, std::vector<GivenState>& out);
 
   const Model& model_;
   const SceneSpec& spec_;

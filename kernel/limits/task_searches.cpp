@@ -9,13 +9,6 @@
 #include <utility>
 
 namespace hauberk {
-namespace {
-
-/// Activation distance (L) of the last stage of limits that are not reported.
-constexpr double last_in_company = 1e-3;
-
-}  // namespace
-
 TaskSearches::TaskSearches(const Model& model, const SceneSpec& spec, const std::vector<LimitTask>& asked,
                            const LimitSettings& settings, const LimitsObserver& observer)
     : model_(model), spec_(spec), asked_(asked.size()), settings_(settings), observer_(observer)
@@ -85,7 +78,7 @@ LimitSettings TaskSearches::settings_of(std::size_t task, std::size_t start) con
 {
   LimitSettings settings = settings_;
   if (states_[task].is_sparing(start)) settings = within(task < asked_ ? allowance_of(task) : allowance_);
-  if (task >= asked_) settings.schedule.last = std::max(settings.schedule.last, last_in_company);
+  if (task >= asked_) settings.schedule.last = std::max(settings.schedule.last, last_of_unreported);
   return settings;
 }
 

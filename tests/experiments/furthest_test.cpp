@@ -110,6 +110,33 @@ TEST(ScenesWithin, LeadOn)
   }
 }
 
+/// A sheet with less held is pushed together no less far, although none of its own starts comes there: the
+/// scene with the lateral strain held is solved as by itself.
+TEST(ScenesWithin, AreAnsweredAsByThemselves)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const auto pushed = [&](const std::string& hold) {
+    const Outcome o = run_program(
+        {"run", folder.write("loose.json", R"({ "name": "loose", "task": "limits", "length_unit": "mm",
+  "cell": { "weave": { "name": "european_4in1", "parameters": { "inner_diameter": 8, "wire_diameter": 0.8 } } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [20], "senses": ["compress"],
+                 "hold": [)" + hold + "] } }"),
+         "-o", out, "--force"});
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    EXPECT_EQ(run_program({"verify", out}).code, 0);
+    return read_results(out);
+  };
+  const double within = number_at(pushed(R"("shear", "lateral")"), "/limits/0/value");
+  const json::value results = pushed(R"("shear")");
+  EXPECT_LT(number_at(results, "/limits/0/value"), within + 1e-7);
+  for (const json::value& start : results.at_pointer("/limits/0/starts").as_array()) {
+    if (start.at("origin").as_string().starts_with("start")) {
+      EXPECT_GT(start.at("value").to_number<double>(), within + 0.01) << "nothing is inherited: no test";
+    }
+  }
+}
+
 /// Limits that a mirror makes of each other come from one search, seen twice: neither confirms the other.
 TEST(MirrorImages, ConfirmNothing)
 {

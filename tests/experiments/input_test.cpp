@@ -227,8 +227,11 @@ TEST(Budget, WorkIsCountedFirst)
 TEST(Budget, CountsNoMoreThanIsDone)
 {
   const TemporaryFolder folder;
-  // Results do not say what limits took that are not reported.
-  const std::string text = with(chainmail_text(), R"("starts": 2)", R"("starts": 2, "neighbours": 0)");
+  // Results do not say what limits took that are not reported: neither beside these nor of scenes with more
+  // held.
+  const std::string alone = with(chainmail_text(), R"("starts": 2)", R"("starts": 2, "neighbours": 0)");
+  const std::string text =
+      with(alone, R"("directions_deg")", R"("hold": ["shear", "lateral"], "directions_deg")");
   const std::string file = folder.write("m.json", text), out = folder / "out";
   const Outcome plan = run_program({"plan", file});
   const std::size_t at = plan.out.find(" searches, at least ");

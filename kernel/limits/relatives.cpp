@@ -11,10 +11,7 @@
 namespace hauberk {
 namespace {
 
-/// Lengths (L) and rotations that differ by less are equal: rounding of what files and `repeat` compute.
-constexpr double same = 1e-11;
-
-int cells(const std::array<int, 3>& repeat) { return repeat[0] * repeat[1] * repeat[2]; }
+constexpr double same = rounding_of_scenes;
 
 /// Index of a cell among those of `repeat`, and the lattice translation of the repeated cell that leads to
 /// it.
@@ -33,29 +30,6 @@ CellPlace place_of(const std::array<int, 3>& at, const std::array<int, 3>& repea
   }
   out.cell = (within[2] * repeat[1] + within[1]) * repeat[0] + within[0];
   return out;
-}
-
-std::array<int, 3> cell_at(int cell, const std::array<int, 3>& repeat)
-{
-  return {cell % repeat[0], cell / repeat[0] % repeat[1], cell / (repeat[0] * repeat[1])};
-}
-
-/// The elements of one cell, if all copies of it are alike: same parameters, same pose, one lattice
-/// translation further.
-bool copies_alike(const SceneSpec& spec, double length)
-{
-  const auto n = spec.elements.size() / static_cast<std::size_t>(cells(spec.repeat));
-  for (std::size_t k = n; k < spec.elements.size(); ++k) {
-    const PlacedElement &copy = spec.elements[k], &first = spec.elements[k % n];
-    const std::array<int, 3> at = cell_at(static_cast<int>(k / n), spec.repeat);
-    Vec3 T = Vec3::Zero();
-    for (std::size_t i = 0; i < spec.lattice.size(); ++i) T += at[i] * spec.lattice[i] / spec.repeat[i];
-    if (copy.type != first.type || copy.parameters != first.parameters ||
-        (copy.rest.position - first.rest.position - T).norm() > same * length ||
-        (copy.rest.rotation - first.rest.rotation).norm() > same)
-      return false;
-  }
-  return true;
 }
 
 bool same_body(const Body& a, const Body& b)
@@ -88,8 +62,8 @@ std::vector<Relative> relatives(const Model& m, const SceneSpec& spec)
   scene.length = m.length;
   for (StricterLoadCase& s : m.load->stricter())
     out.push_back({std::move(s.name), scene, std::shared_ptr<const LoadCase>(std::move(s.load))});
-  if (m.load->periodic() && cells(spec.repeat) > 1 && copies_alike(spec, m.length)) {
-    scene.elements.resize(spec.elements.size() / static_cast<std::size_t>(cells(spec.repeat)));
+  if (m.load->periodic() && cell_count(spec.repeat) > 1 && cells_alike(spec, m.length)) {
+    scene.elements.resize(spec.elements.size() / static_cast<std::size_t>(cell_count(spec.repeat)));
     for (std::size_t i = 0; i < scene.lattice.size(); ++i) scene.lattice[i] /= spec.repeat[i];
     scene.repeat = {1, 1, 1};
     out.push_back({"one cell", std::move(scene), nullptr});
@@ -104,8 +78,8 @@ bool contains(const Model& outer, const SceneSpec& outer_spec, const Model& inne
       outer.lattice.size() != inner.lattice.size() || outer_spec.facets != inner_spec.facets ||
       !outer.load->contains(*inner.load))
     return false;
-  const auto n = inner_spec.elements.size() / static_cast<std::size_t>(cells(inner_spec.repeat));
-  if (n * static_cast<std::size_t>(cells(outer_spec.repeat)) != outer_spec.elements.size()) return false;
+  const auto n = inner_spec.elements.size() / static_cast<std::size_t>(cell_count(inner_spec.repeat));
+  if (n * static_cast<std::size_t>(cell_count(outer_spec.repeat)) != outer_spec.elements.size()) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     if (outer_spec.repeat[i] % inner_spec.repeat[i] != 0) return false;
     if (i < outer.lattice.size() &&
@@ -134,7 +108,7 @@ std::optional<State> Carrier::state(const State& from) const
 {
   State out = rest_state(to_);
   out.macro = from.macro;
-  const auto n = from_.element_count() / cells(from_repeat_);
+  const auto n = from_.element_count() / cell_count(from_repeat_);
   const std::span<const double> macro = out.macro_values();
   const std::size_t nc = to_.coordinate_count;
   PositionMap map;

@@ -258,6 +258,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   for (const Vec3& t : spec.lattice) m.lattice.emplace_back(t / m.length);
 
   std::vector<Vec3> positions;
+  const bool copies = copies_of_one_size(spec);
   for (std::size_t k = 0; k < spec.elements.size(); ++k) {
     const PlacedElement& e = spec.elements[k];
     const Shape& shape = *spec.types[e.type].shape;
@@ -272,7 +273,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
     }
     m.parameter_count.push_back(static_cast<int>(e.parameters.size()));
     m.reach.push_back(reach);
-    m.source.push_back(e.copy_of >= 0 ? e.copy_of : static_cast<int>(k));
+    m.source.push_back(copies && e.copy_of >= 0 ? e.copy_of : static_cast<int>(k));
     m.rest.push_back({e.rest.position / m.length, e.rest.rotation});
     positions.push_back(m.rest.back().position);
   }

@@ -34,7 +34,7 @@ struct Model {
   std::vector<int> first_body;  ///< per element, and one past the end
   std::vector<double> reach;    ///< per element: radius about its origin that holds it
   std::vector<Pose> rest;
-  std::vector<int> source;  ///< per element: the one that it is a copy of, or itself
+  std::vector<int> source;  ///< per element: the one that it is a copy of; itself where copies differ in size
   std::vector<Vec3> lattice;
   std::vector<LinearInequality> walls;
   Matrix held;  ///< dofs x equalities: orthonormal directions that no motion has

@@ -41,6 +41,22 @@ struct SceneSpec {
   std::string length_unit;  ///< of the file, for messages; may be empty
 };
 
+/// Lengths (L) and rotations that differ by less are equal: rounding of what files and `repeat` compute.
+inline constexpr double rounding_of_scenes = 1e-11;
+
+/// Cells that SceneSpec::repeat counts.
+int cell_count(const std::array<int, 3>& repeat);
+
+/// Indices along the lattice vectors of cell number `cell` of `repeat`.
+std::array<int, 3> cell_at(int cell, const std::array<int, 3>& repeat);
+
+/// Whether every element that is a copy has its original's parameters. Those of a design may differ.
+bool copies_of_one_size(const SceneSpec& spec);
+
+/// Whether all cells of `repeat` are one: elements of the same types and parameters, and each one lattice
+/// translation from its place in the first. `length` is L, file units.
+bool cells_alike(const SceneSpec& spec, double length);
+
 /// Median ring radius R over all primitives of the scene, file units.
 double characteristic_length(const SceneSpec& spec);
 

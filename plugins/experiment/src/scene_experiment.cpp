@@ -60,15 +60,21 @@ Node placement(const SceneSpec& scene, const PlacedElement& element)
 
 Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, const std::string& name)
 {
+  // Cells that are alike stay a cell and its copies, which a search from rest moves alike.
+  const bool alike = !scene.lattice.empty() && cells_alike(scene, characteristic_length(scene));
+  const std::array<int, 3> repeat = alike ? scene.repeat : std::array<int, 3>{1, 1, 1};
   Node cell = object_node();
   if (!scene.lattice.empty()) {
     std::vector<Node> vectors;
-    for (const Vec3& v : scene.lattice) {
+    std::vector<double> counts;
+    for (std::size_t k = 0; k < scene.lattice.size(); ++k) {
+      const Vec3 v = scene.lattice[k] / repeat[k];
       vectors.push_back(scene.lattice.size() == 2 ? numbers_node(std::array{v.x(), v.y()})
                                                   : numbers_node(std::array{v.x(), v.y(), v.z()}));
+      counts.push_back(repeat[k]);
     }
     set_default(cell, "vectors", array_node(std::move(vectors)));
-    set_default(cell, "repeat", numbers_node(std::array{1.0, 1.0}));
+    set_default(cell, "repeat", numbers_node(counts));
   } else {  // a patch: one cell that holds every element
     Node outline = object_node();
     set_default(outline, "rectangle", numbers_node(std::array{1.0, 1.0}));
@@ -79,7 +85,8 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
     set_default(cell, "patch", std::move(patch));
   }
   std::vector<Node> place;
-  for (const PlacedElement& element : scene.elements) place.push_back(placement(scene, element));
+  const auto placed = scene.elements.size() / static_cast<std::size_t>(cell_count(repeat));
+  for (std::size_t k = 0; k < placed; ++k) place.push_back(placement(scene, scene.elements[k]));
   set_default(cell, "place", array_node(std::move(place)));
   Node relax;
   relax.type = Node::Type::boolean;

@@ -15,7 +15,7 @@ namespace {
 using Hold = InPlanePeriodic::Hold;
 using Out = InPlanePeriodic::OutOfPlane;
 
-constexpr Hold held_nothing{false, false}, held_shear{true, false};
+constexpr Hold held_nothing{false, false}, held_shear{true, false}, held_both{true, true};
 const KeepGoing uninterrupted = [] { return true; };
 
 /// A scene under an in-plane load, with neighbours at 20 degrees.
@@ -59,14 +59,17 @@ TEST(Company, StretchesOfSheetsHaveItBesideAndAcross)
       Fabric(japanese(false), held_shear)
           .searches({at(10.0, Sense::positive), at(25.0, Sense::positive), at(100.0, Sense::negative)});
   EXPECT_EQ(three, (Texts{"10 degrees, +, 2, sparing from 1", "25 degrees, +, 2, sparing from 1",
-                          "100 degrees, -, 33", "90 degrees, -, 9", "110 degrees, -, 9", "80 degrees, -, 9",
+                          "100 degrees, -, 17", "90 degrees, -, 9", "110 degrees, -, 9", "80 degrees, -, 9",
                           "120 degrees, -, 9", "-65 degrees, -, 1, sparing from 0"}));
   // Compressions that are 15 degrees apart have others between them.
   const Texts pushed =
       Fabric(japanese(false), held_shear)
           .searches({at(100.0, Sense::negative), at(115.0, Sense::negative), at(125.0, Sense::negative)});
-  EXPECT_EQ(pushed, (Texts{"100 degrees, -, 33", "115 degrees, -, 33", "125 degrees, -, 33",
+  EXPECT_EQ(pushed, (Texts{"100 degrees, -, 17", "115 degrees, -, 17", "125 degrees, -, 17",
                            "90 degrees, -, 9", "110 degrees, -, 9"}));
+  // What begins again from where more is held has half the starts of what does not.
+  EXPECT_EQ(Fabric(japanese(false), held_both).searches({at(100.0, Sense::negative)})[0],
+            "100 degrees, -, 33");
   // In large cells what is held is broken by states of other directions.
   EXPECT_EQ(Fabric(repeated(japanese(false), 3, 2), held_shear).searches({at(10.0, Sense::positive)}),
             (Texts{"10 degrees, +, 1", "-80 degrees, -, 1, sparing from 0"}));

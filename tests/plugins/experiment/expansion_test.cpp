@@ -306,6 +306,24 @@ TEST(Expansion, ASceneBecomesAnExperimentOfItsOwn)
   }
 }
 
+/// Cells that are alike are searched as copies, in the written file too.
+TEST(Expansion, CellsThatAreAlikeStayOneCell)
+{
+  const Experiment e = read_ok(with(valid_text(), "\"place\"", "\"repeat\": [3, 2], \"place\""));
+  SceneSpec scene = e.scene;
+  for (std::size_t k = 1; k < scene.elements.size(); k += 2) scene.elements[k].parameters[0] = 5.3;
+  const SceneSpec written = read_ok(write_json(scene_experiment(e, scene, "pair_designed"))).scene;
+  EXPECT_EQ(written.repeat, (std::array<int, 3>{3, 2, 1}));
+  ASSERT_EQ(written.elements.size(), scene.elements.size());
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_LT((written.lattice[k] - scene.lattice[k]).norm(), 1e-14 * scene.lattice[k].norm());
+  for (std::size_t k = 0; k < scene.elements.size(); ++k) {
+    EXPECT_EQ(written.elements[k].copy_of, scene.elements[k].copy_of) << k;
+    EXPECT_EQ(written.elements[k].parameters, scene.elements[k].parameters) << k;
+    EXPECT_LT((written.elements[k].rest.position - scene.elements[k].rest.position).norm(), 1e-13) << k;
+  }
+}
+
 TEST(Expansion, Files)
 {
   const std::string missing = ::testing::TempDir() + "no_such_experiment.json";

@@ -38,9 +38,9 @@ struct LimitSettings {
   bool lessons = true;
   /// Whether they learn from scenes that this one contains, beside what is `given`.
   bool inherit = true;
-  /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn; of larger
-  /// cells inversely fewer, and half of them where a limit begins again from scenes with more held.
-  int fold_starts = 32;
+  /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn, and, if
+  /// that is more than one, as many more under random loads; of larger cells inversely fewer.
+  int fold_starts = 12;
   int tilts = 0;       ///< random loads beside the task's own, from whose states it learns
   double tilt = 20.0;  ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;
@@ -85,16 +85,23 @@ Locked limit_from_state(const Model& model, const LimitTask& task, const LimitSe
 Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSettings& settings, int start,
                         const KeepGoing& keep_going);
 
+/// Locked state of one task from where the widest stage of a random load leads, any load of the macroscopic
+/// unknowns being as likely (in the norm of loads): a fabric that was folded another way comes to folds that
+/// no start from rest comes to. Where contact does not stop the random load, an ordinary start of that
+/// number. Deterministic in `settings.seed` and `number`.
+Locked limit_from_random_load(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                              int number, const KeepGoing& keep_going);
+
 /// Beginning of the origin of states that began from another limit's.
 inline constexpr const char* learnt_origin = "from ";
 
 /// A locked state and where it came from.
 struct FoundState {
   Locked locked;
-  /// "start", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the limit whose state
-  /// it began with
+  /// "start", "random load", "start, narrow" (without the widest stage), "tilt", or learnt_origin and the
+  /// limit whose state it began with
   std::string origin;
-  std::uint64_t seed = 0;  ///< of the start or tilt
+  std::uint64_t seed = 0;  ///< of the start, random load or tilt
 };
 
 /// Result of one task out of what was found (in a fixed order, the first start first). Forces, balance,

@@ -1,6 +1,8 @@
 #include "limits/rest_searches.hpp"
 
 #include "limits/donors.hpp"
+#include "model/links.hpp"
+#include "numerics/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,33 +17,39 @@ constexpr int cell_of_all_starts = 4;
 /// perturbation at times leads further than the small one of the first.
 constexpr int taut_starts = 2, cell_of_taut_starts = 16;
 
-/// Of the starts of a limit that inherits nothing, what one has that begins again where scenes within lock.
-constexpr int share_where_inherited = 2;
-
-/// Of the starts of a limit that is asked for, what one beside it has.
-constexpr int share_beside = 4;
-
 /// LimitSettings::fold_starts, fewer in large cells, where each is expensive.
 int fold_starts(const Model& model, const LimitSettings& settings)
 {
   return std::max(1, settings.fold_starts / std::max(1, model.element_count() / cell_of_all_starts));
 }
 
-/// Whether another load case that holds more asks something else of a limit, which then inherits from it.
-bool holds_more_within(const Model& model, const LimitTask& task)
+/// Whether links hold the lattice together in all of its directions. Otherwise a random load, too, may drive
+/// the strain without end.
+bool hangs_together(const Model& m)
 {
-  const LoadCase& load = *model.load;
-  const std::vector<StricterLoadCase> stricter = load.stricter();
-  return std::any_of(stricter.begin(), stricter.end(), [&](const StricterLoadCase& s) {
-    return s.load->coordinate_count() != load.coordinate_count() ||
-           s.load->conditions(task.direction).size() != load.conditions(task.direction).size();
-  });
+  const std::vector<Vec3> cycles = cycle_translations(m);
+  if (cycles.empty()) return false;
+  Matrix translations(3, static_cast<Eigen::Index>(cycles.size()));
+  for (std::size_t k = 0; k < cycles.size(); ++k) translations.col(static_cast<Eigen::Index>(k)) = cycles[k];
+  constexpr double some = 1e-6;  // of the longest: what is less is rounding
+  const Vector lengths = singular_values(translations);
+  return (lengths.array() > some * lengths.maxCoeff()).count() == static_cast<Eigen::Index>(m.lattice.size());
+}
+
+/// So many starts, and as many under random loads, where one is not all that a large cell is worth; and one
+/// without the widest stage: a fabric with room folds one way under that stage and another way without it.
+void fold(RestSearches& searches, const Model& model, int starts)
+{
+  const auto count = static_cast<std::size_t>(starts);
+  searches.starts = count > 1 ? 2 * count + 1 : 2;
+  searches.random_loads = count > 1 && hangs_together(model) ? count : 0;
+  searches.narrow = true;
 }
 
 RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSettings& settings)
 {
   const int starts = std::max(1, settings.starts);
-  RestSearches out{task, static_cast<std::size_t>(starts), false};
+  RestSearches out{task, static_cast<std::size_t>(starts)};
   if (!settings.lessons) return out;
   if (is_taut(model, task) && begins_again(model, task, settings.contact) &&
       model.element_count() <= cell_of_taut_starts && starts < taut_starts) {
@@ -49,18 +57,17 @@ RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSet
     out.sparing_from = static_cast<std::size_t>(starts);
   }
   if (!may_fold(model, task)) return out;
-  // A fabric with room folds one way under the widest stage and another way without it.
-  const int share = holds_more_within(model, task) ? share_where_inherited : 1;
-  out.starts = static_cast<std::size_t>(std::max(starts, fold_starts(model, settings) / share)) + 1;
-  out.narrow = true;
+  fold(out, model, std::max(starts, fold_starts(model, settings)));
   return out;
 }
 
 RestSearches beside(const Model& model, const LimitTask& task, const LimitSettings& settings)
 {
-  const int starts = fold_starts(model, settings) / share_beside;
-  if (starts < 1 || !may_fold(model, task)) return {task, 1, false};
-  return {task, static_cast<std::size_t>(starts) + 1, true};
+  const int starts = fold_starts(model, settings) / share_of_unreported;
+  if (starts < 1 || !may_fold(model, task)) return {task};
+  RestSearches out{task};
+  fold(out, model, starts);
+  return out;
 }
 
 /// Of the evaluations from rest, what another search of a taut limit may have, and what any may.

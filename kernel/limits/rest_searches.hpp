@@ -14,11 +14,15 @@ namespace hauberk {
 /// where they lock, not for how far that is.
 inline constexpr double last_of_unreported = 1e-3;
 
+/// Of the starts of a limit that is reported, what one has that it learns from.
+inline constexpr int share_of_unreported = 4;
+
 /// How one limit is searched from rest.
 struct RestSearches {
   LimitTask task;
   std::size_t starts = 1;
-  bool narrow = false;  ///< the last of the starts is that without the widest stage
+  bool narrow = false;           ///< the last of the starts is that without the widest stage
+  std::size_t random_loads = 0;  ///< so many before it begin under a random load
   /// Starts from this one on may not cost more than the `allowance`: of the taut limits in whose company it
   /// is, which have none that may cost more, or of its own starts before these.
   std::size_t sparing_from = std::numeric_limits<std::size_t>::max();

@@ -1,7 +1,7 @@
 #pragma once
 /// What limits inherit: each begins once more from where the same limit locks in every scene that its own
-/// contains (relatives.hpp). Those scenes are solved as they would be by themselves, so that no answer is
-/// less far than one with less freedom to the same question.
+/// contains (relatives.hpp). Those scenes have lessons and company as by themselves, and of the searches from
+/// rest a share (rest_searches.hpp).
 
 #include "limits/limits.hpp"
 

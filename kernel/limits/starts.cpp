@@ -80,6 +80,42 @@ Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings,
   return std::cos(angle) * load + std::sin(angle) * size / std::sqrt(dot(across, across)) * across;
 }
 
+namespace {
+
+/// A load as large as `load`, of any direction of the macroscopic unknowns with the same probability.
+Vector random_load(const Model& m, const Vector& load, std::uint64_t seed)
+{
+  Normal normal(seed);
+  const auto metric = m.metric.head(m.macro_count).array();
+  const auto size = [&](const Vector& v) { return std::sqrt((v.array().square() / metric).sum()); };
+  Vector out(m.macro_count);
+  for (int k = 0; k < m.macro_count; ++k) out[k] = normal() * std::sqrt(metric[k]);
+  return size(load) / size(out) * out;
+}
+
+}  // namespace
+
+Locked limit_from_random_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                              int number, const KeepGoing& keep_going)
+{
+  const std::uint64_t seed = settings.seed + static_cast<std::uint64_t>(number);
+  const State from = perturbed(m, start_state(m, settings), settings.perturbation, seed, Copies::apart);
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  Schedule widest = settings.schedule;
+  widest.last = widest.first;
+  widest.last_tolerance = widest.tolerance;
+  widest.target = std::numeric_limits<double>::infinity();
+  const Locked folded =
+      hauberk::lock(m, from, random_load(m, load.pull, seed), settings.contact, widest, keep_going);
+  if (folded.status == LockStatus::interrupted) return folded;
+  Locked out = folded.status == LockStatus::locked
+                   ? hauberk::lock(m, folded.state, load, settings.contact, settings.schedule, keep_going)
+                   : limit_from_start(m, task, settings, number, keep_going);
+  out.iterations += folded.iterations;
+  out.evaluations += folded.evaluations;
+  return out;
+}
+
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going)
 {

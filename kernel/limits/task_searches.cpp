@@ -17,6 +17,7 @@ TaskSearches::TaskSearches(const Model& model, const SceneSpec& spec, const std:
     tasks_.push_back(searches.task);
     TaskState& state = states_.emplace_back();
     state.narrow = searches.narrow;
+    state.random_loads = searches.random_loads;
     state.sparing_from = searches.sparing_from;
     state.starts.resize(searches.starts);
     state.missing = searches.starts;
@@ -110,20 +111,26 @@ Locked TaskSearches::searched(const std::string& name, double& seconds, const Se
   return found;
 }
 
+Locked TaskSearches::from_rest(std::size_t task, std::size_t start) const
+{
+  const KeepGoing keep_going = [this] { return going(); };
+  const LimitSettings settings = settings_of(task, start);
+  const int number = static_cast<int>(start);
+  if (states_[task].is_under_random_load(start))
+    return limit_from_random_load(model_, tasks_[task], settings, number, keep_going);
+  if (!states_[task].is_narrow(start))
+    return limit_from_start(model_, tasks_[task], settings, number, keep_going);
+  const State from =
+      perturbed(model_, start_state(model_, settings), settings.perturbation, settings.seed, Copies::alike);
+  return limit_from_state(model_, tasks_[task], settings, from, keep_going);
+}
+
 Attempt TaskSearches::attempt(std::size_t task, std::size_t start) const
 {
   Attempt out;
-  const KeepGoing keep_going = [this] { return going(); };
-  const LimitSettings settings = settings_of(task, start);
   try {
-    out.locked = searched(fmt::format("limit {} start {}", task, start), out.seconds, [&] {
-      return !states_[task].is_narrow(start)
-                 ? limit_from_start(model_, tasks_[task], settings, static_cast<int>(start), keep_going)
-                 : limit_from_state(model_, tasks_[task], settings,
-                                    perturbed(model_, start_state(model_, settings), settings.perturbation,
-                                              settings.seed, Copies::alike),
-                                    keep_going);
-    });
+    out.locked = searched(fmt::format("limit {} start {}", task, start), out.seconds,
+                          [&] { return from_rest(task, start); });
   } catch (const std::exception& error) {
     out.error = error.what();
   }
@@ -205,8 +212,12 @@ std::vector<FoundState> TaskSearches::found_of(std::size_t task) const
   for (std::size_t s = 0; s < t.starts.size(); ++s) {
     if (!t.starts[s].locked) continue;
     if (s > 0 && runs_away(task)) break;  // whatever the order in which starts were done
-    found.push_back(!t.is_narrow(s) ? FoundState{*t.starts[s].locked, "start", settings_.seed + s}
-                                    : FoundState{*t.starts[s].locked, "start, narrow", settings_.seed});
+    if (t.is_narrow(s)) {
+      found.push_back({*t.starts[s].locked, "start, narrow", settings_.seed});
+    } else {
+      found.push_back(
+          {*t.starts[s].locked, t.is_under_random_load(s) ? "random load" : "start", settings_.seed + s});
+    }
   }
   found.insert(found.end(), t.further.begin(), t.further.end());
   return found;

@@ -33,11 +33,17 @@ struct TaskState {
   long evaluations = 0;             ///< the same
   std::size_t missing = 0;          ///< starts not done
   std::size_t sparing_from = 0;     ///< RestSearches::sparing_from
+  std::size_t random_loads = 0;     ///< RestSearches::random_loads
   bool narrow = false;              ///< it may fold: the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
   bool learning = false;            ///< others have taught it something, or have begun to
 
   bool is_narrow(std::size_t start) const { return narrow && start + 1 == starts.size(); }
+  bool is_under_random_load(std::size_t start) const
+  {
+    const std::size_t end = starts.size() - (narrow ? 1 : 0);
+    return start < end && start + random_loads >= end;
+  }
   bool is_sparing(std::size_t start) const { return start >= sparing_from; }
 };
 
@@ -102,6 +108,7 @@ class TaskSearches {
   std::optional<long> allowance_from(std::size_t task, const State& from) const;
 
  private:
+  Locked from_rest(std::size_t task, std::size_t start) const;
   void find_starts(const std::vector<std::size_t>& tasks, bool sparing, unsigned threads);
   LimitSettings within(long evaluations) const;
   LimitSettings settings_of(std::size_t task, std::size_t start) const;

@@ -129,8 +129,12 @@ Attempt TaskSearches::attempt(std::size_t task, std::size_t start) const
 {
   Attempt out;
   try {
-    out.locked = searched(fmt::format("limit {} start {}", task, start), out.seconds,
-                          [&] { return from_rest(task, start); });
+    const TaskState& t = states_[task];
+    const std::string name = t.is_narrow(start)              ? "narrow"
+                             : t.is_under_random_load(start) ? fmt::format("random load {}", start)
+                                                             : fmt::format("start {}", start);
+    out.locked =
+        searched(fmt::format("limit {} {}", task, name), out.seconds, [&] { return from_rest(task, start); });
   } catch (const std::exception& error) {
     out.error = error.what();
   }

@@ -20,7 +20,7 @@ struct LoneLimit {
   int degrees;
   const char* sense;
   double furthest;           ///< of searches of many directions
-  const char* switched_off;  ///< the setting without which the search ends less far
+  const char* switched_off;  ///< settings without what leads there: the search ends less far
 };
 
 void PrintTo(const LoneLimit& l, std::ostream* out) { *out << l.name; }
@@ -55,15 +55,16 @@ TEST_P(LoneLimits, GoAsFarAsInCompany)
   EXPECT_LT(less, l.furthest - 1e-3) << "nothing is needed: no test";
 }
 
-INSTANTIATE_TEST_SUITE_P(Weaves, LoneLimits,
-                         testing::Values(
-                             // 8 starts agree on 0.22993, and 4 tilts with them.
-                             LoneLimit{"stretch", "european_6in1", "8", "1", 20, "stretch", 0.23808258,
-                                       R"("neighbours": 0, "starts": 8)"},
-                             // 128 starts agree on -0.49974, and two limits 10 degrees beside it with them.
-                             LoneLimit{"compression", "european_4in1", "8", "1.2", 0, "compress", 0.52367946,
-                                       R"("neighbours": 10)"}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Weaves, LoneLimits,
+    testing::Values(
+        // 8 starts agree on 0.22993, and 4 tilts with them.
+        LoneLimit{"stretch", "european_6in1", "8", "1", 20, "stretch", 0.23808258,
+                  R"("neighbours": 0, "starts": 8)"},
+        // From rest 128 starts come no further than 0.49974; a random load folds it otherwise.
+        LoneLimit{"compression", "european_4in1", "8", "1.2", 0, "compress", 0.53249254,
+                  R"("lessons": false, "starts": 64)"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 /// A sheet with more freedom stretches no less far. Its own searches, and those of limits beside and across,
 /// end less far here: it begins again from the state of the sheet within it.
@@ -110,8 +111,8 @@ TEST(ScenesWithin, LeadOn)
   }
 }
 
-/// A sheet with less held is pushed together no less far than with more, where each has rare folds: starts from
-/// rest alone end nearer.
+/// A sheet with less held is pushed together no less far than with more, where each has rare folds: starts
+/// from rest alone end nearer.
 TEST(ScenesWithin, WithMoreHeldAreNoFurther)
 {
   const TemporaryFolder folder;

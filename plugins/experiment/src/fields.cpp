@@ -173,8 +173,8 @@ Field solver_field()
            with_default(
                boolean("lessons",
                        "Whether limits learn from each other, from symmetric images, from the loads beside "
-                       "their own and from scenes that theirs contains, and compressions have many "
-                       "starts; false: each stands alone."),
+                       "their own and from scenes that theirs contains, and compressions have many starts "
+                       "and random loads; false: each stands alone."),
                "true"),
            with_default(
                at_least(

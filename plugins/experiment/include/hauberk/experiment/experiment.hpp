@@ -155,9 +155,8 @@ Experiment load_experiment(const std::string& path, const std::vector<std::strin
                            const PluginLookup& plugins, TaskFormats formats);
 
 /// An experiment that computes the limits of `scene` (an expansion of `experiment`'s scene, e.g. a design's
-/// result) with the same load case and solver, without design and expect: one cell and how often it is repeated
-/// where cells are alike, else every element placed by itself.
-/// Write it with write_json.
+/// result) with the same load case and solver, without design and expect: one cell and how often it is
+/// repeated where cells are alike, else every element placed by itself. Write it with write_json.
 Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, const std::string& name);
 
 /// `written`, made of `experiment`, as it has to be in a file of the folder `to`: paths of plugins' files

@@ -87,7 +87,7 @@ Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSe
 
 /// Locked state of one task from where the widest stage of a random load leads, any load of the macroscopic
 /// unknowns being as likely (in the norm of loads): a fabric that was folded another way comes to folds that
-/// no start from rest comes to. Where contact does not stop the random load, an ordinary start of that
+/// few starts from rest come to. Where contact does not stop the random load, an ordinary start of that
 /// number. Deterministic in `settings.seed` and `number`.
 Locked limit_from_random_load(const Model& model, const LimitTask& task, const LimitSettings& settings,
                               int number, const KeepGoing& keep_going);

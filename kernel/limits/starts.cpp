@@ -34,6 +34,14 @@ class Normal {
   std::mt19937_64 rng_;
 };
 
+/// A load of any direction of the macroscopic unknowns with the same probability, in the norm of loads.
+Vector random_direction(const Model& m, Normal& normal)
+{
+  Vector out(m.macro_count);
+  for (int k = 0; k < m.macro_count; ++k) out[k] = normal() * std::sqrt(m.metric[k]);
+  return out;
+}
+
 }  // namespace
 
 State perturbed(const Model& m, const State& from, double size, std::uint64_t seed, Copies copies)
@@ -73,8 +81,7 @@ Vector tilted(const Model& m, const Vector& load, const LimitSettings& settings,
   const auto metric = m.metric.head(m.macro_count).array();
   const auto dot = [&](const Vector& a, const Vector& b) { return (a.array() * b.array() / metric).sum(); };
   const double size = std::sqrt(dot(load, load));
-  Vector across(m.macro_count);
-  for (int k = 0; k < m.macro_count; ++k) across[k] = normal() * std::sqrt(metric[k]);
+  Vector across = random_direction(m, normal);
   across -= dot(across, load) / (size * size) * load;
   const double angle = settings.tilt * degree;
   return std::cos(angle) * load + std::sin(angle) * size / std::sqrt(dot(across, across)) * across;
@@ -88,8 +95,7 @@ Vector random_load(const Model& m, const Vector& load, std::uint64_t seed)
   Normal normal(seed);
   const auto metric = m.metric.head(m.macro_count).array();
   const auto size = [&](const Vector& v) { return std::sqrt((v.array().square() / metric).sum()); };
-  Vector out(m.macro_count);
-  for (int k = 0; k < m.macro_count; ++k) out[k] = normal() * std::sqrt(metric[k]);
+  const Vector out = random_direction(m, normal);
   return size(load) / size(out) * out;
 }
 

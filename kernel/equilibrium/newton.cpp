@@ -80,11 +80,11 @@ class Newton {
       if (const std::optional<End> end = give_up()) return finish(*end);
       Step step = newton_step(now_, radius_);
       // Forces that miss the load by more than rounding does: other lengths of steps may balance them.
-      const bool rescue =
-          stage_.balance && rescues_ < most_rescues && dual_norm(now_.gradient) > balanced * load_norm_;
+      const bool unbalanced = rescues_ < most_rescues && dual_norm(now_.gradient) > balanced * load_norm_;
+      const bool rescue = unbalanced && stage_.balance;
       bool escape = false;
       if (step.predicted < stage_.tolerance * stage_.mu || (escaping_ && rejected_ > 0)) {
-        const Stationary found = at_stationary_point(step, rescue);
+        const Stationary found = at_stationary_point(step, unbalanced);
         if (found == Stationary::minimum) return finish({StageStatus::minimum, ""});
         if (found == Stationary::too_short) continue;
         escape = true;
@@ -159,11 +159,13 @@ class Newton {
   }
 
   /// Of a saddle the step becomes one along its most negative curvature.
-  Stationary at_stationary_point(Step& step, bool rescue)
+  Stationary at_stationary_point(Step& step, bool unbalanced)
   {
     if (!step.shifted) return Stationary::minimum;
-    if (!escaping_ && rescue && step_norm(m_, step.dy) > 0.5 * radius_ && radius_ < first_radius) {
+    if (!escaping_ && unbalanced && widening_pays() && step_norm(m_, step.dy) > 0.5 * radius_ &&
+        radius_ < first_radius) {
       ++rescues_;
+      widened_at_ = now_.energy;
       radius_ = std::min(first_radius, widen * radius_);
       return Stationary::too_short;
     }
@@ -173,6 +175,16 @@ class Newton {
     const bool idle = result_.escapes - escapes_then_ >= most_idle_escapes;
     return stage_.contact.formulation == Formulation::published && idle ? Stationary::minimum
                                                                         : Stationary::saddle;
+  }
+
+  /// Contacts that the model does not see, as they are out of reach, turn long steps back, and the radius
+  /// shrinks to the width of the channel between contacts. What a step of that length promises says nothing
+  /// about how far the channel still goes down: left in a wide stage, the rest of the way is gone in narrow
+  /// ones, in steps that are shorter as their gaps are. So a stage widens the radius again while that gains
+  /// anything; its forces need not balance, as those of the last stage do.
+  bool widening_pays() const
+  {
+    return stage_.balance || now_.energy < widened_at_ - stage_.tolerance * stage_.mu;
   }
 
   Trial attempt(const Step& step)
@@ -418,6 +430,8 @@ class Newton {
   int rescues_ = 0;                        ///< steps that were taken, or widened, to balance forces
   double noticed_ = 0.0;                   ///< energy at the last noticeable decrease
   int noticed_at_ = 0, escapes_then_ = 0;  ///< steps and escapes at that time
+  /// Energy when the radius was widened last.
+  double widened_at_ = std::numeric_limits<double>::infinity();
   std::vector<ElementPair> pairs_;
   EliminationOrder order_;
   std::unique_ptr<Curvature> curvature_;  ///< of the state's energy

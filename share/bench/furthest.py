@@ -9,8 +9,12 @@ known state is that of these, of stronger searches (64 starts, 4 tilted loads wi
 of scenes that a scene contains (that with a clearance in that without, z fixed in z free, a cell in its multiples) and of
 all runs whose values the file of known ones has (furthest.json beside this script), where what is further is entered.
 --defaults leaves the stronger searches out. A limit is short where it misses the furthest by more than a thousandth.
-Prints a line per limit that is short, one per family with the seconds of every kind of run, and the table. Runs that
+Prints a line per limit that is short, one per family with the seconds of every kind of run, and the tables. Runs that
 FOLDER holds are not repeated.
+
+Limits with default settings are held against each other, too: one is further than another's whose states it has (that
+with a clearance of 0.1 mm in that without, z fixed in z free, a cell in its multiples), fans against fans and lone ones
+against lone ones. A pair is violated where what is contained is further by more than a millionth.
 """
 
 import argparse
@@ -32,6 +36,8 @@ VARIANTS = {"0.1 mm": ({}, {"clearance": 0.1}), "z fixed": ({}, {}), "z free": (
 STRONGER = {"64 starts": (DIRECTIONS, {"starts": 64}), "tilts": (DIRECTIONS, {"starts": 8, "tilts": 4}),
             "every 15": (sorted({*range(0, 180, 15), *DIRECTIONS}), {})}
 SHORT = 1e-3
+VIOLATED = 1e-6
+CONTAINS = {"z fixed": "0.1 mm", "z free": "z fixed"}  # a variant, and the one whose states are its too
 
 
 def families():
@@ -60,6 +66,8 @@ class Study:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.file = known
         self.known = json.loads(known.read_text()) if known.exists() else {}
+        self.default = {}  # values by family and variant, kind of run and limit
+        self.relations = {}  # pairs and violated ones by relation and kind of run
 
     def remember(self, where, limit, value, by):
         """The furthest that any run came to in this limit, and by which kind of run."""
@@ -92,6 +100,23 @@ class Study:
         return {(l["direction_deg"], l["sense"]): (l["value"] * (1 if l["sense"] == "stretch" else -1), l["confidence"]["word"])
                 for l in limits if l["status"] == "locked"}, float(took.read_text())
 
+    def relate(self, name, variant, found):
+        """Compares default values with those of scenes that this one contains."""
+        self.default[name, variant] = found
+        within = [("z or clearance", name, CONTAINS.get(variant))]
+        if name.endswith(("2x2", "3x3")):
+            within.append(("cell", name[:-4], variant))
+        for relation, *scene in within:
+            for kind, values in self.default.get(tuple(scene), {}).items():
+                for limit, (value, _) in values.items():
+                    count = self.relations.setdefault((relation, limit[1], kind), [0, 0])
+                    count[0] += 1
+                    own = found[kind].get(limit, (float("-inf"), "none"))[0]
+                    if value - own > VIOLATED * abs(value):
+                        count[1] += 1
+                        print(f"violated: {name}, {variant}, {limit[0]} degrees, {limit[1]}, {kind}: {own:.6g}, but {value:.6g} of "
+                              f"{', '.join(scene)}", flush=True)
+
     def family(self, name, experiment, table):
         contained = {}  # the furthest of the variant before, whose states are this one's too
         for variant, (load, solver) in VARIANTS.items():
@@ -108,6 +133,7 @@ class Study:
                 values, took = self.run(f"{where} {degrees}", experiment, load, solver, [degrees])
                 found["alone"].update(values)
                 seconds["alone"] += took
+            self.relate(name, variant, {kind: found[kind] for kind in ("fan", "alone")})
             for kind, (directions, settings) in (STRONGER.items() if self.stronger else ()):
                 found[kind], seconds[kind] = self.run(f"{where} {kind}", experiment, load, {**solver, **settings}, directions)
             for limit in sorted(found["fan"] | found["alone"]):
@@ -143,6 +169,9 @@ def main():
     print("| | limits | short by more than 0.1 % |\n| --- | --- | --- |")
     for (sense, kind), (limits, short) in sorted(table.items()):
         print(f"| {sense}, {kind} | {limits} | {short} |")
+    print("\n| contained | pairs | violated |\n| --- | --- | --- |")
+    for (relation, sense, kind), (pairs, violated) in sorted(study.relations.items()):
+        print(f"| {relation}, {sense}, {kind} | {pairs} | {violated} |")
 
 
 if __name__ == "__main__":

@@ -1,30 +1,52 @@
 #include "surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace hauberk::verification {
 namespace {
 
+/// An angle in [0, pi/2] near that of the point (a cos v, b sin v) closest to (p, q), p, q >= 0: the ellipse
+/// is replaced by its circle of curvature where the angle is, whose closest point gives the next one.
+double angle_by_curvature(double a, double b, double p, double q)
+{
+  const double focal = (a - b) * (a + b);
+  double c = std::numbers::sqrt2 / 2.0, s = c;
+  for (int i = 0; i < 3; ++i) {
+    const double centre_x = focal * c * c * c / a, centre_y = -focal * s * s * s / b;
+    const auto length_of = [](double x, double y) { return std::sqrt(x * x + y * y); };
+    const double radius = length_of(a * c - centre_x, b * s - centre_y);
+    const double away = length_of(p - centre_x, q - centre_y);
+    const double x = std::clamp((centre_x + (p - centre_x) * radius / away) / a, 0.0, 1.0);
+    const double y = std::clamp((centre_y + (q - centre_y) * radius / away) / b, 0.0, 1.0);
+    const double length = length_of(x, y);
+    if (!(length > 0.0)) break;
+    c = x / length;
+    s = y / length;
+  }
+  return std::atan2(s, c);
+}
+
 /// Angle v in [0, pi/2] of the point (a cos v, b sin v) closest to (p, q), p, q >= 0.
 ///
 /// h(v) = 1/2 d/dv |.|^2 = -a sin v (a cos v - p) + b cos v (b sin v - q) is <= 0 at 0, >= 0 at pi/2 and
-/// changes sign once between. Newton, kept inside the shrinking bracket by bisection.
+/// changes sign once between. Newton, kept inside the shrinking bracket by bisection, down to the rounding of
+/// v.
 double closest_angle(double a, double b, double p, double q)
 {
+  constexpr double rounding = 4.5e-16;
   double low = 0.0, high = std::numbers::pi / 2.0;
-  double v = std::atan2(a * q, b * p);
+  double v = angle_by_curvature(a, b, p, q);
   if (!(v > low && v < high)) v = 0.5 * (low + high);
   for (int i = 0; i < 100; ++i) {
     const double c = std::cos(v), s = std::sin(v);
     const double h = -a * s * (a * c - p) + b * c * (b * s - q);
-    if (h == 0.0) return v;
-    (h < 0.0 ? low : high) = v;
     const double slope = -a * c * (a * c - p) + a * a * s * s - b * s * (b * s - q) + b * b * c * c;
-    double next = v - h / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - v) < 1e-16 || high - low < 1e-16) return next;
-    v = next;
+    if (std::abs(h) <= rounding * slope || high - low < rounding) return v;
+    (h < 0.0 ? low : high) = v;
+    v -= h / slope;
+    if (!(v > low && v < high)) v = 0.5 * (low + high);
   }
   return v;
 }

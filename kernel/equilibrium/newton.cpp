@@ -181,10 +181,14 @@ class Newton {
   /// shrinks to the width of the channel between contacts. What a step of that length promises says nothing
   /// about how far the channel still goes down: left in a wide stage, the rest of the way is gone in narrow
   /// ones, in steps that are shorter as their gaps are. So a stage widens the radius again while that gains
-  /// anything; its forces need not balance, as those of the last stage do.
+  /// anything; its forces need not balance, as those of the last stage do. `nearest` alone, without a least
+  /// curvature that hands contacts that merge to `arc`, has no minimum where they do, and ends there.
   bool widening_pays() const
   {
-    return stage_.balance || now_.energy < widened_at_ - stage_.tolerance * stage_.mu;
+    if (stage_.balance) return true;
+    if (stage_.contact.formulation == Formulation::nearest && !std::isfinite(stage_.least_curvature))
+      return false;
+    return now_.energy < widened_at_ - stage_.tolerance * stage_.mu;
   }
 
   Trial attempt(const Step& step)

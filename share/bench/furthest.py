@@ -60,6 +60,11 @@ def families():
     return found
 
 
+def one_cell(name):
+    """The family of whose cell this one's is a multiple, if it is."""
+    return name[:-4] if name.endswith(("2x2", "3x3")) else None
+
+
 class Study:
     def __init__(self, program, folder, senses, stronger, known):
         self.program, self.folder, self.senses, self.stronger = program, pathlib.Path(folder), senses, stronger
@@ -103,9 +108,7 @@ class Study:
     def relate(self, name, variant, found):
         """Compares default values with those of scenes that this one contains."""
         self.default[name, variant] = found
-        within = [("z or clearance", name, CONTAINS.get(variant))]
-        if name.endswith(("2x2", "3x3")):
-            within.append(("cell", name[:-4], variant))
+        within = [("z or clearance", name, CONTAINS.get(variant)), ("cell", one_cell(name), variant)]
         for relation, *scene in within:
             for kind, values in self.default.get(tuple(scene), {}).items():
                 for limit, (value, _) in values.items():
@@ -121,11 +124,9 @@ class Study:
         contained = {}  # the furthest of the variant before, whose states are this one's too
         for variant, (load, solver) in VARIANTS.items():
             where = f"{name}, {variant}"
-            if name.endswith(("2x2", "3x3")):
-                cell = self.known.get(f"{name[:-4]}, {variant}", {})
-                for at, (value, _) in cell.items():
-                    limit = (float(at.split()[0]), at.split()[1])
-                    contained[limit] = max(value, contained.get(limit, float("-inf")))
+            for at, (value, _) in self.known.get(f"{one_cell(name)}, {variant}", {}).items():
+                limit = (float(at.split()[0]), at.split()[1])
+                contained[limit] = max(value, contained.get(limit, float("-inf")))
             found, seconds = {}, {}
             found["fan"], seconds["fan"] = self.run(f"{where} fan", experiment, load, solver, DIRECTIONS)
             found["alone"], seconds["alone"] = {}, 0.0

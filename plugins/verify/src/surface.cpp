@@ -1,32 +1,10 @@
 #include "surface.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace hauberk::verification {
 namespace {
-
-/// An angle in [0, pi/2] near that of the point (a cos v, b sin v) closest to (p, q), p, q >= 0: the ellipse
-/// is replaced by its circle of curvature where the angle is, whose closest point gives the next one.
-double angle_by_curvature(double a, double b, double p, double q)
-{
-  const double focal = (a - b) * (a + b);
-  double c = std::numbers::sqrt2 / 2.0, s = c;
-  for (int i = 0; i < 3; ++i) {
-    const double centre_x = focal * c * c * c / a, centre_y = -focal * s * s * s / b;
-    const auto length_of = [](double x, double y) { return std::sqrt(x * x + y * y); };
-    const double radius = length_of(a * c - centre_x, b * s - centre_y);
-    const double away = length_of(p - centre_x, q - centre_y);
-    const double x = std::clamp((centre_x + (p - centre_x) * radius / away) / a, 0.0, 1.0);
-    const double y = std::clamp((centre_y + (q - centre_y) * radius / away) / b, 0.0, 1.0);
-    const double length = length_of(x, y);
-    if (!(length > 0.0)) break;
-    c = x / length;
-    s = y / length;
-  }
-  return std::atan2(s, c);
-}
 
 /// Angle v in [0, pi/2] of the point (a cos v, b sin v) closest to (p, q), p, q >= 0.
 ///
@@ -37,7 +15,7 @@ double closest_angle(double a, double b, double p, double q)
 {
   constexpr double rounding = 4.5e-16;
   double low = 0.0, high = std::numbers::pi / 2.0;
-  double v = angle_by_curvature(a, b, p, q);
+  double v = std::atan2(a * q, b * p);
   if (!(v > low && v < high)) v = 0.5 * (low + high);
   for (int i = 0; i < 100; ++i) {
     const double c = std::cos(v), s = std::sin(v);

@@ -1,5 +1,6 @@
 #include "limits/confidence.hpp"
 #include "limits/donors.hpp"
+#include "limits/further_searches.hpp"
 #include "limits/limit_report.hpp"
 #include "limits/scenes_within.hpp"
 #include "limits/task_searches.hpp"
@@ -63,7 +64,11 @@ class Computation {
     if (!complete) solve_from_rest(true, threads);
     if (unfinished_ == 0 && !complete) {
       const Donors donors(model_, tasks_);
-      if (settings_.lessons && inherit(donors, threads)) learn(donors, threads);
+      FurtherSearches further(model_, searches_);
+      if (settings_.lessons) {
+        search_on(further, threads);
+        if (inherit(donors, threads)) learn(donors, further, threads);
+      }
       if (going()) enter_relations(results_, model_, settings_, tasks_, donors);
       ended_ = going();
     }
@@ -231,11 +236,17 @@ class Computation {
     return searches_.begun_from(task, *start, learnt_from(donors, donor), best->seed, allowed);
   }
 
-  /// A limit whose lessons were stopped is no answer: a run that goes on has to ask again.
-  void stopped(std::size_t task, const std::string& place)
+  /// A limit that was stopped among what follows its starts is no answer: a run that goes on has to ask
+  /// again.
+  void stopped(std::size_t task, const std::string& message)
   {
     results_[task].status = LimitStatus::interrupted;
-    results_[task].message = fmt::format("what the state of {} leads to was not found", place);
+    results_[task].message = message;
+  }
+
+  void stopped_before(std::size_t task, const std::string& place)
+  {
+    stopped(task, fmt::format("what the state of {} leads to was not found", place));
   }
 
   /// The same of the tasks of lessons.
@@ -247,6 +258,39 @@ class Computation {
       needed.push_back(donors.task(donor));
     }
     searches_.find_states(needed, threads);
+  }
+
+  /// Limits whose searches do not agree have more of them.
+  void search_on(FurtherSearches& further, unsigned threads)
+  {
+    const std::vector<std::size_t> undecided = further.undecided(results_);
+    if (going()) searches_.find_states(undecided, threads);
+    const std::vector<FurtherSearch> starts = further.from_rest(undecided);
+    total_ += starts.size();
+    if (observer_.on_start && !starts.empty()) observer_.on_start(done_, total_);
+    std::vector<Attempt> found(starts.size());
+    parallel_for(starts.size(), threads, [&](std::size_t i) {
+      if (!going()) return;
+      found[i] = searches_.attempt(starts[i].task, starts[i].number);
+      const std::lock_guard lock(mutex_);
+      ++done_;
+      if (observer_.on_start) observer_.on_start(done_, total_);
+    });
+    if (!going()) {
+      for (const std::size_t k : undecided)
+        stopped(k, "its searches do not agree, and further ones were not done");
+      return;
+    }
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      searches_.enter(starts[i].task, starts[i].number, found[i]);
+    for (const std::size_t k : undecided) look_again(k);
+  }
+
+  /// The result of a task that has found more than its starts.
+  void look_again(std::size_t task)
+  {
+    searches_.of(task).learning = true;
+    results_[task] = searches_.result_of(task, [this] { return going(); });
   }
 
   /// Each limit begins once more from every state that is given for it. False: interrupted.
@@ -275,15 +319,14 @@ class Computation {
     if (!going()) {
       // Also where scenes were not solved that would have given a state.
       for (std::size_t k = 0; k < asked_; ++k)
-        if (within_.inherits(k)) stopped(k, "a scene that this one contains");
-      for (const auto& [k, from] : items) stopped(k, from->origin);
+        if (within_.inherits(k)) stopped_before(k, "a scene that this one contains");
+      for (const auto& [k, from] : items) stopped_before(k, from->origin);
       return false;
     }
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::size_t k = items[i].first;
       if (found[i]) searches_.of(k).further.push_back(std::move(*found[i]));
-      searches_.of(k).learning = true;
-      results_[k] = searches_.result_of(k, [this] { return going(); });
+      look_again(k);
     }
     return true;
   }
@@ -291,7 +334,7 @@ class Computation {
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
   /// loads beside its own, as long as these come to new ones.
-  void learn(const Donors& donors, unsigned threads)
+  void learn(const Donors& donors, FurtherSearches& further_searches, unsigned threads)
   {
     Lessons rounds(asked_, donors.count(), further_than(settings_));
     Walks walks(donors.starting_points(asked_, settings_.contact));
@@ -310,7 +353,8 @@ class Computation {
     for (int round = 1;; ++round) {
       std::vector<Lesson> lessons = rounds.next(own, given);
       const bool further = !lessons.empty();
-      if (!further) {
+      // Scenes within are solved for states to begin from: folding again finds as many for less.
+      if (!further && settings_.inherit) {
         lessons = walks.next(
             [&](std::size_t donor) {
               const std::size_t k = donors.task(donor);
@@ -318,7 +362,10 @@ class Computation {
             },
             further_than(settings_));
       }
-      if (lessons.empty()) return;
+      if (lessons.empty()) {
+        if (!refold(further_searches, round, threads)) return;
+        continue;
+      }
       find_states(donors, lessons, threads);
       std::vector<std::optional<FoundState>> found(lessons.size());
       std::size_t done = 0;
@@ -330,16 +377,46 @@ class Computation {
         if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
       });
       if (!going()) {
-        for (const auto& [task, donor] : lessons) stopped(task, learnt_from(donors, donor));
+        for (const auto& [task, donor] : lessons) stopped_before(task, learnt_from(donors, donor));
         return;
       }
       for (std::size_t i = 0; i < lessons.size(); ++i) {
         const std::size_t task = lessons[i].learner;
         if (found[i]) searches_.of(task).further.push_back(std::move(*found[i]));
-        searches_.of(task).learning = true;
-        results_[task] = searches_.result_of(task, [this] { return going(); });
+        look_again(task);
       }
     }
+  }
+
+  /// Limits are folded again by random loads from their furthest states. Returns whether any came further, so
+  /// that others may learn from it and it is folded again from there.
+  bool refold(FurtherSearches& further, int round, unsigned threads)
+  {
+    const std::vector<std::size_t> learners = further.unfolded(results_);
+    if (going()) searches_.find_states(learners, threads);
+    const std::vector<FurtherSearch> loads = further.refolds(learners);
+    std::vector<std::optional<FoundState>> found(loads.size());
+    std::size_t done = 0;
+    if (observer_.on_lesson && !loads.empty()) observer_.on_lesson(round, done, loads.size());
+    parallel_for(loads.size(), threads, [&](std::size_t i) {
+      if (going()) found[i] = searches_.refolded(loads[i].task, *loads[i].from, loads[i].number);
+      const std::lock_guard lock(mutex_);
+      ++done;
+      if (observer_.on_lesson) observer_.on_lesson(round, done, loads.size());
+    });
+    if (!going()) {
+      for (const std::size_t k : learners)
+        stopped(k, "what random loads from its furthest state lead to was not found");
+      return false;
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      const std::size_t k = loads[i].task;
+      if (found[i] && searches_.enter_if_further(k, std::move(*found[i]), further.refolded_from(k)))
+        any = true;
+    }
+    for (const std::size_t k : learners) look_again(k);
+    return any;
   }
 
   /// Starts that were done before an interrupt are worth keeping, as far as a moment suffices to report them

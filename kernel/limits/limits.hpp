@@ -92,6 +92,13 @@ Locked limit_from_start(const Model& model, const LimitTask& task, const LimitSe
 Locked limit_from_random_load(const Model& model, const LimitTask& task, const LimitSettings& settings,
                               int number, const KeepGoing& keep_going);
 
+/// The same from a locked state, mostly the furthest that is known, with a random load of that seed: a
+/// search that begins there comes to folds that none from rest comes to (monotonic basin hopping, R. H.
+/// Leary, Global optimization on funneling landscapes, J. Global Optimization 18, 2000). Not locked where
+/// contact does not stop the random load.
+Locked limit_refolded(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                      const State& from, std::uint64_t seed, const KeepGoing& keep_going);
+
 /// Beginning of the origin of states that began from another limit's.
 inline constexpr const char* learnt_origin = "from ";
 

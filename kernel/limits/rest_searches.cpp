@@ -13,6 +13,9 @@ namespace {
 /// Elements of the largest cell that has all LimitSettings::fold_starts.
 constexpr int cell_of_all_starts = 4;
 
+/// LimitSettings::fold_starts that follow where those before do not agree.
+constexpr std::size_t times_further = 2;
+
 /// Starts of a taut limit that begins again, at least, in cells of so many elements at most: a large
 /// perturbation at times leads further than the small one of the first.
 constexpr int taut_starts = 2, cell_of_taut_starts = 16;
@@ -57,7 +60,9 @@ RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSet
     out.sparing_from = static_cast<std::size_t>(starts);
   }
   if (!may_fold(model, task)) return out;
-  fold(out, model, std::max(starts, fold_starts(model, settings)));
+  const int folds = fold_starts(model, settings);
+  fold(out, model, std::max(starts, folds));
+  if (folds > 1) out.further_starts = times_further * static_cast<std::size_t>(folds);
   return out;
 }
 

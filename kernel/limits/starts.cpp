@@ -99,6 +99,33 @@ Vector random_load(const Model& m, const Vector& load, std::uint64_t seed)
   return size(load) / size(out) * out;
 }
 
+/// Where the widest stage of a random load leads.
+Locked folded_by_random_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                             const State& from, std::uint64_t seed, const KeepGoing& keep_going)
+{
+  Schedule widest = settings.schedule;
+  widest.last = widest.first;
+  widest.last_tolerance = widest.tolerance;
+  widest.target = std::numeric_limits<double>::infinity();
+  const Vector load = random_load(m, macro_load(m, task.direction, task.sense).pull, seed);
+  return hauberk::lock(m, from, load, settings.contact, widest, keep_going);
+}
+
+Locked lock_from(const Model& m, const LimitTask& task, const LimitSettings& settings, const State& from,
+                 const KeepGoing& keep_going)
+{
+  return hauberk::lock(m, from, macro_load(m, task.direction, task.sense), settings.contact,
+                       settings.schedule, keep_going);
+}
+
+/// `found`, which went on from `folded`, with the work of both.
+Locked with_cost_of(const Locked& folded, Locked found)
+{
+  found.iterations += folded.iterations;
+  found.evaluations += folded.evaluations;
+  return found;
+}
+
 }  // namespace
 
 Locked limit_from_random_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
@@ -106,20 +133,19 @@ Locked limit_from_random_load(const Model& m, const LimitTask& task, const Limit
 {
   const std::uint64_t seed = settings.seed + static_cast<std::uint64_t>(number);
   const State from = perturbed(m, start_state(m, settings), settings.perturbation, seed, Copies::apart);
-  const MacroLoad load = macro_load(m, task.direction, task.sense);
-  Schedule widest = settings.schedule;
-  widest.last = widest.first;
-  widest.last_tolerance = widest.tolerance;
-  widest.target = std::numeric_limits<double>::infinity();
-  const Locked folded =
-      hauberk::lock(m, from, random_load(m, load.pull, seed), settings.contact, widest, keep_going);
+  const Locked folded = folded_by_random_load(m, task, settings, from, seed, keep_going);
   if (folded.status == LockStatus::interrupted) return folded;
-  Locked out = folded.status == LockStatus::locked
-                   ? hauberk::lock(m, folded.state, load, settings.contact, settings.schedule, keep_going)
-                   : limit_from_start(m, task, settings, number, keep_going);
-  out.iterations += folded.iterations;
-  out.evaluations += folded.evaluations;
-  return out;
+  return with_cost_of(folded, folded.status == LockStatus::locked
+                                  ? lock_from(m, task, settings, folded.state, keep_going)
+                                  : limit_from_start(m, task, settings, number, keep_going));
+}
+
+Locked limit_refolded(const Model& m, const LimitTask& task, const LimitSettings& settings, const State& from,
+                      std::uint64_t seed, const KeepGoing& keep_going)
+{
+  Locked folded = folded_by_random_load(m, task, settings, from, seed, keep_going);
+  if (folded.status != LockStatus::locked) return folded;
+  return with_cost_of(folded, lock_from(m, task, settings, folded.state, keep_going));
 }
 
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,

@@ -18,6 +18,7 @@ TaskSearches::TaskSearches(const Model& model, const SceneSpec& spec, const std:
     TaskState& state = states_.emplace_back();
     state.narrow = searches.narrow;
     state.random_loads = searches.random_loads;
+    state.further_starts = searches.further_starts;
     state.sparing_from = searches.sparing_from;
     state.starts.resize(searches.starts);
     state.missing = searches.starts;
@@ -271,6 +272,52 @@ std::optional<FoundState> TaskSearches::begun_from(std::size_t task, const State
     problem = fmt::format("from the state of {}: {}", place, failure.what());
   }
   const std::lock_guard lock(begun_again_);  // a task may have two lessons at a time
+  if (!problem.empty()) states_[task].remark = std::move(problem);
+  states_[task].seconds += seconds;
+  return out;
+}
+
+void TaskSearches::enter(std::size_t task, std::size_t start, const Attempt& found)
+{
+  TaskState& t = states_[task];
+  t.seconds += found.seconds;
+  if (!found.error.empty()) t.error = found.error;
+  if (found.locked) t.further.push_back({*found.locked, "start", settings_.seed + start});
+}
+
+bool TaskSearches::enter_if_further(std::size_t task, FoundState found, double than)
+{
+  TaskState& t = states_[task];
+  const Locked& l = found.locked;
+  if (l.status == LockStatus::locked &&
+      reached(model_, tasks_[task], l.state) > than + further_than(settings_)) {
+    t.further.push_back(std::move(found));
+    return true;
+  }
+  t.iterations += l.iterations;
+  t.evaluations += l.evaluations;
+  return false;
+}
+
+std::optional<FoundState> TaskSearches::refolded(std::size_t task, const State& furthest, std::size_t number)
+{
+  const std::uint64_t seed = settings_.seed + number;
+  std::optional<FoundState> out;
+  std::string problem;
+  double seconds = 0.0;
+  try {
+    const std::string name =
+        fmt::format("limit {} random load {} from {}", task, seed, name_of_state(furthest));
+    out = FoundState{searched(name, seconds,
+                              [&] {
+                                return limit_refolded(model_, tasks_[task], settings_, furthest, seed,
+                                                      [this] { return going(); });
+                              }),
+                     "random load", seed};
+  } catch (const std::exception& failure) {
+    problem = fmt::format("under a random load: {}", failure.what());
+  }
+  const std::lock_guard lock(begun_again_);
   if (!problem.empty()) states_[task].remark = std::move(problem);
   states_[task].seconds += seconds;
   return out;

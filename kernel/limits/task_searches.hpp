@@ -34,6 +34,7 @@ struct TaskState {
   std::size_t missing = 0;          ///< starts not done
   std::size_t sparing_from = 0;     ///< RestSearches::sparing_from
   std::size_t random_loads = 0;     ///< RestSearches::random_loads
+  std::size_t further_starts = 0;   ///< RestSearches::further_starts
   bool narrow = false;              ///< it may fold: the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
   bool learning = false;            ///< others have taught it something, or have begun to
@@ -71,7 +72,7 @@ class TaskSearches {
   /// not there.
   void find_allowance(unsigned threads);
 
-  /// One start of a task; it is not entered.
+  /// One start of a task, also beyond those that it begins with; it is not entered.
   Attempt attempt(std::size_t task, std::size_t start) const;
 
   /// Where a task locks under the k-th of its tilted loads. `seconds` grows by what it took.
@@ -85,6 +86,16 @@ class TaskSearches {
   /// was known before stands. `allowed`: evaluations that it may have; null: as many as it takes.
   std::optional<FoundState> begun_from(std::size_t task, const State& from, const std::string& place,
                                        std::uint64_t seed, std::optional<long> allowed = std::nullopt);
+
+  /// Locked state of a task from where a random load leads from its furthest one, of that number beyond the
+  /// seed of the settings; null: it threw, which the task remarks.
+  std::optional<FoundState> refolded(std::size_t task, const State& furthest, std::size_t number);
+
+  /// Enters a start beyond those that a task begins with.
+  void enter(std::size_t task, std::size_t start, const Attempt& found);
+
+  /// Enters what is further than `than` (scaled, towards the task's sense), and of the rest what it took.
+  bool enter_if_further(std::size_t task, FoundState found, double than);
 
   /// Searches again those of the tasks whose results came with the call.
   void find_states(const std::vector<std::size_t>& needed, unsigned threads);

@@ -92,7 +92,7 @@ void Progress::limits(const std::string& label, std::size_t done, std::size_t to
 void Progress::lessons(const std::string& label, int round, std::size_t done, std::size_t total)
 {
   line(false, [&](bool) {
-    return fmt::format("{}: learning from each other, round {}, {}/{}", label, round, done, total);
+    return fmt::format("{}: going on from locked states, round {}, {}/{}", label, round, done, total);
   });
 }
 

@@ -7,6 +7,7 @@
 #include "model/held_model.hpp"
 #include "model/links.hpp"
 #include "symmetric_scenes.hpp"
+#include "thin_sheet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,6 @@ using Hold = InPlanePeriodic::Hold;
 using Out = InPlanePeriodic::OutOfPlane;
 
 constexpr Hold held_nothing{false, false}, held_shear{true, false};
-const KeepGoing uninterrupted = [] { return true; };
 
 /// A scene under an in-plane load, with neighbours at 20 degrees.
 struct Fabric {
@@ -135,29 +135,6 @@ TEST(Allowance, OfCheapSearchesIsHalfAMillion)
   EXPECT_EQ(allowance(125'000), 500'000);
   EXPECT_EQ(allowance(1'000'000), 4'000'000);
 }
-
-/// European 4-in-1 of thin wire (share/weaves, inner diameter 8, wire 0.8): the loosest sheet that hangs
-/// together.
-struct ThinSheet {
-  InPlanePeriodic load{StrainMeasure::tensor, {}, held_shear};
-  SceneSpec scene = chainmail(1, 1, 34.115, 0.4);
-  LimitTask task{Direction::at_degrees(0.0), Sense::negative};
-  LimitSettings settings;
-  Model model;
-
-  ThinSheet()
-  {
-    const Vec3 cell(11.0105246064, 5.486713848, 0.0);
-    scene.lattice = {Vec3(cell.x(), 0.0, 0.0), Vec3(0.0, cell.y(), 0.0)};
-    for (PlacedElement& e : scene.elements) {
-      e.parameters = {4.4, 0.4, 0.4};
-      if (e.rest.position.norm() > 0.0) e.rest.position = 0.5 * cell;
-    }
-    model = make_model(scene, load, 0.0);
-    settings.schedule.last = 1e-4;
-  }
-  double pushed(const Locked& found) const { return reached(model, task, found.state); }
-};
 
 /// One in three random loads folds this sheet a way that leads further than any of 40 starts from rest.
 TEST(RandomLoads, LeadToFoldsThatStartsDoNotComeTo)

@@ -1,0 +1,95 @@
+#include "limits/further_searches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hauberk {
+namespace {
+
+/// Of the searches from rest, so many have to come to the furthest state where they agree.
+constexpr double share_that_agrees = 0.25;
+
+}  // namespace
+
+bool searches_agree(const LimitResult& result)
+{
+  const Confidence& c = result.confidence;
+  if (result.status != LimitStatus::locked || !c.failed_searches.empty()) return false;
+  const bool alone = std::any_of(result.starts.begin(), result.starts.end(),
+                                 [](const LockedState& state) { return state.count == 1; });
+  return !alone && c.ended_here >= share_that_agrees * c.searches;
+}
+
+FurtherSearches::FurtherSearches(const Model& model, const TaskSearches& searches)
+    : model_(model),
+      searches_(searches),
+      agreed_(searches.asked()),
+      looked_at_(searches.asked(), false),
+      begun_(searches.asked()),
+      loads_(searches.asked(), 0),
+      furthest_(searches.asked())
+{
+}
+
+double FurtherSearches::value_of(std::size_t task, const LimitResult& result) const
+{
+  const double sign = searches_.tasks()[task].sense == Sense::positive ? 1.0 : -1.0;
+  return result.value ? sign * *result.value / std::pow(model_.length, model_.load->value_length_power())
+                      : -std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::size_t> FurtherSearches::undecided(const std::vector<LimitResult>& results)
+{
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < searches_.asked(); ++k) {
+    if (searches_.of(k).further_starts == 0 || looked_at_[k]) continue;
+    looked_at_[k] = true;
+    if (searches_agree(results[k]))
+      agreed_[k] = value_of(k, results[k]);
+    else
+      out.push_back(k);
+  }
+  return out;
+}
+
+std::vector<FurtherSearch> FurtherSearches::from_rest(const std::vector<std::size_t>& undecided) const
+{
+  std::vector<FurtherSearch> out;
+  for (const std::size_t k : undecided) {
+    const TaskState& t = searches_.of(k);
+    for (std::size_t j = 0; j < t.further_starts; ++j) out.push_back({k, t.starts.size() + j});
+  }
+  return out;
+}
+
+std::vector<std::size_t> FurtherSearches::unfolded(const std::vector<LimitResult>& results) const
+{
+  const double more = further_than(searches_.settings());
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < searches_.asked(); ++k) {
+    if (searches_.of(k).random_loads == 0 || searches_.of(k).further_starts == 0) continue;
+    if (results[k].status != LimitStatus::locked) continue;
+    const double value = value_of(k, results[k]);
+    if (agreed_[k] && value <= *agreed_[k] + more) continue;
+    if (!begun_[k] || value > *begun_[k] + more) out.push_back(k);
+  }
+  return out;
+}
+
+std::vector<FurtherSearch> FurtherSearches::refolds(const std::vector<std::size_t>& unfolded)
+{
+  std::vector<FurtherSearch> out;
+  for (const std::size_t k : unfolded) {
+    std::optional<FoundState> best = searches_.furthest_of(k);
+    if (!best) continue;
+    begun_[k] = reached(model_, searches_.tasks()[k], best->locked.state);
+    furthest_[k] = std::move(best->locked.state);
+    const TaskState& t = searches_.of(k);
+    for (std::size_t j = 0; j < t.further_starts; ++j)
+      out.push_back({k, t.starts.size() + t.further_starts + loads_[k]++, &furthest_[k]});
+  }
+  return out;
+}
+
+}  // namespace hauberk

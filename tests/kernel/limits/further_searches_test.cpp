@@ -1,0 +1,154 @@
+/// Searches beyond the first, of limits whose searches from rest do not agree.
+
+#include "limits/further_searches.hpp"
+#include "limits/search_memory.hpp"
+#include "thin_sheet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+namespace hauberk::test {
+namespace {
+
+/// A result of searches that ended so often in each of some states, the furthest first.
+LimitResult ended(const std::vector<int>& counts, int failed = 0)
+{
+  LimitResult out;
+  out.status = LimitStatus::locked;
+  out.value = -0.5;
+  for (const int count : counts) {
+    LockedState state;
+    state.count = count;
+    out.starts.push_back(state);
+    out.confidence.searches += count;
+  }
+  out.confidence.ended_here = counts.front();
+  out.confidence.searches += failed;
+  out.confidence.failed_searches.resize(static_cast<std::size_t>(failed));
+  return out;
+}
+
+TEST(SearchesAgree, WhereNoStateWasSeenOnceAndTheFurthestOften)
+{
+  EXPECT_TRUE(searches_agree(ended({25})));
+  EXPECT_TRUE(searches_agree(ended({7, 18})));
+  EXPECT_FALSE(searches_agree(ended({6, 19}))) << "less than a quarter";
+  EXPECT_FALSE(searches_agree(ended({24, 1}))) << "a state that one search alone came to";
+  EXPECT_FALSE(searches_agree(ended({1})));
+  EXPECT_FALSE(searches_agree(ended({24}, 1))) << "what a failed search would have come to is not known";
+  LimitResult none = ended({25});
+  none.status = LimitStatus::unbounded;
+  EXPECT_FALSE(searches_agree(none));
+}
+
+/// What agrees is left, until others lead it further; what does not has starts of new numbers once, and
+/// random loads, of new seeds, from every state that it comes to.
+TEST(FurtherSearches, AreOfLimitsThatDoNotAgree)
+{
+  const ThinSheet s;
+  LimitSettings settings = s.settings;
+  const LimitsObserver observer;
+  TaskSearches searches(s.model, s.scene, {s.task}, settings, observer);
+  ASSERT_EQ(searches.of(0).starts.size(), 25U);
+
+  FurtherSearches settled(s.model, searches);
+  std::vector<LimitResult> results{ended({25})};
+  EXPECT_TRUE(settled.undecided(results).empty());
+  EXPECT_TRUE(settled.unfolded(results).empty());
+  results[0].value = -0.6;
+  EXPECT_EQ(settled.unfolded(results), std::vector<std::size_t>{0});
+
+  FurtherSearches open(s.model, searches);
+  results[0] = ended({20, 4, 1});
+  ASSERT_EQ(open.undecided(results), std::vector<std::size_t>{0});
+  std::set<std::size_t> numbers;
+  for (const FurtherSearch& search : open.from_rest({0})) {
+    EXPECT_EQ(search.from, nullptr);
+    numbers.insert(search.number);
+  }
+  EXPECT_EQ(numbers.size(), 24U);
+  EXPECT_EQ(*numbers.begin(), 25U) << "the first numbers are those of the starts before";
+  EXPECT_TRUE(open.undecided(results).empty()) << "once";
+
+  Attempt found;
+  found.locked.emplace();
+  found.locked->status = LockStatus::locked;
+  found.locked->state = rest_state(s.model);
+  searches.enter(0, 25, found);
+  for (const int round : {1, 2}) {
+    ASSERT_EQ(open.unfolded(results), std::vector<std::size_t>{0});
+    const std::vector<FurtherSearch> loads = open.refolds({0});
+    EXPECT_EQ(loads.size(), 24U);
+    for (const FurtherSearch& load : loads) {
+      ASSERT_NE(load.from, nullptr);
+      EXPECT_TRUE(numbers.insert(load.number).second) << "round " << round << " repeats " << load.number;
+    }
+    results[0].value = -open.refolded_from(0);
+    EXPECT_TRUE(open.unfolded(results).empty()) << "nothing further is known";
+    results[0].value = -0.6;
+  }
+}
+
+/// Names of searches, with how far each came.
+class Names final : public SearchMemory {
+ public:
+  std::optional<KnownSearch> recall(const std::string&) override { return std::nullopt; }
+  void record(const std::string& name, const Locked& locked, double) override { found[name] = locked; }
+  std::map<std::string, Locked> found;
+};
+
+/// From where starts end most of this sheet's random loads lead further, as they do from rest; all of their
+/// work is told, and a search that is interrupted says so.
+TEST(Refolding, LeadsOnFromALockedState)
+{
+  const ThinSheet s;
+  const Locked start = limit_from_start(s.model, s.task, s.settings, 0, uninterrupted);
+  ASSERT_EQ(start.status, LockStatus::locked);
+  double furthest = 0.0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Locked found = limit_refolded(s.model, s.task, s.settings, start.state, seed, uninterrupted);
+    if (found.status != LockStatus::locked) continue;
+    furthest = std::max(furthest, s.pushed(found));
+    int finished = 0;
+    for (const StageRecord& stage : found.stages) finished += stage.iterations;
+    EXPECT_GT(found.iterations, finished) << "the random load's own steps too";
+  }
+  EXPECT_LT(s.pushed(start), 0.61);
+  EXPECT_NEAR(furthest, 0.62667, 1e-4);
+  long left = 20;
+  EXPECT_EQ(
+      limit_refolded(s.model, s.task, s.settings, start.state, 1, [&left] { return left-- > 0; }).status,
+      LockStatus::interrupted);
+}
+
+/// A limit that is asked for goes on where its searches do not agree, and its result counts them.
+TEST(Refolding, IsPartOfALimit)
+{
+  const ThinSheet s;
+  Names names;
+  LimitsObserver observer;
+  observer.memory = &names;
+  const LimitResult r = compute_limits(s.model, s.scene, {s.task}, s.settings, 1, observer)[0];
+  const auto named = [&names](const std::string& part) {
+    return std::count_if(names.found.begin(), names.found.end(), [&part](const auto& search) {
+      return search.first.starts_with("limit 0") && search.first.find(part) != std::string::npos;
+    });
+  };
+  EXPECT_EQ(named(" start "), 12 + 24);
+  EXPECT_EQ(named(" random load ") % 24, 12) << "from rest, and from every furthest state";
+  EXPECT_GT(named(" from "), 0);
+  EXPECT_GE(r.confidence.searches, 25 + 24);
+  for (const auto& [name, locked] : names.found) {
+    const bool from_rest = name.starts_with("limit 0") && name.find(" from ") == std::string::npos;
+    if (from_rest && locked.status == LockStatus::locked) {
+      EXPECT_LE(s.pushed(locked), -*r.value + 1e-6) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hauberk::test

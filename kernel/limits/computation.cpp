@@ -263,6 +263,13 @@ class Computation {
   /// Limits whose searches do not agree have more of them.
   void search_on(FurtherSearches& further, unsigned threads)
   {
+    // Results that came with the call tell whether starts agree as long as nothing else was learnt.
+    std::vector<std::size_t> learnt;
+    for (std::size_t k = 0; k < asked_; ++k)
+      if (further.may_go_on(k) && searches_.of(k).known && results_[k].confidence.is_final())
+        learnt.push_back(k);
+    if (going()) searches_.find_states(learnt, threads);
+    for (const std::size_t k : learnt) look_again(k);
     const std::vector<std::size_t> undecided = further.undecided(results_);
     if (going()) searches_.find_states(undecided, threads);
     const std::vector<FurtherSearch> starts = further.from_rest(undecided);
@@ -331,13 +338,23 @@ class Computation {
     return true;
   }
 
+  /// Who walks from where. In scenes within, which are solved for states to begin from, folding a compression
+  /// again finds as many for less.
+  std::vector<Lesson> beside(const Donors& donors) const
+  {
+    std::vector<Lesson> out = donors.starting_points(asked_, settings_.contact);
+    if (!settings_.inherit)
+      std::erase_if(out, [this](const Lesson& lesson) { return may_fold(model_, tasks_[lesson.learner]); });
+    return out;
+  }
+
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
   /// loads beside its own, as long as these come to new ones.
   void learn(const Donors& donors, FurtherSearches& further_searches, unsigned threads)
   {
     Lessons rounds(asked_, donors.count(), further_than(settings_));
-    Walks walks(donors.starting_points(asked_, settings_.contact));
+    Walks walks(beside(donors));
     const auto own = [&](std::size_t k) -> std::optional<double> {
       const LimitStatus status = results_[k].status;
       const std::size_t self = donors.own(k);
@@ -353,8 +370,7 @@ class Computation {
     for (int round = 1;; ++round) {
       std::vector<Lesson> lessons = rounds.next(own, given);
       const bool further = !lessons.empty();
-      // Scenes within are solved for states to begin from: folding again finds as many for less.
-      if (!further && settings_.inherit) {
+      if (!further) {
         lessons = walks.next(
             [&](std::size_t donor) {
               const std::size_t k = donors.task(donor);

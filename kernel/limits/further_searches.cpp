@@ -43,7 +43,7 @@ std::vector<std::size_t> FurtherSearches::undecided(const std::vector<LimitResul
 {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < searches_.asked(); ++k) {
-    if (searches_.of(k).further_starts == 0 || looked_at_[k]) continue;
+    if (!may_go_on(k) || looked_at_[k]) continue;
     looked_at_[k] = true;
     if (searches_agree(results[k]))
       agreed_[k] = value_of(k, results[k]);
@@ -68,7 +68,7 @@ std::vector<std::size_t> FurtherSearches::unfolded(const std::vector<LimitResult
   const double more = further_than(searches_.settings());
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < searches_.asked(); ++k) {
-    if (searches_.of(k).random_loads == 0 || searches_.of(k).further_starts == 0) continue;
+    if (searches_.of(k).random_loads == 0 || !may_go_on(k)) continue;
     if (results[k].status != LimitStatus::locked) continue;
     const double value = value_of(k, results[k]);
     if (agreed_[k] && value <= *agreed_[k] + more) continue;

@@ -34,6 +34,9 @@ class FurtherSearches {
   /// `searches` outlives it; of its tasks those that are asked for are searched on.
   FurtherSearches(const Model& model, const TaskSearches& searches);
 
+  /// Whether this is of a task that may be searched on.
+  bool may_go_on(std::size_t task) const { return searches_.of(task).further_starts > 0; }
+
   /// Tasks that have not been searched on from rest and whose searches do not agree; once for each.
   std::vector<std::size_t> undecided(const std::vector<LimitResult>& results);
   /// Their starts from rest.

@@ -299,6 +299,14 @@ TEST(WeaveFiles, MistakesAreReported)
       after("\"chain\"", "\"japanese_4in2\""),
       ":1: /cell/weave/name: no weave 'japanese_4in2'; did you mean 'japanese_4in1'?; the library has chain, "
       "european_4in1, european_6in1, fourfold, japanese_4in1, japanese_6in1, threefold\n");
+  // Beside it, what else is wrong with the file.
+  const std::string both =
+      run_program({"check", folder.write("w.json", with(with(good, "\"chain\"", "\"chian\""),
+                                                        "directions_deg", "directions_dg"))})
+          .err;
+  EXPECT_NE(both.find("no weave 'chian'; did you mean 'chain'?"), std::string::npos) << both;
+  EXPECT_NE(both.find("/load_case/directions_dg: "), std::string::npos) << both;
+  EXPECT_EQ(std::count(both.begin(), both.end(), '\n'), 2) << both;
   EXPECT_EQ(after("{} }", R"({ "wire": 1 } })"),
             ":1: /cell/weave/parameters/wire: the weave has no parameter 'wire'; known: 'inner_diameter', "
             "'wire_diameter'\n");

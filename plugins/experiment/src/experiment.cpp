@@ -37,6 +37,17 @@ void read_task(const Node& root, TaskFormats formats, Problems& problems, Experi
     problems.add(root, "missing key '" + experiment.task + "': task " + experiment.task + " needs it");
 }
 
+/// Where a weave cannot be expanded, what is wrong with all that it does not bring is told all the same.
+void add_apart_from_weave(Node root, const Field& fields, const ExtraFieldsOf& extra, Problems& problems)
+{
+  Problems found;
+  check_fields(root, fields, found, extra);
+  for (const Problem& problem : found.list())
+    if (!problem.pointer.starts_with("/cell") && !problem.pointer.starts_with("/elements") &&
+        !problem.pointer.empty())
+      problems.add(problem);
+}
+
 /// Of contact mesh: what the paper compares with.
 constexpr int default_facets = 20;
 
@@ -156,8 +167,6 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
                   [&root](const TaskFormat& f) { return f.makes_variants && root->find(f.name) != nullptr; });
   const VariantBase base = has_variants ? variant_base(*root, lookups) : VariantBase{};
   put_values(*root, problems);
-  if (!expand_weave(*root, lookups.weaves, problems)) return std::nullopt;
-
   std::set<std::string> plugin_files;
   PluginResolver plugins(
       lookups.plugins, lookups.folder,
@@ -169,7 +178,12 @@ std::optional<Experiment> read_tree(Node given, const Lookups& lookups, Diagnost
   const ExtraFieldsOf extra = [&](const Field& field, const Node& object, Problems& found) {
     return plugins.extra_fields(field, object, found);
   };
-  if (!check_fields(*root, expanded_fields(lookups.formats), problems, extra)) return std::nullopt;
+  const Field fields = expanded_fields(lookups.formats);
+  if (!expand_weave(*root, lookups.weaves, problems)) {
+    add_apart_from_weave(std::move(*root), fields, extra, problems);
+    return std::nullopt;
+  }
+  if (!check_fields(*root, fields, problems, extra)) return std::nullopt;
   if (well_formed) *well_formed = problems.empty();
 
   Experiment experiment;

@@ -45,6 +45,8 @@ std::vector<std::size_t> FurtherSearches::undecided(const std::vector<LimitResul
   for (std::size_t k = 0; k < searches_.asked(); ++k) {
     if (!may_go_on(k) || looked_at_[k]) continue;
     looked_at_[k] = true;
+    const LimitStatus status = results[k].status;
+    if (status == LimitStatus::unbounded || status == LimitStatus::not_attained) continue;
     if (searches_agree(results[k]))
       agreed_[k] = value_of(k, results[k]);
     else

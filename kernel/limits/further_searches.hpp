@@ -37,7 +37,8 @@ class FurtherSearches {
   /// Whether this is of a task that may be searched on.
   bool may_go_on(std::size_t task) const { return searches_.of(task).further_starts > 0; }
 
-  /// Tasks that have not been searched on from rest and whose searches do not agree; once for each.
+  /// Tasks that have not been searched on from rest and whose searches do not agree; once for each. None that
+  /// nothing stops: others would say no more.
   std::vector<std::size_t> undecided(const std::vector<LimitResult>& results);
   /// Their starts from rest.
   std::vector<FurtherSearch> from_rest(const std::vector<std::size_t>& undecided) const;

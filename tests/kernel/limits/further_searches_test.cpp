@@ -74,6 +74,12 @@ TEST(FurtherSearches, AreOfLimitsThatDoNotAgree)
   EXPECT_EQ(*numbers.begin(), 25U) << "the first numbers are those of the starts before";
   EXPECT_TRUE(open.undecided(results).empty()) << "once";
 
+  FurtherSearches endless(s.model, searches);
+  std::vector<LimitResult> unbounded = results;
+  unbounded[0].status = LimitStatus::unbounded;
+  EXPECT_TRUE(endless.undecided(unbounded).empty()) << "nothing stops it, whatever else is searched";
+  EXPECT_TRUE(endless.unfolded(unbounded).empty());
+
   Attempt found;
   found.locked.emplace();
   found.locked->status = LockStatus::locked;

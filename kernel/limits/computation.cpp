@@ -338,23 +338,13 @@ class Computation {
     return true;
   }
 
-  /// Who walks from where. In scenes within, which are solved for states to begin from, folding a compression
-  /// again finds as many for less.
-  std::vector<Lesson> beside(const Donors& donors) const
-  {
-    std::vector<Lesson> out = donors.starting_points(asked_, settings_.contact);
-    if (!settings_.inherit)
-      std::erase_if(out, [this](const Lesson& lesson) { return may_fold(model_, tasks_[lesson.learner]); });
-    return out;
-  }
-
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
   /// loads beside its own, as long as these come to new ones.
   void learn(const Donors& donors, FurtherSearches& further_searches, unsigned threads)
   {
     Lessons rounds(asked_, donors.count(), further_than(settings_));
-    Walks walks(beside(donors));
+    Walks walks(donors.starting_points(asked_, settings_.contact));
     const auto own = [&](std::size_t k) -> std::optional<double> {
       const LimitStatus status = results_[k].status;
       const std::size_t self = donors.own(k);

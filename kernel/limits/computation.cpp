@@ -338,6 +338,20 @@ class Computation {
     return true;
   }
 
+  /// Searches that begin from locked states, which is told as they are done.
+  template <class Search>
+  void in_a_round(int round, std::size_t count, unsigned threads, const Search& search)
+  {
+    std::size_t done = 0;
+    if (observer_.on_lesson && count > 0) observer_.on_lesson(round, done, count);
+    parallel_for(count, threads, [&](std::size_t i) {
+      if (going()) search(i);
+      const std::lock_guard lock(mutex_);
+      ++done;
+      if (observer_.on_lesson) observer_.on_lesson(round, done, count);
+    });
+  }
+
   /// Limits learn from each other: rounds in which each begins once more from the furthest state that any
   /// other, or a symmetric image of one, has for it; where nothing further is known, from the states of the
   /// loads beside its own, as long as these come to new ones.
@@ -374,13 +388,8 @@ class Computation {
       }
       find_states(donors, lessons, threads);
       std::vector<std::optional<FoundState>> found(lessons.size());
-      std::size_t done = 0;
-      if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
-      parallel_for(lessons.size(), threads, [&](std::size_t i) {
-        if (going()) found[i] = taught(donors, lessons[i].learner, lessons[i].donor, further);
-        const std::lock_guard lock(mutex_);
-        ++done;
-        if (observer_.on_lesson) observer_.on_lesson(round, done, lessons.size());
+      in_a_round(round, lessons.size(), threads, [&](std::size_t i) {
+        found[i] = taught(donors, lessons[i].learner, lessons[i].donor, further);
       });
       if (!going()) {
         for (const auto& [task, donor] : lessons) stopped_before(task, learnt_from(donors, donor));
@@ -402,13 +411,8 @@ class Computation {
     if (going()) searches_.find_states(learners, threads);
     const std::vector<FurtherSearch> loads = further.refolds(learners);
     std::vector<std::optional<FoundState>> found(loads.size());
-    std::size_t done = 0;
-    if (observer_.on_lesson && !loads.empty()) observer_.on_lesson(round, done, loads.size());
-    parallel_for(loads.size(), threads, [&](std::size_t i) {
-      if (going()) found[i] = searches_.refolded(loads[i].task, *loads[i].from, loads[i].number);
-      const std::lock_guard lock(mutex_);
-      ++done;
-      if (observer_.on_lesson) observer_.on_lesson(round, done, loads.size());
+    in_a_round(round, loads.size(), threads, [&](std::size_t i) {
+      found[i] = searches_.refolded(loads[i].task, *loads[i].from, loads[i].number);
     });
     if (!going()) {
       for (const std::size_t k : learners)

@@ -29,12 +29,6 @@ std::string name_of(LockStatus status)
 
 double scale_of(const Model& m) { return std::pow(m.length, m.load->value_length_power()); }
 
-/// The value of a result towards its sense, scaled.
-double towards(const Model& m, const LimitTask& task, const LimitResult& r)
-{
-  return (task.sense == Sense::positive ? *r.value : -*r.value) / scale_of(m);
-}
-
 /// What a reported value may be off by, scaled.
 double uncertainty(const Model& m, const LimitSettings& settings, const LimitResult& r)
 {
@@ -96,7 +90,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     LimitResult& own = results[k];
     if (own.status != LimitStatus::locked || !own.value) continue;
-    const double value = towards(m, tasks[k], own);
+    const double value = reached(m, tasks[k], own);
     double most = 0.0;  // by which any state is further
     std::string furthest;
     for (std::size_t donor = 0; donor < donors.count(); ++donor) {
@@ -108,7 +102,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
       const double margin = compared_to + uncertainty(m, settings, own) + uncertainty(m, settings, other);
       std::optional<double> there;
       if (donors.same_load(donor, tasks[k])) {
-        there = towards(m, tasks[d], other);
+        there = reached(m, tasks[d], other);
       } else {
         Vector macro(m.macro_count);
         for (int i = 0; i < m.macro_count; ++i) {

@@ -1,8 +1,6 @@
 #include "limits/further_searches.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace hauberk {
 namespace {
@@ -25,30 +23,21 @@ FurtherSearches::FurtherSearches(const Model& model, const TaskSearches& searche
     : model_(model),
       searches_(searches),
       agreed_(searches.asked()),
-      looked_at_(searches.asked(), false),
       begun_(searches.asked()),
       loads_(searches.asked(), 0),
       furthest_(searches.asked())
 {
 }
 
-double FurtherSearches::value_of(std::size_t task, const LimitResult& result) const
-{
-  const double sign = searches_.tasks()[task].sense == Sense::positive ? 1.0 : -1.0;
-  return result.value ? sign * *result.value / std::pow(model_.length, model_.load->value_length_power())
-                      : -std::numeric_limits<double>::infinity();
-}
-
 std::vector<std::size_t> FurtherSearches::undecided(const std::vector<LimitResult>& results)
 {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < searches_.asked(); ++k) {
-    if (!may_go_on(k) || looked_at_[k]) continue;
-    looked_at_[k] = true;
+    if (!may_go_on(k)) continue;
     const LimitStatus status = results[k].status;
     if (status == LimitStatus::unbounded || status == LimitStatus::not_attained) continue;
     if (searches_agree(results[k]))
-      agreed_[k] = value_of(k, results[k]);
+      agreed_[k] = reached(model_, searches_.tasks()[k], results[k]);
     else
       out.push_back(k);
   }
@@ -72,7 +61,7 @@ std::vector<std::size_t> FurtherSearches::unfolded(const std::vector<LimitResult
   for (std::size_t k = 0; k < searches_.asked(); ++k) {
     if (searches_.of(k).random_loads == 0 || !may_go_on(k)) continue;
     if (results[k].status != LimitStatus::locked) continue;
-    const double value = value_of(k, results[k]);
+    const double value = reached(model_, searches_.tasks()[k], results[k]);
     if (agreed_[k] && value <= *agreed_[k] + more) continue;
     if (!begun_[k] || value > *begun_[k] + more) out.push_back(k);
   }

@@ -37,8 +37,8 @@ class FurtherSearches {
   /// Whether this is of a task that may be searched on.
   bool may_go_on(std::size_t task) const { return searches_.of(task).further_starts > 0; }
 
-  /// Tasks that have not been searched on from rest and whose searches do not agree; once for each. None that
-  /// nothing stops: others would say no more.
+  /// Tasks whose searches from rest do not agree, by the results of these. None that nothing stops: others
+  /// would say no more.
   std::vector<std::size_t> undecided(const std::vector<LimitResult>& results);
   /// Their starts from rest.
   std::vector<FurtherSearch> from_rest(const std::vector<std::size_t>& undecided) const;
@@ -53,12 +53,9 @@ class FurtherSearches {
   double refolded_from(std::size_t task) const { return *begun_[task]; }
 
  private:
-  double value_of(std::size_t task, const LimitResult& result) const;
-
   const Model& model_;
   const TaskSearches& searches_;
   std::vector<std::optional<double>> agreed_;  ///< the value that the first searches agreed on
-  std::vector<bool> looked_at_;                ///< by `undecided`, once
   std::vector<std::optional<double>> begun_;   ///< how far the furthest state was that loads began from
   std::vector<std::size_t> loads_;             ///< how many there were
   std::vector<State> furthest_;

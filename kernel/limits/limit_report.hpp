@@ -5,6 +5,8 @@ namespace hauberk {
 
 /// How far a state is along a task: its value, less where the sense is negative.
 double reached(const Model& model, const LimitTask& task, const State& state);
+/// The same of a result that has a value.
+double reached(const Model& model, const LimitTask& task, const LimitResult& result);
 
 /// The furthest sound locked state, the first of equals; null: there is none.
 std::optional<std::size_t> furthest(const Model& model, const LimitTask& task, const LimitSettings& settings,

@@ -6,6 +6,7 @@
 #include "model/links.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hauberk {
 namespace {
@@ -55,6 +56,12 @@ std::optional<std::size_t> furthest(const Model& m, const LimitTask& task, const
 double reached(const Model& m, const LimitTask& task, const State& state)
 {
   const double v = m.load->value(task.direction, state.macro_values());
+  return task.sense == Sense::positive ? v : -v;
+}
+
+double reached(const Model& m, const LimitTask& task, const LimitResult& result)
+{
+  const double v = *result.value / std::pow(m.length, m.load->value_length_power());
   return task.sense == Sense::positive ? v : -v;
 }
 

@@ -257,24 +257,35 @@ LimitResult TaskSearches::result_of(std::size_t task, const KeepGoing& keep_goin
   return result;
 }
 
+/// What a search of a task finds, given where to add its seconds; null: it threw, which the task remarks,
+/// with `where`.
+template <class Search>
+std::optional<FoundState> TaskSearches::guarded(std::size_t task, const std::string& where,
+                                                const Search& search)
+{
+  std::optional<FoundState> out;
+  std::string problem;
+  double seconds = 0.0;
+  try {
+    out = search(seconds);
+  } catch (const std::exception& failure) {
+    problem = fmt::format("{}: {}", where, failure.what());
+  }
+  const std::lock_guard lock(begun_again_);  // a task may have several at a time
+  if (!problem.empty()) states_[task].remark = std::move(problem);
+  states_[task].seconds += seconds;
+  return out;
+}
+
 /// Locked state of a task from a state that `place` names; null: it threw, which the task remarks, and what
 /// was known before stands.
 std::optional<FoundState> TaskSearches::begun_from(std::size_t task, const State& from,
                                                    const std::string& place, std::uint64_t seed,
                                                    std::optional<long> allowed)
 {
-  std::optional<FoundState> out;
-  std::string problem;
-  double seconds = 0.0;
-  try {
-    out = FoundState{search_from_state(task, from, seconds, allowed), learnt_origin + place, seed};
-  } catch (const std::exception& failure) {
-    problem = fmt::format("from the state of {}: {}", place, failure.what());
-  }
-  const std::lock_guard lock(begun_again_);  // a task may have two lessons at a time
-  if (!problem.empty()) states_[task].remark = std::move(problem);
-  states_[task].seconds += seconds;
-  return out;
+  return guarded(task, fmt::format("from the state of {}", place), [&](double& seconds) {
+    return FoundState{search_from_state(task, from, seconds, allowed), learnt_origin + place, seed};
+  });
 }
 
 void TaskSearches::enter(std::size_t task, std::size_t start, const Attempt& found)
@@ -302,25 +313,14 @@ bool TaskSearches::enter_if_further(std::size_t task, FoundState found, double t
 std::optional<FoundState> TaskSearches::refolded(std::size_t task, const State& furthest, std::size_t number)
 {
   const std::uint64_t seed = settings_.seed + number;
-  std::optional<FoundState> out;
-  std::string problem;
-  double seconds = 0.0;
-  try {
-    const std::string name =
-        fmt::format("limit {} random load {} from {}", task, seed, name_of_state(furthest));
-    out = FoundState{searched(name, seconds,
-                              [&] {
-                                return limit_refolded(model_, tasks_[task], settings_, furthest, seed,
-                                                      [this] { return going(); });
-                              }),
-                     "random load", seed};
-  } catch (const std::exception& failure) {
-    problem = fmt::format("under a random load: {}", failure.what());
-  }
-  const std::lock_guard lock(begun_again_);
-  if (!problem.empty()) states_[task].remark = std::move(problem);
-  states_[task].seconds += seconds;
-  return out;
+  const std::string name =
+      fmt::format("limit {} random load {} from {}", task, seed, name_of_state(furthest));
+  return guarded(task, "under a random load", [&](double& seconds) {
+    const auto search = [&] {
+      return limit_refolded(model_, tasks_[task], settings_, furthest, seed, [this] { return going(); });
+    };
+    return FoundState{searched(name, seconds, search), "random load", seed};
+  });
 }
 
 /// Solves again those of the tasks whose results came with the call.

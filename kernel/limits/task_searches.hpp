@@ -50,7 +50,7 @@ struct TaskState {
 
 /// Knows model, scene, settings and memory, which outlive it, and the state of every task: those asked for,
 /// then their company. Different tasks may be searched at the same time; what one task knows is changed by
-/// one thread at a time, but for `begun_from`.
+/// one thread at a time, but for `begun_from` and `refolded`.
 class TaskSearches {
  public:
   /// Of the observer `keep_going` and `memory` are used.
@@ -125,6 +125,8 @@ class TaskSearches {
   LimitSettings settings_of(std::size_t task, std::size_t start) const;
   template <class Search>
   Locked searched(const std::string& name, double& seconds, const Search& search) const;
+  template <class Search>
+  std::optional<FoundState> guarded(std::size_t task, const std::string& where, const Search& search);
   Locked search_from_state(std::size_t task, const State& from, double& seconds,
                            std::optional<long> allowed = std::nullopt) const;
 
@@ -136,7 +138,7 @@ class TaskSearches {
   const LimitsObserver& observer_;
   std::vector<TaskState> states_;
   long allowance_ = 0;        ///< of sparing starts of company
-  std::mutex begun_again_{};  ///< guards what `begun_from` enters
+  std::mutex begun_again_{};  ///< guards what `guarded` enters
 };
 
 }  // namespace hauberk

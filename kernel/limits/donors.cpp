@@ -74,13 +74,14 @@ bool pushes(const Model& m, const LimitTask& task)
 bool may_fold(const Model& m, const LimitTask& task)
 {
   if (!m.load->periodic()) return false;
+  if (m.load->bends()) return true;
   if (task.direction.is_angle()) return task.sense == Sense::negative;
   return !m.lattice.empty() && pushes(m, task) && bounded_by_links(m, task) == Boundedness::attained;
 }
 
 bool is_taut(const Model& m, const LimitTask& task)
 {
-  if (!m.load->periodic() || !task.direction.is_angle() || may_fold(m, task)) return false;
+  if (m.load->bends() || !task.direction.is_angle() || may_fold(m, task)) return false;
   const LimitTask across{Direction::at_degrees(task.direction.degrees() + 90.0), task.sense};
   return bounded_by_links(m, task) == Boundedness::attained &&
          bounded_by_links(m, across) == Boundedness::attained;
@@ -88,7 +89,7 @@ bool is_taut(const Model& m, const LimitTask& task)
 
 bool begins_again(const Model& m, const LimitTask& task, ContactChoice contact)
 {
-  if (!m.load->periodic() || !task.direction.is_angle()) return false;
+  if (m.load->bends() || !task.direction.is_angle()) return false;
   return may_fold(m, task) || (is_taut(m, task) && contact != ContactChoice::constrained);
 }
 

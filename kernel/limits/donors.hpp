@@ -8,7 +8,8 @@ namespace hauberk {
 
 /// True for a limit that has room to be short of the furthest state: that of a cell which repeats under a
 /// load that pushes it together along some line, as compressions do and, along components that links bound,
-/// shears. Fabrics that are stretched alone are taut.
+/// shears, or bends it, where elements may gather along what repeats. Fabrics that are stretched alone are
+/// taut.
 bool may_fold(const Model& model, const LimitTask& task);
 
 /// True for a stretch of a periodic cell, at an angle, which links hold together along it and across: a sheet

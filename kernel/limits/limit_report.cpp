@@ -119,7 +119,7 @@ std::vector<Pose> reported_poses(const Model& m, const State& s, Vec3& shift)
 {
   std::vector<Pose> p = poses(m, s);
   shift = Vec3::Zero();
-  if (m.load->periodic()) {
+  if (!m.load->bends()) {
     for (std::size_t i = 0; i < p.size(); ++i) shift += m.rest[i].position - p[i].position;
     shift /= static_cast<double>(p.size());
   }

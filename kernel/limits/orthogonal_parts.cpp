@@ -122,8 +122,23 @@ void choose_images(const std::vector<Vec3>& basis, const std::vector<Vec3>& sums
 
 }  // namespace
 
+namespace {
+
+/// Mirrors and half turns about the axis of a strip, which is along x, and about those across it.
+std::vector<Mat3> parts_of_strip()
+{
+  std::vector<Mat3> out;
+  for (const double x : {1.0, -1.0})
+    for (const double y : {1.0, -1.0})
+      for (const double z : {1.0, -1.0}) out.emplace_back(Vec3(x, y, z).asDiagonal());
+  return out;
+}
+
+}  // namespace
+
 std::vector<Mat3> lattice_point_group(const Model& m)
 {
+  if (m.lattice.size() == 1) return parts_of_strip();
   const std::vector<Vec3> basis = reduced(m.lattice);
   std::vector<Mat3> out;
   std::vector<Vec3> to;

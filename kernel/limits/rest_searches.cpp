@@ -118,7 +118,8 @@ std::vector<RestSearches> rest_searches(const Model& model, const std::vector<Li
   const double apart = settings.neighbours;
   if (!settings.lessons || apart <= 0.0) return out;
   const auto has_none = [&](const LimitTask& task) {
-    return !task.direction.is_angle() || bounded_by_links(model, task) != Boundedness::attained;
+    const bool one_axis = model.load->bends() && model.load->periodic();
+    return one_axis || !task.direction.is_angle() || bounded_by_links(model, task) != Boundedness::attained;
   };
   const auto add_beside = [&](const LimitTask& task, double by, bool sparing) {
     if (has_company(task, tasks, by)) return;

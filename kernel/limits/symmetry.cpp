@@ -3,6 +3,7 @@
 #include "limits/body_images.hpp"
 #include "limits/orthogonal_parts.hpp"
 #include "limits/place_index.hpp"
+#include "numerics/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,7 @@ class SymmetrySearch {
       if (found.size() >= most) break;
       if (O == Mat3::Identity() && j == rarest_.front()) continue;
       const Vec3 t = place(j) - O * place(rarest_.front());
+      if (m_.load->bends() && leaves_lattice(t)) continue;
       if (std::optional<SceneSymmetry> g = symmetry(O, t)) found.push_back(std::move(*g));
     }
     return found;
@@ -62,6 +64,14 @@ class SymmetrySearch {
 
  private:
   const Vec3& place(int i) const { return m_.rest[i].position; }
+
+  /// Whether a translation has a part across the lattice's vectors: what bends is displaced along them alone.
+  bool leaves_lattice(const Vec3& t) const
+  {
+    Eigen::Matrix3Xd T(3, static_cast<Eigen::Index>(m_.lattice.size()));
+    for (std::size_t k = 0; k < m_.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m_.lattice[k];
+    return Vec3(t - T * least_squares(T, t)).norm() > symmetry_tolerance(t);
+  }
 
   bool load_allows(const Mat3& O) const
   {

@@ -65,6 +65,7 @@ class SubspaceLoadCase final : public LoadCase {
   std::pair<std::string, std::string> do_sense_names() const override { return inner_.sense_names(); }
   void do_metric(std::span<double> m) const override { std::fill(m.begin(), m.end(), 1.0); }
   Boundedness do_boundedness(Values, std::span<const Vec3>) const override { return Boundedness::attained; }
+  bool do_bends() const override { return inner_.bends(); }
   std::string do_not_a_sheet(const SheetState& state) const override
   {
     Macros macro;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -117,7 +118,7 @@ void set_metric(Model& m)
   std::vector<double> weights(m.macro_count);
   m.load->metric(weights);
   std::vector<double> distances = lattice_distances(m);
-  if (m.lattice.empty()) {
+  if (m.load->bends()) {
     for (const Pose& p : m.rest) distances.push_back(p.position.norm());
   }
   for (int k = 0; k < m.macro_count; ++k) {
@@ -152,16 +153,20 @@ Matrix held_directions(const Model& m, const std::vector<LinearEquality>& equali
 
 namespace {
 
-std::vector<std::array<int, 2>> linked_elements(const Model& m)
+void set_linked(Model& m)
 {
-  std::vector<std::array<int, 2>> out;
+  std::set<std::tuple<int, int, Image>> pairs;
   for (const ElementLink& link : element_links(m)) {
-    const auto [a, b] = std::minmax(link.pair.i, link.pair.j);
-    if (a != b) out.push_back({a, b});
+    const auto& [i, j, image] = link.pair;
+    const Image back{-image[0], -image[1], -image[2]};
+    if (i < j) pairs.insert({i, j, image});
+    if (i > j) pairs.insert({j, i, back});
+    if (i == j) pairs.insert({i, j, std::max(image, back)});
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
+  for (const auto& [i, j, image] : pairs) {
+    m.linked.push_back({i, j});
+    m.linked_translations.push_back(m.translation(image));
+  }
 }
 
 std::shared_ptr<const Facets> facets_of(const Body& b, int count)
@@ -289,7 +294,7 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
   m.links = find_links(m, rest_state(m));
   set_metric(m);
   m.held = held_directions(m, load.equalities(positions));
-  if (!load.periodic()) m.linked = linked_elements(m);
+  if (load.bends()) set_linked(m);
   return m;
 }
 
@@ -377,12 +382,16 @@ Vector difference(const Model& m, const State& from, const State& to)
 
 std::string not_a_sheet(const Model& m, const State& s)
 {
-  if (m.load->periodic()) return {};
+  if (!m.load->bends()) return {};
   std::vector<Vec3> X;
   X.reserve(m.rest.size());
   for (const Pose& p : m.rest) X.push_back(p.position);
-  return m.load->not_a_sheet(
-      {s.macro_values(), {s.e.data(), static_cast<std::size_t>(s.e.size())}, X, m.reach, m.linked});
+  return m.load->not_a_sheet({s.macro_values(),
+                              {s.e.data(), static_cast<std::size_t>(s.e.size())},
+                              X,
+                              m.reach,
+                              m.linked,
+                              m.linked_translations});
 }
 
 Vector free_part(const Model& m, const Vector& x)

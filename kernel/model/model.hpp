@@ -40,9 +40,12 @@ struct Model {
   Matrix held;  ///< dofs x equalities: orthonormal directions that no motion has
   /// Per element; none where no element has a loop that several of its primitives form together.
   std::vector<std::shared_ptr<const Spine>> spines;
-  std::vector<int> first_loop;             ///< per element, and one past the end, where there are spines
-  std::vector<Link> links;                 ///< at rest
-  std::vector<std::array<int, 2>> linked;  ///< elements of a patch with links between them, ascending
+  std::vector<int> first_loop;  ///< per element, and one past the end, where there are spines
+  std::vector<Link> links;      ///< at rest
+  /// Elements of what bends with links between them, ascending, and the rest translation of the image that
+  /// the second is.
+  std::vector<std::array<int, 2>> linked;
+  std::vector<Vec3> linked_translations;
   /// Per body: d(position, R, r0, r1, harmonics, rotation)/d(element parameters), row-major, file units; see
   /// PrimitiveJacobian.
   std::vector<PrimitiveJacobian> jacobians;

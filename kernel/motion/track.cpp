@@ -3,6 +3,8 @@
 #include "model/near_pairs.hpp"
 #include "numerics/interrupted.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <limits>
 
@@ -89,10 +91,42 @@ double margin_of_lattice(const Model& m, const State& from, const Vector& dy, do
   return (touching + (highest - lowest).norm()) / (1.0 - change) - 2.0 * widest;
 }
 
+/// How near to each other, beyond their reach, elements of a strip that bends have to be at the beginning of
+/// a step that brings them together. Images are displaced linearly in the macroscopic unknowns, so that with
+/// A, G and q as above
+///   |x_ij,n(0)| <= (touching + |q_i - q_j| + (a_i + a_j)/2)/(1 - |G|),
+/// where a bounds accelerations. Where the strip is strained too much for that: what touches at some s has
+/// images |n| A_min <= touching + |x_ij,0(s)|, with A_min the shorter of the vector's two lengths.
+double margin_of_strip(const Model& m, const State& from, const Vector& dy, double widest)
+{
+  constexpr double most_change = 0.6;
+  const Track origin(m, from, dy, 0, {0, 0}), image(m, from, dy, 0, {1, 0});
+  const Vec3 A = image.pose.position - origin.pose.position, dA = image.velocity - origin.velocity;
+  const double shortest = std::min(A.norm(), (A + dA).norm()), touching = 2.0 * widest + m.clearance;
+  const Mat3 G = dA * A.transpose() / A.squaredNorm();
+  Eigen::AlignedBox3d places, rates;
+  double bend = 0.0, fastest = 0.0;
+  for (int i = 0; i < m.element_count(); ++i) {
+    const Track t(m, from, dy, i, {0, 0});
+    places.extend(t.pose.position);
+    rates.extend(t.velocity - G * t.pose.position);
+    bend = std::max(bend, t.acceleration);
+    fastest = std::max(fastest, t.velocity.norm() + 0.5 * t.acceleration);
+  }
+  if (G.norm() <= most_change)
+    return (touching + rates.diagonal().norm() + bend) / (1.0 - G.norm()) - 2.0 * widest;
+  const double spread = places.diagonal().norm();
+  return spread + A.norm() / shortest * (touching + spread + 2.0 * fastest);
+}
+
 /// Pairs of a periodic cell that the step may bring together.
 std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const Vector& dy,
                                        const std::function<bool()>* keep_going)
 {
+  double widest = 0.0;
+  for (const double r : m.reach) widest = std::max(widest, r);
+  if (m.load->bends())
+    return near_pairs(m, from, margin_of_strip(m, from, dy, widest) * (1.0 + 1e-9), keep_going);
   // x_ij(s) = F(s) X + u_ij(s), X at rest. A pair that touches at s has |x_ij(s)| <= touching, so that
   //   |X| <= (touching + |u_ij(s)|)/s_min,   |x_ij(0)| <= touching + own + |dF| |X|,
   // where u_ij is as far as elements have left their places in the deformed lattice. The smallest stretch of
@@ -100,8 +134,6 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
   const State to = advanced(m, from, dy, 1.0);
   const double own = 2.0 * largest_motion(m, dy);
   const double strain = dy.head(m.macro_count).cwiseAbs().sum();
-  double widest = 0.0;
-  for (const double r : m.reach) widest = std::max(widest, r);
   const double smin = std::min(m.load->stretch_range(from.macro_values()).first,
                                m.load->stretch_range(to.macro_values()).first);
   const int nc = m.coordinate_count;

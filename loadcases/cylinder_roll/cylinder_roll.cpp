@@ -1,5 +1,8 @@
 #include "cylinder_roll.hpp"
 
+#include "common/conditions.hpp"
+#include "common/stumpff.hpp"
+
 #include <hauberk/kit/jet.hpp>
 
 #include <fmt/format.h>
@@ -20,47 +23,6 @@ Eigen::Matrix2d tensor(std::span<const double> macro)
   K << macro[kxx], macro[kxy], macro[kxy], macro[kyy];
   return K;
 }
-
-/// c_n(q) = sum over j of (-q)^j/(2 j + n)! for n = 0 .. 7 and q = a^2 >= 0 (Stumpff's functions): cos a, sin
-/// a/a, (1 - cos a)/a^2, (a - sin a)/a^3, and so on. As c_n = 1/n! - q c_(n+2), each follows from the one two
-/// below divided by q, or the one two above times q: large and small q lose no digits that way.
-class Stumpff {
- public:
-  explicit Stumpff(double q)
-  {
-    constexpr double small = 4.0;
-    if (q < small) {
-      for (const int n : {count - 1, count - 2}) c_[n] = series(q, n);
-      for (int n = count - 3; n >= 0; --n) c_[n] = 1.0 / factorial[n] - q * c_[n + 2];
-    } else {
-      const double a = std::sqrt(q);
-      c_[0] = std::cos(a);
-      c_[1] = std::sin(a) / a;
-      for (int n = 2; n < count; ++n) c_[n] = (1.0 / factorial[n - 2] - c_[n - 2]) / q;
-    }
-  }
-
-  /// Taylor coefficients of c_n, n <= 3, at q up to the second: c_n' = (n c_(n+2) - c_(n+1))/2, termwise.
-  std::array<double, 3> taylor(int n) const
-  {
-    return {c_[n], slope(n), 0.25 * (n * slope(n + 2) - slope(n + 1))};
-  }
-
- private:
-  static constexpr int count = 8;
-  static constexpr std::array<double, count> factorial{1, 1, 2, 6, 24, 120, 720, 5040};
-
-  static double series(double q, int n)
-  {
-    constexpr int terms = 20;  // 4^20/46! is far below rounding
-    double term = 1.0 / factorial[n], sum = term;
-    for (int j = 1; j <= terms; ++j) sum += term *= -q / ((2 * j + n - 1) * (2 * j + n));
-    return sum;
-  }
-  double slope(int n) const { return 0.5 * (n * c_[n + 2] - c_[n + 1]); }
-
-  std::array<double, count> c_;
-};
 
 /// Where a polynomial of second order in n unknowns has the monomial of two of them.
 template <int n>
@@ -109,40 +71,6 @@ Principal principal(const Eigen::Matrix2d& K)
   const double angle = 0.5 * (std::atan2(K(0, 1), half) + (mean < 0.0 ? std::numbers::pi : 0.0));
   return {std::abs(mean) + std::hypot(half, K(0, 1)), {std::cos(angle), std::sin(angle)}};
 }
-
-/// Conditions on one coordinate of all elements each, independent ones only.
-class Conditions {
- public:
-  Conditions(std::span<const Vec3> X, std::vector<LinearEquality>& out) : X_(X), out_(out) {}
-
-  /// sum over elements of f(X_i) . (coordinates from `first` on) = 0, unless the others say it already.
-  template <int size, class F>
-  void add(const std::string& name, int first, const F& f)
-  {
-    constexpr double dependent = 1e-9;
-    const auto n = static_cast<Eigen::Index>(X_.size());
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(max_coordinates * n);
-    for (Eigen::Index i = 0; i < n; ++i) row.segment<size>(max_coordinates * i + first) = f(X_[i]);
-    const double whole = row.norm();
-    Eigen::VectorXd left = row;
-    for (int pass = 0; pass < 2; ++pass)  // the second takes what rounding left
-      for (const Eigen::VectorXd& unit : kept_) left -= unit.dot(left) * unit;
-    if (!(left.norm() > dependent * whole)) return;
-    kept_.push_back(left.normalized());
-    LinearEquality condition{name, {}};
-    for (Eigen::Index k = 0; k < row.size(); ++k) {
-      if (left[k] == 0.0) continue;
-      condition.terms.push_back(
-          {static_cast<int>(k / max_coordinates), static_cast<int>(k % max_coordinates), kept_.back()[k]});
-    }
-    out_.push_back(std::move(condition));
-  }
-
- private:
-  std::span<const Vec3> X_;
-  std::vector<LinearEquality>& out_;
-  std::vector<Eigen::VectorXd> kept_;
-};
 
 }  // namespace
 

@@ -135,13 +135,13 @@ inline Field integers(std::string name, std::string doc, std::size_t count, doub
   return field;
 }
 
-/// Two vectors in the plane, or with most = 3 three in space.
-inline Field vectors_field(std::string name, std::string doc, std::size_t most)
+/// So many vectors of so many numbers: from one along x to three in space.
+inline Field vectors_field(std::string name, std::string doc, std::size_t least, std::size_t most)
 {
-  Field vector = numbers("vector", most == 2 ? "x and y." : "x and y, or x, y and z.", most);
-  vector.min_items = 2;
+  Field vector = numbers("vector", most == 2 ? "x and y." : "x; x and y; or x, y and z.", most);
+  vector.min_items = least;
   Field field = list(std::move(name), std::move(doc), in_unit(std::move(vector), "length"));
-  field.min_items = 2;
+  field.min_items = least;
   field.max_items = most;
   return in_unit(std::move(field), "length");
 }

@@ -7,11 +7,13 @@
 #include <hauberk/solid.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace hauberk::exporting {
 namespace {
@@ -173,8 +175,8 @@ void add_cell(const Fabric& fabric, const std::vector<int>& mesh_of, const std::
     Assembly::Copy copy{mesh_of[k],   static_cast<int>(k), shift, fmt::format("{} {}", element.type, k),
                         element.pose, element.rest};
     if (named) {
-      copy.name += fmt::format(" [{}, {}", shift[0], shift[1]);
-      copy.name += fabric.lattice.size() == 3 ? fmt::format(", {}]", shift[2]) : "]";
+      const auto indices = std::span(shift).first(std::max<std::size_t>(fabric.lattice.size(), 1));
+      copy.name += fmt::format(" [{}]", fmt::join(indices, ", "));
     }
     copy.pose.position += moved;
     copy.rest.position += rest;
@@ -318,8 +320,10 @@ Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::op
 {
   for (std::size_t v = fabric.lattice.size(); v < 3; ++v) {
     if (repeat[v] != 1)
-      throw InputError(fabric.lattice.empty() ? "--repeat: a patch is no cell, and has no copies"
-                                              : "--repeat: the cell has two vectors; give two numbers");
+      throw InputError(fabric.lattice.empty()
+                           ? std::string("--repeat: a patch is no cell, and has no copies")
+                           : fmt::format("--repeat: the cell has {} vector{}; give as many numbers",
+                                         fabric.lattice.size(), fabric.lattice.size() == 1 ? "" : "s"));
   }
   double copies = static_cast<double>(fabric.elements.size());
   for (const int n : repeat) copies *= n;

@@ -294,10 +294,11 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 std::array<int, 3> shown_cells(const Fabric& fabric)
 {
   constexpr double elements = 24.0;
-  if (fabric.lattice.size() != 2) return {1, 1, 1};
+  const std::size_t vectors = fabric.lattice.size();
+  if (vectors != 1 && vectors != 2) return {1, 1, 1};
   const double cells = elements / static_cast<double>(fabric.elements.size());
-  const int along = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
-  return {along, along, 1};
+  const int along = std::max(1, static_cast<int>(std::lround(vectors == 1 ? cells : std::sqrt(cells))));
+  return {along, vectors == 1 ? 1 : along, 1};
 }
 
 PageParts read_page_parts(const std::string& folder)

@@ -3,6 +3,7 @@
 #include "document/json_text.hpp"
 #include "document/jsonc.hpp"
 #include "document/node_access.hpp"
+#include "maker/weave_roll.hpp"
 #include "run/interrupt.hpp"
 #include "run/limits_run.hpp"
 #include "tasks/job.hpp"
@@ -204,6 +205,8 @@ Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lo
   sheet.rings = sheet.chain ? count / pitch_along(scene.lattice, weave.ways[0].degrees) * metre
                             : count / area * square_decimetre;
   sheet.ways = answers(job, weave, threads, progress, "limits");
+  if (question.roll && !sheet.chain)
+    sheet.rolls = rolls(weave, question, lookup, registry, threads, progress);
   // Surfaces that stay a gap apart are those of wire as much thicker that touch.
   const Question thicker{question.weave, question.inner - question.gap, question.wire + question.gap,
                          question.gap};
@@ -231,7 +234,7 @@ std::string sheet_text(const Sheet& sheet)
       q.inner, q.wire, sheet.ratio, sheet.weave.smallest_ratio);
   text += fmt::format("  this wire takes rings from {:.3f} mm on, these rings wire up to {:.3f} mm\n\n",
                       sheet.smallest_inner, sheet.thickest_wire);
-  text += "the pattern repeats itself every\n" + ways_text(sheet.ways) + "\n";
+  text += "the pattern repeats itself every\n" + ways_text(sheet.ways) + "\n" + rolls_text(sheet.rolls);
   const double weight = 1e-3 * sheet.rings * sheet.ring_volume;  // cm^3 per dm^2 or metre
   const char* per = sheet.chain ? "m" : "dm^2";
   text += fmt::format("{:.1f} rings per {} at rest; grams per {}:", sheet.rings, per, per);
@@ -263,6 +266,7 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"smallest_inner_mm", sheet.smallest_inner},
                    {"thickest_wire_mm", sheet.thickest_wire},
                    {"ways", ways_json(sheet.ways)},
+                   {"rolls", rolls_json(sheet.rolls)},
                    {"rings", sheet.rings},
                    {"per", sheet.chain ? "m" : "dm2"},
                    {"grams", std::move(grams)},

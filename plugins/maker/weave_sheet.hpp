@@ -22,6 +22,7 @@ struct Question {
   double inner = 0.0;  ///< inner diameter of the rings
   double wire = 0.0;   ///< diameter of their wire
   double gap = 0.4;    ///< that a printer needs between surfaces
+  bool roll = false;   ///< whether to tell how tightly it is wound onto a rod
 };
 
 /// A weave file as far as it concerns makers.
@@ -49,6 +50,16 @@ struct WayAnswer {
   std::string stretch_status, compress_status;
 };
 
+/// A strip of the sheet, wound onto a rod: bent along the way.
+struct RollAnswer {
+  std::string name;
+  double degrees = 0.0;
+  int rows = 0;                    ///< cells beside each other, along the way
+  double turns = 0.0;              ///< that they go around
+  std::optional<double> up, down;  ///< smallest radius of the sheet's middle, mm; none without a locked state
+  std::string up_status, down_status;
+};
+
 /// All answers.
 struct Sheet {
   Question question;
@@ -60,6 +71,7 @@ struct Sheet {
   double rings = 0.0;        ///< per dm^2 at rest, per metre of a chain
   double ring_volume = 0.0;  ///< mm^3: 2 pi^2 R r^2
   std::vector<WayAnswer> ways;
+  std::vector<RollAnswer> rolls;    ///< none of a chain
   bool printable = false;           ///< whether the weave has room for the gap
   std::vector<WayAnswer> with_gap;  ///< what the gap leaves; none where it has no room
 };

@@ -68,12 +68,8 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
     patch["tile"] = {1, 1};
   } else {
     json::array vectors;
-    for (const Vec3& v : scene.lattice) {
-      if (scene.lattice.size() == 2)
-        vectors.push_back({number(v.x()), number(v.y())});
-      else
-        vectors.push_back(detail::vector_json(v));
-    }
+    for (const Vec3& v : scene.lattice)
+      vectors.push_back(detail::lattice_vector_json(v, scene.lattice.size()));
     cell["vectors"] = std::move(vectors);
     cell["repeat"] = {1, 1};
   }

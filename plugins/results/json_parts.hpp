@@ -32,6 +32,10 @@ boost::json::array quaternion_json(const Mat3& rotation);
 boost::json::object pose_json(const Pose& pose);
 boost::json::object named_numbers(const std::vector<std::pair<std::string, double>>& values);
 
+/// One of so many vectors of a lattice, as `cell.vectors` of experiments: x of one, x and y of two, all of
+/// three.
+boost::json::array lattice_vector_json(const Vec3& v, std::size_t vectors);
+
 /// Scene at rest: cell vectors, characteristic length, elements with their primitives.
 boost::json::object scene_json(const SceneSpec& scene);
 

@@ -107,16 +107,18 @@ json::object named_numbers(const std::vector<std::pair<std::string, double>>& va
   return out;
 }
 
+json::array lattice_vector_json(const Vec3& v, std::size_t vectors)
+{
+  json::array out;
+  for (std::size_t k = 0; k < vectors; ++k) out.push_back(number(v[static_cast<Eigen::Index>(k)]));
+  return out;
+}
+
 json::object scene_json(const SceneSpec& scene)
 {
   json::object out;
   json::array& vectors = out["cell_vectors"].emplace_array();
-  for (const Vec3& v : scene.lattice) {
-    // As `cell.vectors` of experiments.
-    json::array components{number(v.x()), number(v.y())};
-    if (scene.lattice.size() == 3) components.push_back(number(v.z()));
-    vectors.push_back(std::move(components));
-  }
+  for (const Vec3& v : scene.lattice) vectors.push_back(lattice_vector_json(v, scene.lattice.size()));
   out["length"] = number(scene.length > 0.0 ? scene.length : characteristic_length(scene));
   Surfaces surfaces;
   json::array& elements = out["elements"].emplace_array();

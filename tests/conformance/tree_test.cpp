@@ -54,6 +54,8 @@ HAUBERK_CONFORMANCE_TESTS(ParaboloidBending, folder + "paraboloid_bending.so");
 HAUBERK_CONFORMANCE_TESTS(ParaboloidBendingPlaces, folder + "paraboloid_bending.so",
                           R"({ "hold": ["places", "twist"] })");
 HAUBERK_CONFORMANCE_TESTS(CylinderRoll, folder + "cylinder_roll.so");
+HAUBERK_CONFORMANCE_TESTS(StripRoll, folder + "strip_roll.so");
+HAUBERK_CONFORMANCE_TESTS(StripRollFree, folder + "strip_roll.so", R"({ "out_of_plane": "free" })");
 HAUBERK_CONFORMANCE_TESTS(CylinderRollFree, folder + "cylinder_roll.so",
                           R"({ "hold": [], "out_of_plane": "free" })");
 HAUBERK_CONFORMANCE_TESTS(CylinderRollPlaces, folder + "cylinder_roll.so",

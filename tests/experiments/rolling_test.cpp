@@ -161,5 +161,109 @@ TEST(RollAndParaboloid, DifferWhereLinksAreNearlyTaut)
   EXPECT_LT(2.0 / roll * std::sin(0.5 * roll * d), d);
 }
 
+/// A strip of European 4-in-1, its axis along the columns.
+std::string strip(int rows, const std::string& more = "")
+{
+  return R"({
+  "name": "strip", "length_unit": "mm",
+  "cell": { "weave": { "name": "european_4in1" }, "strip": { "axis": [0, 1], "rows": )" +
+         std::to_string(rows) + " }" + more + R"( },
+  "load_case": { "plugin": "strip_roll", "directions_deg": [90] } })";
+}
+
+/// Two rings that meet as those of share/experiments/roll.json, with or without rings that repeat along the
+/// axis, too far away to meet: (2/k) sin(k d/2) = 2 r.
+TEST(StripRolling, IsThePatchWhereNothingRepeats)
+{
+  const json::value r = results_of(R"({
+  "name": "idle", "length_unit": "mm",
+  "elements": { "link": { "shape": "torus_union", "tori": [{ "name": "ring" }],
+    "parameters": { "ring.R": 5, "ring.r0": 2.4, "ring.r1": 2.4 } } },
+  "cell": { "vectors": [[100]], "place": [
+    { "element": "link", "position": [0, -2.5, 0] },
+    { "element": "link", "position": [0, 2.5, 0], "rotation": { "axis": [0, 1, 0], "degrees": 90 } } ] },
+  "load_case": { "plugin": "strip_roll", "directions_deg": [90], "hold": ["places"] } })");
+  constexpr double exact = 0.1971532730480749;
+  EXPECT_NEAR(number_at(r, "/limits/0/value"), exact, 1e-8 * exact);
+  EXPECT_NEAR(number_at(r, "/limits/1/value"), -exact, 1e-8 * exact);
+}
+
+class StripResults : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { results_ = results_of(strip(2)); }
+  static inline json::value results_;
+};
+
+/// Half a turn about the axis' normal carries the strip onto itself, upside down: up and down are equal. A
+/// cell of two periods has at least the state of one.
+TEST_F(StripResults, KeepSymmetriesAndPeriods)
+{
+  const double up = number_at(results_, "/limits/0/value");
+  EXPECT_GT(up, 0.11);
+  EXPECT_NEAR(number_at(results_, "/limits/1/value"), -up, 1e-8 * up);
+  const json::value twice = results_of(strip(2, R"(, "repeat": [2])"));
+  EXPECT_GE(number_at(twice, "/limits/0/value"), up * (1.0 - 1e-7));
+  EXPECT_EQ(twice.at_pointer("/scene/elements").as_array().size(), 8U);
+}
+
+TEST_F(StripResults, AreChecked)
+{
+  const TemporaryFolder folder;
+  const auto verified = [&](const json::value& results) {
+    return run_program({"verify", folder.write("results.json", write_json(results))});
+  };
+  const Outcome whole = verified(results_);
+  EXPECT_EQ(whole.code, 0) << whole.out;
+  EXPECT_EQ(whole.out.find("is not known to this check"), std::string::npos);
+  const auto changed = [&](const char* place, double by) {
+    json::value r = results_;
+    r.at_pointer(place) = number_at(r, place) + by;
+    return r;
+  };
+  const std::pair<const char*, const char*> wrong[] = {
+      {"/limits/0/macro/k", "off the roll"},                 // the elements are on another cylinder
+      {"/limits/0/macro/exx", "closer than the clearance"},  // and their images elsewhere
+      {"/limits/0/poses/1/position/2", "off the roll"},
+      {"/limits/0/poses/1/position/0", "moved against its roll"},
+      {"/limits/0/value", "from macro"},
+      {"/scene/cell_vectors/0/0", "not those of the experiment"}};
+  for (const auto& [place, message] : wrong) {
+    const Outcome o = verified(changed(place, 1e-5));
+    EXPECT_EQ(o.code, 1) << place;
+    EXPECT_NE(o.out.find(message), std::string::npos) << place << '\n' << o.out;
+  }
+}
+
+/// A strip as its experiment says and as results hold it, written out, are the same scene.
+TEST_F(StripResults, AreThoseOfTheStripWrittenOut)
+{
+  const json::value& cell = results_.at_pointer("/experiment/cell");
+  EXPECT_FALSE(cell.as_object().contains("weave"));
+  EXPECT_EQ(write_json(results_.at_pointer("/scene/cell_vectors")),
+            write_json(results_of(write_json(results_.at("experiment"))).at_pointer("/scene/cell_vectors")));
+}
+
+TEST(StripRolling, SaysWhatIsNoStrip)
+{
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    const Outcome o = run_program({"check", folder.write("e.json", text)});
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find(message), std::string::npos) << o.err;
+  };
+  const std::string good = strip(2);
+  EXPECT_EQ(run_program({"check", folder.write("e.json", good)}).code, 0);
+  refused(with(good, R"("strip": { "axis": [0, 1], "rows": 2 })", R"("repeat": [1, 1])"),
+          "'strip_roll' loads cells with 1 vector, and there are 2: cut one with cell.strip");
+  refused(with(good, "strip_roll", "in_plane_periodic"),
+          "'in_plane_periodic' loads cells with 2 vectors, and there is 1");
+  refused(with(good, "[0, 1]", "[2, 4]"),
+          "/cell/strip/axis: expected two whole numbers without a common factor, found 2 and 4");
+  refused(with(good, R"("rows": 2 })", R"("rows": 2 }, "repeat": [1, 2])"),
+          "/cell/repeat: expected one number for each of the 1 vectors, found 2");
+  refused(with(good, R"("directions_deg": [90])", R"("directions": [[0, 1]])"),
+          "the unknowns of 'strip_roll' do not have the unit of its value");
+}
+
 }  // namespace
 }  // namespace hauberk::test

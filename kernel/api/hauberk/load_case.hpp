@@ -69,7 +69,9 @@ struct SheetState {
   std::span<const double> e;                   ///< coordinate_count() numbers for each element
   std::span<const Vec3> X;                     ///< rest positions
   std::span<const double> radius;              ///< of a sphere about an element's origin that holds it
-  std::span<const std::array<int, 2>> linked;  ///< elements of the patch, each pair once
+  std::span<const std::array<int, 2>> linked;  ///< elements, each pair and image once
+  /// Of each linked pair: the rest translation of the image that its second element is; zero in a patch.
+  std::span<const Vec3> translations{};
 };
 
 /// Whether contact can stop the load, decided from the link graph alone.
@@ -96,10 +98,15 @@ class LoadCase {
   int macro_count() const { return static_cast<int>(do_macros().size()); }
   /// Free coordinates of an element besides its rotation (0 .. 3).
   int coordinate_count() const { return do_coordinate_count(); }
-  /// Lattice vectors of the cell: 2 (a sheet) or 3; 0 for patches.
+  /// Lattice vectors of the cell: 1 (a strip, along x), 2 (a sheet) or 3; 0 for patches.
   int lattice_vectors() const { return do_lattice_vectors(); }
   /// True if images of the cell exist (lattice vectors are needed).
   bool periodic() const { return lattice_vectors() > 0; }
+  /// True if the value is how far a sheet is bent: its elements count while they form a sheet (not_a_sheet),
+  /// and stay where the load case puts the sheet, while those of other lattices are known up to a
+  /// translation. Of lattices those of one vector may bend; their images are displaced linearly in the
+  /// unknowns.
+  bool bends() const { return do_bends(); }
 
   /// Position of the element with rest position X, in the image displaced by the lattice translation T at
   /// rest (zero for the element itself). At macro = 0 and e = 0 this must be X + T.
@@ -255,6 +262,9 @@ class LoadCase {
   {
     return Boundedness::attained;
   }
+
+  /// Patches do, lattices do not.
+  virtual bool do_bends() const { return !periodic(); }
 
   // What a load case may have beside. Without it there is none of it, or it is not known.
   virtual std::vector<std::pair<std::string, double>> do_companions(double, std::span<const double>) const

@@ -17,7 +17,7 @@
 namespace hauberk {
 
 /// Raised whenever any type in the interface headers changes.
-inline constexpr std::uint32_t interface_revision = 13;
+inline constexpr std::uint32_t interface_revision = 14;
 
 #define HAUBERK_STR2(x) #x
 #define HAUBERK_STR(x) HAUBERK_STR2(x)

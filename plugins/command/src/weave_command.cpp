@@ -52,6 +52,9 @@ Description weave_description()
            .takes = Takes::text,
            .value = "LENGTH",
            .help = "that a printer needs between surfaces; default 0.4mm"},
+          {.name = "roll",
+           .help =
+               "also how tightly it is wound onto a rod, each way and side; a minute or two, longer for loose rings"},
           {.name = "output",
            .letter = 'o',
            .takes = Takes::text,
@@ -79,6 +82,7 @@ int weave_command(const std::vector<std::string>& words)
   question.inner = length_option(options, "inner", nullptr);
   question.wire = length_option(options, "wire", nullptr);
   question.gap = length_option(options, "gap", "0.4mm");
+  question.roll = options.has("roll");
   const WeaveLookup lookup = weave_lookup("weave.json");
   const maker::Weave weave = maker::read_weave(question.weave, lookup);
   if (!maker::can_be_woven(weave, question))

@@ -157,6 +157,32 @@ void second_derivatives(Trial& trial)
   }
 }
 
+/// What bends repeats along one vector at most, and the unknowns displace its images linearly: second
+/// derivatives of an element and its image agree.
+void require_linear_images(const LoadCase& load_case, const State& state)
+{
+  require(load_case.lattice_vectors() == 1, "it bends and has {} lattice vectors; expected none or one",
+          load_case.lattice_vectors());
+  State itself = state;
+  itself.T.setZero();
+  const PositionMap image = state.of(load_case, state.y), there = itself.of(load_case, state.y);
+  const auto second = [](const PositionMap& map, std::size_t c, std::size_t a, std::size_t b) {
+    return map.curved ? map.H[c][a][b] : 0.0;
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t a = 0; a < state.y.size(); ++a) {
+      for (std::size_t b = 0; b < state.y.size(); ++b) {
+        const double here = second(image, c, a, b), other = second(there, c, a, b);
+        require(
+            std::abs(here - other) <= rounding * (1.0 + std::abs(other)),
+            "it bends, and its images are not displaced linearly: d2 {}/d {} d {} is {:.6g} of an image and "
+            "{:.6g} of the element",
+            "xyz"[c], unknown_name(load_case, a), unknown_name(load_case, b), here, other);
+      }
+    }
+  }
+}
+
 /// Images are displaced by D(macro, T), which is additive in T and the same for every element.
 void images(Trial& trial)
 {
@@ -176,6 +202,7 @@ void images(Trial& trial)
     const auto same = [](const Vec3& a, const Vec3& b) {
       return (a - b).norm() <= rounding * (1.0 + a.norm() + b.norm());
     };
+    if (load_case.bends()) require_linear_images(load_case, state);
     const Vec3 T = state.T, U = other.T;
     const Vec3 D = displaced(state, T);
     require(same(D, displaced(other, T)),

@@ -267,6 +267,7 @@ Vec3 draw_translation(const LoadCase& load_case, Random& random)
 {
   if (!load_case.periodic()) return Vec3::Zero();
   Vec3 T = random.vector(3.0);
+  if (load_case.lattice_vectors() == 1) return {T.x(), 0.0, 0.0};
   if (!spatial(load_case, random)) T.z() = 0.0;
   return T;
 }

@@ -54,10 +54,24 @@ Field patch_field()
       "patch",
       "A finite patch instead of vectors and repeat, laid out so that the mean of its elements is above the "
       "origin.",
-      {vectors_field("vectors", "The two vectors that the patch is laid out with; of a weave its own.", 2),
+      {vectors_field("vectors", "The two vectors that the patch is laid out with; of a weave its own.", 2, 2),
        required(std::move(outline)),
        with_default(integers("tile", "Period, in cells, with which element parameters repeat.", 2, 1),
                     "[1, 1]")});
+}
+
+Field strip_field()
+{
+  return object(
+      "strip",
+      "A strip without end instead of a sheet: of the cell's two vectors one lattice vector is left, which "
+      "is turned to x, the axis of a roll, and rows of cells beside each other, their mean above the origin.",
+      {with_default(
+           integers("axis",
+                    "The lattice vector along the strip: so many of the first vector and of the second.", 2,
+                    -1000),
+           "[1, 0]"),
+       required(at_least(integer("rows", "Cells across the strip."), 1))});
 }
 
 Field cell_field()
@@ -66,13 +80,13 @@ Field cell_field()
       "cell", "What is simulated: a periodic cell, or a finite patch.",
       {vectors_field("vectors",
                      "The two lattice vectors (x, y) of the cell before it is repeated; three (x, y, z) for "
-                     "load cases of solids.",
-                     3),
+                     "load cases of solids, one (x) for those of strips.",
+                     1, 3),
        with_default(
            at_least_items(
-               integers("repeat", "m and n (and l): the m x n (x l) supercell becomes the cell.", 3, 1), 2),
+               integers("repeat", "m and n (and l): the m x n (x l) supercell becomes the cell.", 3, 1), 1),
            "[1, 1]"),
-       patch_field(), place_field(), weave_field(),
+       patch_field(), strip_field(), place_field(), weave_field(),
        with_default(
            boolean("relax", "Allow a rest state that violates the clearance, to be relaxed before loading."),
            "false")}));

@@ -73,9 +73,13 @@ void check_extent(const Node& root, const Node& section, const LoadCase& load_ca
   if (load_case.periodic() != patch) {
     const Node* vectors = find_typed(*cell, "vectors", Node::Type::array);
     const std::size_t needed = load_case.lattice_vectors();
-    if (!patch && vectors != nullptr && vectors->items.size() != needed) {
-      problems.add(*vectors, "'" + plugin->string + "' loads cells with " + std::to_string(needed) +
-                                 " vectors, and there are " + std::to_string(vectors->items.size()));
+    if (patch || vectors == nullptr) return;
+    const std::size_t found = cell->find("strip") != nullptr ? 1 : vectors->items.size();
+    if (found != needed) {
+      problems.add(*vectors,
+                   fmt::format("'{}' loads cells with {} vector{}, and there {} {}{}", plugin->string, needed,
+                               needed == 1 ? "" : "s", found == 1 ? "is" : "are", found,
+                               needed == 1 ? ": cut one with cell.strip" : ""));
     }
     return;
   }

@@ -69,8 +69,7 @@ Node scene_experiment(const Experiment& experiment, const SceneSpec& scene, cons
     std::vector<double> counts;
     for (std::size_t k = 0; k < scene.lattice.size(); ++k) {
       const Vec3 v = scene.lattice[k] / repeat[k];
-      vectors.push_back(scene.lattice.size() == 2 ? numbers_node(std::array{v.x(), v.y()})
-                                                  : numbers_node(std::array{v.x(), v.y(), v.z()}));
+      vectors.push_back(numbers_node(std::span(v.data(), scene.lattice.size())));
       counts.push_back(repeat[k]);
     }
     set_default(cell, "vectors", array_node(std::move(vectors)));

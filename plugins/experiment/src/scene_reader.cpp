@@ -8,10 +8,15 @@
 #include <hauberk/error.hpp>
 #include <hauberk/suggestion.hpp>
 
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
+#include <tuple>
 
 namespace hauberk {
 
@@ -154,14 +159,19 @@ class SceneReader {
     }
     std::vector<Vec3> v = read_vectors(cell.find("vectors"));
     std::array<int, 3> repeat{1, 1, 1};
+    std::vector<PlacedElement> placed = read_place(cell);
+    if (const Node* strip = cell.find("strip")) cut_strip(*strip, v, placed);
     const Node* counts = cell.find("repeat");
     if (counts != nullptr) {
       for (std::size_t k = 0; k < counts->items.size(); ++k)
         repeat[k] = static_cast<int>(counts->items[k].number);
-      if (!v.empty() && counts->items.size() > v.size())
-        problems_.add(*counts, "expected two numbers for two vectors, found three");
+      // The default is that of a sheet.
+      const bool beyond = std::any_of(repeat.begin() + static_cast<std::ptrdiff_t>(v.size()), repeat.end(),
+                                      [](int count) { return count != 1; });
+      if (!v.empty() && (counts->items.size() > std::max<std::size_t>(v.size(), 2) || beyond))
+        problems_.add(*counts, fmt::format("expected one number for each of the {} vectors, found {}",
+                                           v.size(), counts->items.size()));
     }
-    const std::vector<PlacedElement> placed = read_place(cell);
     const double total =
         static_cast<double>(repeat[0]) * repeat[1] * repeat[2] * static_cast<double>(placed.size());
     if (total > largest_scene) {
@@ -187,6 +197,67 @@ class SceneReader {
         }
       }
     }
+  }
+
+  /// Leaves of two vectors the one along the strip, turned to x, and of the cells `rows` beside each other.
+  void cut_strip(const Node& strip, std::vector<Vec3>& v, std::vector<PlacedElement>& placed)
+  {
+    const Node *axis = find_typed(strip, "axis", Node::Type::array),
+               *rows = find_typed(strip, "rows", Node::Type::number);
+    if (axis == nullptr || rows == nullptr || v.empty()) return;
+    if (v.size() != 2) {
+      problems_.add(strip, fmt::format("a strip is cut from a sheet, with two vectors; there {} {}",
+                                       v.size() == 1 ? "is" : "are", v.size()));
+      return;
+    }
+    const auto i = static_cast<int>(axis->items[0].number), j = static_cast<int>(axis->items[1].number);
+    if (std::gcd(i, j) != 1) {
+      problems_.add(*axis, fmt::format("expected two whole numbers without a common factor, found {} and {}; "
+                                       "cell.repeat makes the strip's cell longer",
+                                       i, j));
+      return;
+    }
+    if (rows->number * static_cast<double>(placed.size()) > largest_scene) {
+      problems_.add(*rows, "expected at most " + format_number(largest_scene) + " placed elements");
+      return;
+    }
+    const Vec3 along = i * v[0] + j * v[1];
+    const Vec3 across = across_strip(i, j, v);
+    const double c = along.x() / along.norm(), s = along.y() / along.norm();
+    Mat3 turn = Mat3::Identity();
+    turn.topLeftCorner<2, 2>() << c, s, -s, c;
+    std::vector<PlacedElement> out;
+    Vec3 mean = Vec3::Zero();
+    for (int row = 0; row < static_cast<int>(rows->number); ++row) {
+      for (PlacedElement element : placed) {
+        element.rest.position = turn * (element.rest.position + row * across);
+        element.rest.rotation = turn * element.rest.rotation;
+        mean += element.rest.position;
+        out.push_back(std::move(element));
+      }
+    }
+    for (PlacedElement& element : out)
+      element.rest.position.head<2>() -= mean.head<2>() / static_cast<double>(out.size());
+    v = {along.norm() * Vec3::UnitX()};
+    placed = std::move(out);
+  }
+
+  /// The lattice vector that spans the lattice together with i v1 + j v2, to its left, and that none of its
+  /// multiples shortens.
+  static Vec3 across_strip(int i, int j, const std::vector<Vec3>& v)
+  {
+    // i l - j k = 1, by Euclid's algorithm on (i, j).
+    long r0 = i, r1 = j, k0 = 1, k1 = 0, l0 = 0, l1 = 1;
+    while (r1 != 0) {
+      const long quotient = r0 / r1;
+      std::tie(r0, r1) = std::pair(r1, r0 - quotient * r1);
+      std::tie(k0, k1) = std::pair(k1, k0 - quotient * k1);
+      std::tie(l0, l1) = std::pair(l1, l0 - quotient * l1);
+    }
+    const Vec3 along = i * v[0] + j * v[1];  // k0 i + l0 j = r0 = +-1
+    Vec3 across = -l0 * v[0] + k0 * v[1];
+    if (along.cross(across).z() < 0.0) across = -across;
+    return across - std::round(across.dot(along) / along.squaredNorm()) * along;
   }
 
   /// Cells (i, j) of the outline by rows; empty when something is wrong with it.
@@ -237,6 +308,8 @@ class SceneReader {
   {
     if (const Node* vectors = cell.find("vectors"))
       problems_.add(*vectors, "a patch has its own vectors; remove these");
+    if (const Node* strip = cell.find("strip"))
+      problems_.add(*strip, "a patch has an outline instead; remove this, or the patch");
     const Node* repeat = cell.find("repeat");
     if (repeat != nullptr && repeat->numbers() != std::vector<double>{1.0, 1.0})
       problems_.add(*repeat, "a patch has an outline instead; remove this");
@@ -284,14 +357,20 @@ class SceneReader {
     for (const Node& item : node->items) {
       std::vector<double> x = item.numbers();
       if (x.size() != node->items.size()) {
-        problems_.add(item,
-                      "expected as many numbers as there are vectors: two of x and y, or three of x, y "
-                      "and z");
+        problems_.add(
+            item,
+            "expected as many numbers as there are vectors: one of x, two of x and y, or three of x, "
+            "y and z");
       }
       x.resize(3, 0.0);
       v.emplace_back(x[0], x[1], x[2]);
     }
     const bool space = v.size() == 3;
+    if (v.size() == 1) {
+      if (!(v[0].x() > 0.0) || !std::isfinite(v[0].x()))
+        problems_.add(*node, "expected one vector along x, of a length above 0");
+      return v;
+    }
     const double size =
         space ? std::abs(v[0].dot(v[1].cross(v[2]))) : std::abs(v[0].x() * v[1].y() - v[0].y() * v[1].x());
     double product = 1.0;

@@ -96,6 +96,10 @@ class GuardedLoadCase final : public LoadCase {
   {
     return guard_("held_boundedness", [&] { return inner_->held_boundedness(theta, load, cycles); });
   }
+  bool do_bends() const override
+  {
+    return guard_("bends", [&] { return inner_->bends(); });
+  }
   std::string do_not_a_sheet(const SheetState& state) const override
   {
     return guard_("not_a_sheet", [&] { return inner_->not_a_sheet(state); });

@@ -37,7 +37,7 @@ void add_contact(Vector& residual, const Scene& scene, const Setting& setting, c
     const Vec3 force = (side == 0 ? -1.0 : 1.0) * contact.force * contact.normal;
     const PositionDerivatives d = derivatives(scene, setting, state, k, image);
     const Vec3 origin = state.places[k].position + translation(scene, state.macro.deformation(), image);
-    residual.head(macros(scene)) += scene.length * d.macro.transpose() * force;
+    residual.head(macros(scene)).noalias() += scene.length * (d.macro.transpose() * force);
     residual.segment<3>(first_of(scene, k)) += scene.length * d.own.transpose() * force;
     residual.segment<3>(first_of(scene, k) + 3) += (contact.points[side] - origin).cross(force);
   }
@@ -47,6 +47,7 @@ void add_contact(Vector& residual, const Scene& scene, const Setting& setting, c
 /// x^2 + B y^2 + C x y is twice the off-diagonal one.
 Macros weights(Load load)
 {
+  if (load == Load::strip) return Macros::Ones(2);
   if (load == Load::solid) return (Macros(6) << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0).finished();
   return Vec3(1.0, 1.0, load == Load::paraboloid ? 0.5 : 2.0);
 }
@@ -70,6 +71,7 @@ Macros load(const Limit& limit)
   if (limit.load == Load::strain && (measure == "equation_12" || measure == "paper"))
     return Vec3(d / d.squaredNorm());
   if (limit.load == Load::paraboloid && measure == "normal_curvature") return Vec3(2.0 * d);
+  if (limit.load == Load::strip && measure == "roll_curvature") return Eigen::Vector2d(0.0, d.y());
   if (limit.load == Load::roll && measure == "roll_curvature") return Vec3(d.x(), d.y(), 2.0 * d.z());
   throw Malformed("the measure \"" + measure + "\" is not known to this check");
 }

@@ -96,9 +96,7 @@ double check_balance(const Scene& scene, const Setting& setting, const Limit& li
 /// How far a bent state is from being no sheet.
 Sheet sheet_of_limit(const Scene& scene, const Limit& limit)
 {
-  std::vector<std::array<int, 2>> linked;
-  for (const Link& link : links(scene, rest_places(scene), Mat3::Identity())) linked.push_back(link.elements);
-  return sheet_of(scene, *limit.macro, limit.poses, linked);
+  return sheet_of(scene, *limit.macro, limit.poses, links(scene, rest_places(scene), Mat3::Identity()));
 }
 
 /// A state that is kept because it is no sheet: admissible, free of intersections, and beyond the criterion.

@@ -24,11 +24,48 @@ double height_on(const Macro& macro, double x, double y)
 
 const Place& rest_of(const Scene& scene, std::size_t k) { return scene.elements[k].rest; }
 
+/// K of a strip, which bends about x, times L.
+Macros strip_curvature(const Macro& macro, double length) { return Vec3(0.0, macro.values[1] * length, 0.0); }
+
+/// Where an element of a strip is on the flat sheet, over L: how far it left its place along the axis, its
+/// place around it and its height.
+Vec3 flat_place_on_strip(const Scene& scene, const MovedState& state, std::size_t k)
+{
+  const Vec3 x = state.places[k].position / scene.length, X = rest_of(scene, k).position / scene.length;
+  const Vec3 around =
+      unrolled(strip_curvature(state.macro, scene.length), {0.0, x.y(), x.z()}, {0.0, X.y(), X.z()});
+  return {x.x() - (1.0 + state.macro.values[0]) * X.x(), around.y(), around.z()};
+}
+
 /// Where an element of a roll is on the flat sheet, over L.
 Vec3 flat_place(const Scene& scene, const MovedState& state, std::size_t k)
 {
+  if (state.macro.load == Load::strip) return flat_place_on_strip(scene, state, k);
   return unrolled(scaled(state.macro, scene.length), state.places[k].position / scene.length,
                   rest_of(scene, k).position / scene.length);
+}
+
+/// Where that place goes under other unknowns.
+Vec3 placed_on_strip(const Macro& macro, double length, const Vec3& X, const Vec3& flat)
+{
+  Vec3 out = rolled(strip_curvature(macro, length), {0.0, flat.y(), flat.z()});
+  out.x() = (1.0 + macro.values[0]) * X.x() + flat.x();
+  return out;
+}
+
+PositionDerivatives strip_derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
+                                      std::size_t k, const Vec3& X)
+{
+  const Vec3 flat = flat_place(scene, state, k);
+  const Eigen::Matrix<double, 3, 6> all =
+      rolled_derivatives(strip_curvature(state.macro, scene.length), {0.0, flat.y(), flat.z()});
+  PositionDerivatives out{Eigen::MatrixXd::Zero(3, 2), Mat3::Identity()};
+  out.macro(0, 0) = X.x();
+  out.macro.col(1) = all.col(1);
+  out.own.rightCols<2>() = all.rightCols<2>();
+  if (setting.places()) out.own.leftCols<2>().setZero();
+  if (setting.half_height == 0.0) out.own.col(2).setZero();
+  return out;
 }
 
 PositionDerivatives roll_derivatives(const Scene& scene, const Setting& setting, const MovedState& state,
@@ -47,6 +84,17 @@ PositionDerivatives roll_derivatives(const Scene& scene, const Setting& setting,
 Matrix gauge_rows(const Scene& scene, const Setting& setting)
 {
   const bool slides = !setting.places();
+  if (setting.load == Load::strip) {
+    const bool free = setting.half_height > 0.0;
+    Matrix rows = Matrix::Zero(unknowns(scene), (slides ? 2 : 0) + (free ? 3 : 0));
+    for (std::size_t k = 0; k < scene.elements.size(); ++k) {
+      const double Y = rest_of(scene, k).position.y() / scene.length;
+      const Eigen::Index o = first_of(scene, static_cast<int>(k));
+      if (slides) rows.block<2, 2>(o, 0).setIdentity();
+      if (free) rows.row(o + 2).tail<3>() << 1.0, Y, Y * Y;
+    }
+    return rows;
+  }
   const bool lifts = setting.load == Load::roll && setting.half_height > 0.0;
   Matrix rows = Matrix::Zero(unknowns(scene), (slides ? 3 : 0) + (lifts ? 6 : 0));
   for (std::size_t k = 0; k < scene.elements.size(); ++k) {
@@ -63,11 +111,14 @@ std::vector<std::string> misplaced_on_roll(const Scene& scene, const Setting& se
                                            const MovedState& state, double tolerance)
 {
   std::vector<std::string> out;
+  const bool strip = setting.load == Load::strip;
   const Macros K = scaled(state.macro, scene.length);
   Vector motion = Vector::Zero(unknowns(scene));
   for (std::size_t k = 0; k < state.places.size(); ++k) {
-    const Vec3 at = flat_place(scene, state, k), X = rest_of(scene, k).position / scene.length;
-    const double missed = (rolled(K, at) - state.places[k].position / scene.length).norm();
+    Vec3 at = flat_place(scene, state, k), X = rest_of(scene, k).position / scene.length;
+    const Vec3 there = strip ? placed_on_strip(state.macro, scene.length, X, at) : rolled(K, at);
+    const double missed = (there - state.places[k].position / scene.length).norm();
+    if (strip) X.x() = 0.0;  // as `at` has it
     if (!(missed <= tolerance)) out.push_back(fmt::format("element {} is nowhere about the roll", k));
     if (setting.half_height == 0.0 && !(std::abs(at.z() - X.z()) <= tolerance))
       out.push_back(
@@ -96,6 +147,7 @@ Eigen::Index unknowns(const Scene& scene)
 
 Macros scaled(const Macro& macro, double length)
 {
+  if (macro.load == Load::strip) return Eigen::Vector2d(macro.values[0], macro.values[1] * length);
   return is_bent(macro.load) ? Macros(macro.values * length) : macro.values;
 }
 
@@ -118,6 +170,7 @@ PositionDerivatives derivatives(const Scene& scene, const Setting& setting, cons
     if (setting.half_height == 0.0) out.own(2, 2) = 0.0;
     return out;
   }
+  if (setting.load == Load::strip) return strip_derivatives(scene, setting, state, k, X);
   if (setting.load == Load::roll) return roll_derivatives(scene, setting, state, k);
   const Macros c = scaled(state.macro, scene.length);
   const double x = state.places[k].position.x() / scene.length;
@@ -135,7 +188,9 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
 {
   MovedState out = state;
   const double L = scene.length;
-  out.macro.values += y.head(macros(scene)) / (is_bent(setting.load) ? L : 1.0);
+  Vector change_of_macro = y.head(macros(scene));
+  if (is_bent(setting.load)) change_of_macro.tail(setting.load == Load::strip ? 1 : 3) /= L;
+  out.macro.values += change_of_macro;
   const Mat3 change = out.macro.deformation() - state.macro.deformation();
   for (std::size_t k = 0; k < out.places.size(); ++k) {
     Vec3 u = L * y.segment<3>(first_of(scene, static_cast<int>(k)));
@@ -144,6 +199,10 @@ MovedState moved(const Scene& scene, const Setting& setting, const MovedState& s
     if (setting.load == Load::roll) {
       if (setting.half_height == 0.0) u.z() = 0.0;
       x = L * rolled(scaled(out.macro, L), flat_place(scene, state, k) + u / L);
+    } else if (setting.load == Load::strip) {
+      if (setting.half_height == 0.0) u.z() = 0.0;
+      x = L *
+          placed_on_strip(out.macro, L, rest_of(scene, k).position / L, flat_place(scene, state, k) + u / L);
     } else if (setting.load != Load::paraboloid) {
       x += change * rest_of(scene, k).position + Vec3(u.x(), u.y(), setting.half_height == 0.0 ? 0.0 : u.z());
     } else {
@@ -211,7 +270,8 @@ Vector free_part(const Matrix& held, const Vector& x)
 std::vector<std::string> misplaced(const Scene& scene, const Setting& setting, const MovedState& state,
                                    double tolerance)
 {
-  if (setting.load == Load::roll) return misplaced_on_roll(scene, setting, state, tolerance);
+  if (setting.load == Load::roll || setting.load == Load::strip)
+    return misplaced_on_roll(scene, setting, state, tolerance);
   std::vector<std::string> out;
   const auto n = static_cast<double>(state.places.size());
   Vec3 moved = Vec3::Zero(), fluctuation = Vec3::Zero();

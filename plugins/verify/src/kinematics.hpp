@@ -11,6 +11,9 @@
 /// roll:       x = rolled(K, (X, Y, Z) + u), see roll.hpp, with u.z = 0 or, where elements may leave the
 /// sheet, no
 ///             part of u.z that is a quadratic polynomial in X and Y; the rest as on a paraboloid
+/// strip:      the same with K = k e_y e_y^T, and along x (1 + exx) (X + T) + u_x; the means of u_x and u_y
+/// are zero,
+///             or u_x and u_y where places are held, and of u.z what is quadratic in Y
 #include "model.hpp"
 
 #include <string>
@@ -23,7 +26,10 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr Eigen::Index per_element = 6;
 
-inline Eigen::Index macros(const Scene& scene) { return scene.cell.size() == 3 ? 6 : 3; }
+inline Eigen::Index macros(const Scene& scene)
+{
+  return scene.cell.size() == 3 ? 6 : scene.cell.size() == 1 ? 2 : 3;
+}
 /// Where the unknowns of an element begin.
 inline Eigen::Index first_of(const Scene& scene, int element)
 {

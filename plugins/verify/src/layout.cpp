@@ -42,7 +42,7 @@ std::vector<Vec3> read_vectors(const json::value& v, const std::string& where)
     x.resize(3, 0.0);
     out.emplace_back(x[0], x[1], x[2]);
   }
-  if (out.size() < 2 || out.size() > 3) throw Malformed(where + ": two or three vectors expected");
+  if (out.empty() || out.size() > 3) throw Malformed(where + ": one to three vectors expected");
   return out;
 }
 
@@ -85,11 +85,53 @@ std::vector<LaidElement> read_places(const json::value& experiment, const json::
   return out;
 }
 
-Layout repeated(const json::value& cell, const std::vector<LaidElement>& placed)
+/// Rows of cells beside each other, turned so that the lattice vector along them is along x and alone left.
+/// Of the vectors that span the lattice together with it, those with the determinant 1, the next row is
+/// displaced by the one that lies least along it.
+std::vector<LaidElement> strip_of(const json::value& strip, const std::vector<LaidElement>& placed,
+                                  std::vector<Vec3>& v)
+{
+  const std::string where = "/experiment/cell/strip";
+  const std::vector<double> axis = numbers(member(strip, "axis", where), where + "/axis");
+  const double rows = number(member(strip, "rows", where), where + "/rows");
+  if (v.size() != 2 || axis.size() != 2 || !(std::abs(axis[0]) <= 1e3 && std::abs(axis[1]) <= 1e3) ||
+      !(rows >= 1.0 && rows <= most_cells))
+    throw Malformed(where + ": an axis of two vectors and a count of rows expected");
+  const Vec3 along = axis[0] * v[0] + axis[1] * v[1], forward = along.normalized();
+  const Vec3 left = Vec3::UnitZ().cross(forward);
+  std::optional<Vec3> across;
+  const double most = std::abs(axis[0]) + std::abs(axis[1]) + 1.0;
+  for (double k = -most; k <= most; ++k)
+    for (double l = -most; l <= most; ++l) {
+      if (std::abs(axis[0] * l - axis[1] * k) != 1.0) continue;
+      Vec3 there = k * v[0] + l * v[1];
+      if (there.dot(left) < 0.0) there = -there;
+      there -= std::round(there.dot(forward) / along.norm()) * along;
+      if (!across || std::abs(there.dot(forward)) < std::abs(across->dot(forward))) across = there;
+    }
+  if (!across) throw Malformed(where + "/axis: no common factor expected");
+  Mat3 turn;
+  turn << forward.transpose(), left.transpose(), Vec3::UnitZ().transpose();
+  std::vector<LaidElement> out;
+  Vec3 mean = Vec3::Zero();
+  for (double row = 0.0; row < rows; ++row)
+    for (LaidElement element : placed) {
+      element.rest.position = turn * (element.rest.position + row * *across);
+      element.rest.rotation = turn * element.rest.rotation;
+      mean += Vec3(element.rest.position.x(), element.rest.position.y(), 0.0);
+      out.push_back(std::move(element));
+    }
+  for (LaidElement& element : out) element.rest.position -= mean / static_cast<double>(out.size());
+  v = {along.norm() * Vec3::UnitX()};
+  return out;
+}
+
+Layout repeated(const json::value& cell, std::vector<LaidElement> placed)
 {
   const std::string where = "/experiment/cell";
   Layout out;
   std::vector<Vec3> v = read_vectors(member(cell, "vectors", where), where + "/vectors");
+  if (const json::value* strip = cell.as_object().if_contains("strip")) placed = strip_of(*strip, placed, v);
   std::array<int, 3> repeat{1, 1, 1};
   if (const json::value* counts = cell.as_object().if_contains("repeat")) {
     const std::vector<double> n = numbers(*counts, where + "/repeat");

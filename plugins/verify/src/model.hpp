@@ -84,7 +84,7 @@ struct Element {
 
 struct Scene {
   std::vector<Element> elements;
-  std::vector<Vec3> cell;  ///< two vectors of a sheet, three of a solid, none of a patch
+  std::vector<Vec3> cell;  ///< two vectors of a sheet, three of a solid, one of a strip, none of a patch
   double length = 0.0;     ///< L
 };
 
@@ -102,16 +102,20 @@ enum class Load {
   strain,      ///< in_plane_periodic: exx, eyy, exy
   paraboloid,  ///< paraboloid_bending: A, B, C
   roll,        ///< cylinder_roll: kxx, kyy, kxy
+  strip,       ///< strip_roll: exx, k
   solid        ///< volumetric_periodic: exx, eyy, ezz, eyz, exz, exy
 };
 
-/// Of a patch, whose unknowns are curvatures.
-inline bool is_bent(Load load) { return load == Load::paraboloid || load == Load::roll; }
+/// Of a sheet in space, whose value is a curvature.
+inline bool is_bent(Load load)
+{
+  return load == Load::paraboloid || load == Load::roll || load == Load::strip;
+}
 
 /// Vectors that a scene's cell has under a load.
 inline std::size_t cell_dimension(Load load)
 {
-  return load == Load::strain ? 2 : load == Load::solid ? 3 : 0;
+  return load == Load::strain ? 2 : load == Load::solid ? 3 : load == Load::strip ? 1 : 0;
 }
 
 /// The macroscopic unknowns, in file units.
@@ -119,13 +123,14 @@ struct Macro {
   Macros values = Macros::Zero(3);
   Load load = Load::strain;
 
-  /// F = I + [[exx, exy], [exy, eyy]] in the plane, or I + the symmetric matrix of all six in space, which
-  /// moves images; a patch has none.
+  /// F = I + [[exx, exy], [exy, eyy]] in the plane, I + the symmetric matrix of all six in space, or I + exx
+  /// along x of a strip, which moves images; a patch has none.
   Mat3 deformation() const
   {
     Mat3 f = Mat3::Identity();
-    if (is_bent(load)) return f;
+    if (load == Load::paraboloid || load == Load::roll) return f;
     f(0, 0) += values[0];
+    if (load == Load::strip) return f;
     f(1, 1) += values[1];
     f(0, 1) = f(1, 0) = values[values.size() - 1];
     if (load == Load::strain) return f;

@@ -16,11 +16,11 @@ namespace {
 /// Images of a second element that may be near a first one: with d = x_first - x_second and columns of A the
 /// deformed cell vectors, |A i - d| <= reach needs i within |row of A^-1| reach of A^-1 d. Least and largest,
 /// as numbers, since they may be beyond integers.
-std::array<Vec3, 2> images_within(const Mat3& inverse, const Vec3& d, double reach, bool solid)
+std::array<Vec3, 2> images_within(const Mat3& inverse, const Vec3& d, double reach, int vectors)
 {
   const Vec3 centre = inverse * d;
   std::array<Vec3, 2> out{Vec3::Zero(), Vec3::Zero()};
-  for (int r = 0; r < (solid ? 3 : 2); ++r) {
+  for (int r = 0; r < vectors; ++r) {
     const double radius = inverse.row(r).norm() * reach;
     out[0][r] = std::floor(centre[r] - radius);
     out[1][r] = std::ceil(centre[r] + radius);
@@ -28,7 +28,7 @@ std::array<Vec3, 2> images_within(const Mat3& inverse, const Vec3& d, double rea
   return out;
 }
 
-/// The deformed cell vectors; the third image of a sheet is 0.
+/// The deformed cell vectors; where there are fewer than three, the others' images are 0.
 Mat3 cell_matrix(const Scene& scene, const Mat3& F)
 {
   Mat3 A = Mat3::Identity();
@@ -59,9 +59,9 @@ double images_near(const Scene& scene, const std::vector<Place>& places, const M
   double count = 0.0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     for (std::size_t l = k; l < places.size(); ++l) {
-      const auto [low, high] =
-          images_within(inverse, places[k].position - places[l].position,
-                        scene.elements[k].reach + scene.elements[l].reach + margin, scene.cell.size() == 3);
+      const auto [low, high] = images_within(inverse, places[k].position - places[l].position,
+                                             scene.elements[k].reach + scene.elements[l].reach + margin,
+                                             static_cast<int>(scene.cell.size()));
       count += (high - low + Vec3::Ones()).prod();
       const bool beyond_integers = low.minCoeff() < -1e9 || high.maxCoeff() > 1e9;
       if (beyond_integers) return std::numeric_limits<double>::infinity();
@@ -86,12 +86,12 @@ std::vector<Neighbour> neighbours(const Scene& scene, const std::vector<Place>& 
     throw Malformed(
         fmt::format("more than {:g} images of elements may be near each other", most_images(places.size())));
   const Mat3 A = cell_matrix(scene, F), inverse = A.inverse();
-  const bool solid = scene.cell.size() == 3;
+  const int vectors = static_cast<int>(scene.cell.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
     for (std::size_t l = k; l < places.size(); ++l) {
       const Vec3 d = places[k].position - places[l].position;
       const double reach = scene.elements[k].reach + scene.elements[l].reach + margin;
-      const auto [low, high] = images_within(inverse, d, reach, solid);
+      const auto [low, high] = images_within(inverse, d, reach, vectors);
       for (double x = low[0]; x <= high[0]; ++x) {
         for (double y = low[1]; y <= high[1]; ++y) {
           for (double z = low[2]; z <= high[2]; ++z) {

@@ -218,6 +218,7 @@ Macro read_macro(const json::value& v, Load load, const std::string& where)
   std::vector<const char*> names{"exx", "eyy", "exy"};
   if (load == Load::paraboloid) names = {"A", "B", "C"};
   if (load == Load::roll) names = {"kxx", "kyy", "kxy"};
+  if (load == Load::strip) names = {"exx", "k"};
   if (load == Load::solid) names = {"exx", "eyy", "ezz", "eyz", "exz", "exy"};
   Macro out;
   out.load = load;
@@ -299,8 +300,7 @@ Scene read_scene(const json::value& scene, const std::string& where, const Shape
   Scene out;
   for (const json::value& vector : array(member(scene, "cell_vectors", where), where + "/cell_vectors")) {
     const json::array& a = array(vector, where + "/cell_vectors");
-    if (a.size() != 2 && a.size() != 3)
-      throw Malformed(where + "/cell_vectors: two or three numbers expected");
+    if (a.empty() || a.size() > 3) throw Malformed(where + "/cell_vectors: one to three numbers expected");
     Vec3 out_vector = Vec3::Zero();
     for (std::size_t k = 0; k < a.size(); ++k)
       out_vector[static_cast<Eigen::Index>(k)] = number(a[k], where + "/cell_vectors");
@@ -309,10 +309,12 @@ Scene read_scene(const json::value& scene, const std::string& where, const Shape
   const bool sheet = out.cell.size() == 2 && std::abs(out.cell[0].cross(out.cell[1]).z()) > 0.0 &&
                      out.cell[0].z() == 0.0 && out.cell[1].z() == 0.0;
   const bool solid = out.cell.size() == 3 && std::abs(out.cell[0].cross(out.cell[1]).dot(out.cell[2])) > 0.0;
-  if (!out.cell.empty() && !sheet && !solid)
-    throw Malformed(where +
-                    "/cell_vectors: independent vectors expected, two in the plane or three in space; none "
-                    "for a patch");
+  const bool strip = out.cell.size() == 1 && out.cell[0].x() > 0.0 && out.cell[0].tail<2>().isZero(0.0);
+  if (!out.cell.empty() && !sheet && !solid && !strip)
+    throw Malformed(
+        where +
+        "/cell_vectors: independent vectors expected, two in the plane, three in space or one along "
+        "x; none for a patch");
   std::vector<std::shared_ptr<const Surface>> surfaces;
   if (scene.as_object().contains("surfaces")) {
     const std::string at = where + "/surfaces";
@@ -457,6 +459,8 @@ Setting read_setting(const json::value& experiment)
   }
   if (plugin == "cylinder_roll")
     out.load = Load::roll;
+  else if (plugin == "strip_roll")
+    out.load = Load::strip;
   else if (plugin != "in_plane_periodic")
     throw Unknown("the load case \"" + plugin + "\" is not known to this check");
   const json::value& height = member(load, "out_of_plane", "/experiment/load_case");

@@ -1,5 +1,6 @@
 #include "sheet.hpp"
 
+#include "neighbours.hpp"
 #include "roll.hpp"
 
 #include <fmt/format.h>
@@ -28,13 +29,20 @@ double length_above(const Macro& macro, const Vec3& p, const Vec3& q)
   return sum;
 }
 
-/// Where elements of a roll are on the flat sheet.
+/// K of a roll, and of a strip, which bends about x.
+Macros curvature_of(const Macro& macro)
+{
+  return macro.load == Load::strip ? Macros(Vec3(0.0, macro.values[1], 0.0)) : macro.values;
+}
+
+/// Where elements of a roll are on the flat sheet. What is along the axis of a strip stays as it is.
 std::vector<Eigen::Vector2d> flat_places(const Scene& scene, const Macro& macro,
                                          const std::vector<Place>& places)
 {
   std::vector<Eigen::Vector2d> out;
   for (std::size_t k = 0; k < places.size(); ++k)
-    out.emplace_back(unrolled(macro.values, places[k].position, scene.elements[k].rest.position).head<2>());
+    out.emplace_back(
+        unrolled(curvature_of(macro), places[k].position, scene.elements[k].rest.position).head<2>());
   return out;
 }
 
@@ -65,26 +73,29 @@ std::string Sheet::text() const
 }
 
 Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>& places,
-               const std::vector<std::array<int, 2>>& linked)
+               const std::vector<Link>& linked)
 {
   Sheet out;
   double widest = 0.0;
   for (const Element& e : scene.elements) widest = std::max(widest, e.reach);
-  const bool roll = macro.load == Load::roll;
+  const bool roll = macro.load != Load::paraboloid;
   const double diagonal = roll ? 1.0 : 2.0;
+  const Macros k = curvature_of(macro);
   Eigen::Matrix2d second;  // derivatives of the height; at the apex they are the curvatures
-  second << diagonal * macro.values[0], macro.values[2], macro.values[2], diagonal * macro.values[1];
+  second << diagonal * k[0], k[2], k[2], diagonal * k[1];
   const std::vector<Eigen::Vector2d> flat =
       roll ? flat_places(scene, macro, places) : std::vector<Eigen::Vector2d>{};
   if (roll) out.turns = turns_of(second, flat);
   out.curvature =
       widest * Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(second).eigenvalues().cwiseAbs().maxCoeff();
-  for (const auto& [i, j] : linked) {
-    const std::size_t k = i, l = j;
-    const double at_rest = (scene.elements[l].rest.position - scene.elements[k].rest.position).norm();
-    const double unit = std::max(at_rest, 0.5 * (scene.elements[k].reach + scene.elements[l].reach));
-    const double along =
-        roll ? (flat[l] - flat[k]).norm() : length_above(macro, places[k].position, places[l].position);
+  for (const Link& link : linked) {
+    const std::size_t i = link.elements[0], j = link.elements[1];
+    const Vec3 T = translation(scene, Mat3::Identity(), link.image),
+               moved = translation(scene, macro.deformation(), link.image);
+    const double at_rest = (scene.elements[j].rest.position + T - scene.elements[i].rest.position).norm();
+    const double unit = std::max(at_rest, 0.5 * (scene.elements[i].reach + scene.elements[j].reach));
+    const double along = roll ? (flat[j] + moved.head<2>() - flat[i]).norm()
+                              : length_above(macro, places[i].position, places[j].position);
     out.apart = std::max(out.apart, along / unit);
   }
   return out;

@@ -1,6 +1,6 @@
 #pragma once
 /// Whether a bent patch still is a sheet on the scale of its elements.
-#include "model.hpp"
+#include "links.hpp"
 
 #include <string>
 #include <vector>
@@ -18,14 +18,15 @@ struct Sheet {
   /// Largest distance of linked elements along the surface, straight in plan, over the larger of their
   /// distance at rest and their mean radius.
   double apart = 0.0;
-  /// How often the patch goes around, along the direction in which it is curved most; 0 on a paraboloid.
+  /// How often the patch or strip goes around, along the direction in which it is curved most; 0 on a
+  /// paraboloid.
   double turns = 0.0;
   bool holds() const { return curvature < most_curvature && apart < most_apart && turns < most_turns; }
   std::string text() const;
 };
 
-/// Of a patch on a paraboloid or a roll; `linked`: pairs of elements.
+/// Of a patch on a paraboloid or a roll, or of a strip; `linked`: pairs of elements, the second in an image.
 Sheet sheet_of(const Scene& scene, const Macro& macro, const std::vector<Place>& places,
-               const std::vector<std::array<int, 2>>& linked);
+               const std::vector<Link>& linked);
 
 }  // namespace hauberk::verification

@@ -67,7 +67,8 @@ Malformed wrong_cell(const std::string& prefix)
 {
   return Malformed(
       prefix +
-      "/scene/cell_vectors: two for in_plane_periodic, three for volumetric_periodic, none for a patch");
+      "/scene/cell_vectors: two for in_plane_periodic, three for volumetric_periodic, one for strip_roll, none for "
+      "a patch");
 }
 
 /// The scene at `prefix`, as the setting has its surfaces.

@@ -217,7 +217,10 @@ def forces_for_tension(results, limit, tension):
     `tension` in N/m, positive also for compression; lengths in the experiment's unit.
     """
     unit = {"m": 1.0, "mm": 1e-3, "um": 1e-6}[results.raw["experiment"]["length_unit"]]
-    (ax, ay, *_), (bx, by, *_) = results.raw["scene"]["cell_vectors"]
+    vectors = results.raw["scene"]["cell_vectors"]
+    if len(vectors) != 2:
+        raise InputError("forces for a tension are those of a sheet, whose cell has two vectors")
+    (ax, ay), (bx, by) = vectors
     area = abs(ax * by - ay * bx) * unit**2
     # de has no unit and dg the experiment's: per metre of gap, forces are 1/unit as large.
     return results.contacts(limit)["force"] * tension * area / unit

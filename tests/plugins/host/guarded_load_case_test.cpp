@@ -99,6 +99,11 @@ class Odd final : public LoadCase {
     maybe_fail();
     return load[0] < 0 && cycles.size() == 2 ? Boundedness::not_attained : Boundedness::attained;
   }
+  bool do_bends() const override
+  {
+    maybe_fail();
+    return true;
+  }
   std::string do_not_a_sheet(const SheetState& state) const override
   {
     maybe_fail();
@@ -179,6 +184,7 @@ TEST(GuardedLoadCase, AnswersComeThrough)
   EXPECT_EQ(load_case->boundedness(turned, Sense::negative, both), Boundedness::not_attained);
   EXPECT_EQ(load_case->boundedness(turned, Sense::positive, both), Boundedness::attained);
   const std::array<std::array<int, 2>, 1> linked{{{0, 1}}};
+  EXPECT_TRUE(load_case->bends());
   EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, linked}), "torn");
   EXPECT_EQ(load_case->not_a_sheet({macro, e, both, {}, {}}), "");
   ASSERT_EQ(load_case->stricter().size(), 1U);
@@ -206,6 +212,7 @@ TEST(GuardedLoadCase, EveryCallIsGuarded)
   expect("companions", [&] { load_case->companions(Direction(), macro); });
   expect("sense_names", [&] { load_case->sense_names(); });
   expect("metric", [&] { load_case->metric(out); });
+  expect("bends", [&] { load_case->bends(); });
   expect("not_a_sheet", [&] { load_case->not_a_sheet({}); });
   expect("stricter", [&] { load_case->stricter(); });
   expect("contains", [&] { load_case->contains(Odd(false)); });

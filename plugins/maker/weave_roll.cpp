@@ -1,0 +1,181 @@
+#include "maker/weave_roll.hpp"
+
+#include "document/json_text.hpp"
+#include "run/interrupt.hpp"
+#include "run/limits_run.hpp"
+#include "tasks/job.hpp"
+
+#include <hauberk/error.hpp>
+
+#include <fmt/format.h>
+#include <boost/json/parse.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hauberk::maker {
+namespace {
+
+/// A strip that goes around by more closes into a tube before its elements stop it.
+constexpr double most_turns = 0.75;
+constexpr int fewest_rows = 2, most_rows = 6;
+constexpr double same_radius = 0.01;
+
+/// The shortest lattice vector across a way, as counts of both vectors; (0, 0) where none is.
+std::array<int, 2> across(const std::vector<Vec3>& lattice, double degrees)
+{
+  constexpr int most = 8;
+  constexpr double aside = 1e-6;
+  const double angle = degrees * std::numbers::pi / 180.0;
+  const Vec3 n(std::cos(angle), std::sin(angle), 0.0);
+  std::array<int, 2> out{};
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = -most; i <= most; ++i) {
+    for (int j = -most; j <= most; ++j) {
+      const Vec3 t = i * lattice[0] + j * lattice[1];
+      if (!(std::abs(t.dot(n)) < aside * t.norm()) || !(t.norm() < shortest) || !(n.cross(t).z() > 0.0))
+        continue;
+      shortest = t.norm();
+      out = {i, j};
+    }
+  }
+  return out;
+}
+
+std::string strip_text(const Weave& weave, const Question& question, const std::array<int, 2>& axis, int rows)
+{
+  namespace json = boost::json;
+  json::value document = json::parse(experiment_text(weave, question, 0.0));
+  json::object& root = document.as_object();
+  root["load_case"] = json::object{{"plugin", "strip_roll"}, {"directions_deg", {90}}};
+  root["cell"].as_object()["strip"] = json::object{{"axis", {axis[0], axis[1]}}, {"rows", rows}};
+  return write_json(document);
+}
+
+/// How far around the roll elements are, in turns. They lie on it, its axis along x and above the origin.
+double turns(const LimitResult& limit)
+{
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Pose& pose : limit.poses) {
+    const double angle = std::atan2(*limit.value * pose.position.y(), 1.0 - *limit.value * pose.position.z());
+    low = std::min(low, angle);
+    high = std::max(high, angle);
+  }
+  return (high - low) / (2.0 * std::numbers::pi);
+}
+
+/// Radii of a strip of so many rows, up and down.
+RollAnswer of_rows(const Job& job, RollAnswer roll, unsigned threads, Progress& progress)
+{
+  const Prepared& prepared = *job.prepared;
+  const std::vector<LimitTask> tasks = job.task->limit_tasks();
+  const std::vector<LimitResult> limits = run_limits({&prepared.model,
+                                                      &prepared.scene,
+                                                      tasks,
+                                                      prepared.settings,
+                                                      prepared.experiment.load_case_plugin,
+                                                      threads,
+                                                      fmt::format("rolled {}, {} rows", roll.name, roll.rows),
+                                                      {}},
+                                                     progress, [](const std::vector<LimitResult>&) {});
+  if (interrupted()) throw ComputationError("interrupted: the limits are not known, and nothing was written");
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    const bool up = tasks[k].sense == Sense::positive;
+    const bool locked = limits[k].status == LimitStatus::locked;
+    (up ? roll.up : roll.down) = locked ? std::optional(1.0 / std::abs(*limits[k].value)) : std::nullopt;
+    (up ? roll.up_status : roll.down_status) = to_string(limits[k].status);
+    if (locked) roll.turns = std::max(roll.turns, turns(limits[k]));
+    // What is no sheet any more has gone around, or in a radius below that of its rings.
+    if (!locked) roll.turns = 1.0;
+  }
+  return roll;
+}
+
+bool same(const std::optional<double>& a, const std::optional<double>& b)
+{
+  return a && b && std::abs(*a - *b) <= same_radius * *b;
+}
+
+/// From strips of more and more rows the radius of the weave: that of the first strip which one more row does
+/// not change. Where two strips on end close into tubes nothing else stops them, and the narrower tube is
+/// told.
+class Narrowing {
+ public:
+  bool is_done() const { return done_; }
+  RollAnswer answer() const { return tube_ ? *tube_ : open_ ? *open_ : last_; }
+
+  void add(RollAnswer roll)
+  {
+    const bool locked = roll.up && roll.down;
+    if (locked && roll.turns > most_turns) {
+      done_ = tube_.has_value();
+      if (!tube_) tube_ = roll;
+    } else if (locked) {
+      done_ = open_ && same(roll.up, open_->up) && same(roll.down, open_->down);
+      open_ = roll;
+      tube_.reset();
+    }
+    last_ = std::move(roll);
+  }
+
+ private:
+  std::optional<RollAnswer> open_, tube_;
+  RollAnswer last_;
+  bool done_ = false;
+};
+
+}  // namespace
+
+std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const WeaveLookup& lookup,
+                              const std::shared_ptr<const Registry>& registry, unsigned threads,
+                              Progress& progress)
+{
+  const std::string label = "hauberk weave " + question.weave;
+  const Job flat = prepare_job(registry, {label, experiment_text(weave, question, 0.0), {}, lookup});
+  std::vector<RollAnswer> out;
+  for (const Weave::Way& way : weave.ways) {
+    const std::array<int, 2> axis = across(flat.prepared->scene.lattice, way.degrees);
+    if (axis == std::array{0, 0}) continue;
+    Narrowing narrowing;
+    for (int rows = fewest_rows; rows <= most_rows && !narrowing.is_done(); ++rows) {
+      const Job job = prepare_job(registry, {label, strip_text(weave, question, axis, rows), {}, lookup});
+      narrowing.add(of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, "", ""}, threads, progress));
+    }
+    out.push_back(narrowing.answer());
+  }
+  return out;
+}
+
+std::string rolls_text(const std::vector<RollAnswer>& rolls)
+{
+  if (rolls.empty()) return "";
+  std::string text = "wound onto a rod, the radius of the sheet's middle is at least\n";
+  text += fmt::format("  {:<24}{:>14}{:>14}\n", "", "bent up", "bent down");
+  const auto radius = [](const std::optional<double>& r, const std::string& status) {
+    return r ? fmt::format("{:.2f} mm", *r) : status;
+  };
+  for (const RollAnswer& roll : rolls) {
+    text += fmt::format("  {:<24}{:>14}{:>14}", roll.name, radius(roll.up, roll.up_status),
+                        radius(roll.down, roll.down_status));
+    if (roll.turns > most_turns) text += fmt::format("   ({} rows of cells close into a tube)", roll.rows);
+    text += '\n';
+  }
+  return text + "\n";
+}
+
+boost::json::array rolls_json(const std::vector<RollAnswer>& rolls)
+{
+  boost::json::array out;
+  for (const RollAnswer& roll : rolls) {
+    boost::json::object entry{{"name", roll.name},           {"direction_deg", roll.degrees},
+                              {"rows", roll.rows},           {"turns", roll.turns},
+                              {"up_status", roll.up_status}, {"down_status", roll.down_status}};
+    entry["up_radius_mm"] = roll.up ? boost::json::value(*roll.up) : nullptr;
+    entry["down_radius_mm"] = roll.down ? boost::json::value(*roll.down) : nullptr;
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+}  // namespace hauberk::maker

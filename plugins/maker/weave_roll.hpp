@@ -1,0 +1,19 @@
+#pragma once
+/// How tightly a weave is wound onto a rod.
+
+#include "maker/weave_sheet.hpp"
+
+namespace hauberk::maker {
+
+/// Rolls along every way of the sheet that has a lattice vector across it, which the rod is along: of strips
+/// of two rows of cells, three and more, until one more row changes both radii by less than a hundredth, or
+/// strips close into tubes. Elements stay on the sheet, and slide along it. Throws as `answer` does.
+std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const WeaveLookup& lookup,
+                              const std::shared_ptr<const Registry>& registry, unsigned threads,
+                              Progress& progress);
+
+/// As lines of a page for people, empty without rolls, and as a list for programs.
+std::string rolls_text(const std::vector<RollAnswer>& rolls);
+boost::json::array rolls_json(const std::vector<RollAnswer>& rolls);
+
+}  // namespace hauberk::maker

@@ -19,7 +19,10 @@ pages = root / "share/doc"
 WEAVES = [("chain", "Chain", (4, 1), [0]), ("european_4in1", "European 4-in-1", (4, 7), [0, 90]),
           ("european_6in1", "European 6-in-1", (4, 7), [0, 90]), ("japanese_4in1", "Japanese 4-in-1", (3, 3), [0, 45]),
           ("japanese_6in1", "Japanese 6-in-1", (3, 2), [0, 90]), ("threefold", "Threefold", (4, 4), [0, 90]),
-          ("fourfold", "Fourfold", (4, 4), [0, 45])]
+          ("fourfold", "Fourfold", (4, 4), [0, 45]), ("dragonscale", "Dragonscale", (3, 3), [0, 90]),
+          ("box", "Box chain", (5, 1), [0]), ("byzantine", "Byzantine", (2, 1), [0]),
+          ("half_persian_3in1", "Half Persian 3-in-1", (6, 1), [0]), ("half_persian_4in1", "Half Persian 4-in-1", (7, 1), [0]),
+          ("full_persian_6in1", "Full Persian 6-in-1", (5, 1), [0])]
 
 
 def run(*words):
@@ -29,7 +32,7 @@ def run(*words):
 def experiment(name, directions):
     return {"name": name, "task": "limits", "length_unit": "mm", "cell": {"weave": {"name": name}},
             "load_case": {"plugin": "in_plane_periodic", "directions_deg": directions,
-                          "hold": ["shear"] if len(directions) > 1 else [], "out_of_plane": 0}}
+                          "out_of_plane": 0 if len(directions) > 1 else "free"}}
 
 
 def picture(source, state, name, repeat):

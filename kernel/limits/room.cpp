@@ -1,6 +1,7 @@
 #include "limits/room.hpp"
 
 #include "equilibrium/gaps.hpp"
+#include "limits/room_polish.hpp"
 #include "model/links.hpp"
 #include "numerics/parallel.hpp"
 
@@ -41,6 +42,8 @@ RoomyState grow(const Model& m, State state, const RoomSettings& settings, const
       step *= 0.5;
     }
   }
+  out.state = polished_room(m, out.state, out.gap, settings.cell, keep_going);
+  out.gap = smallest_gap(m, out.state, far);
   return out;
 }
 

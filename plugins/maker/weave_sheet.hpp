@@ -83,7 +83,7 @@ bool can_be_woven(const Weave& weave, const Question& question);
 std::string experiment_text(const Weave& weave, const Question& question, double clearance);
 
 /// Computes the answers, with `can_be_woven`. Limits are those of the load's direction with the shear held,
-/// in the plane (of a chain with nothing held). Throws what preparing and computing an experiment throws;
+/// in the plane (of a chain free to leave it). Throws what preparing and computing an experiment throws;
 /// ComputationError where it is interrupted.
 Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lookup,
              const std::shared_ptr<const Registry>& registry, unsigned threads, Progress& progress);

@@ -106,8 +106,62 @@ INSTANTIATE_TEST_SUITE_P(
                       Weave{"japanese_4in1", {4, 2, 2}, "inner_diameter", "wire_diameter", 2.41421357},
                       Weave{"japanese_6in1", {6, 2, 2, 2}, "inner_diameter", "wire_diameter", 3.00000001},
                       Weave{"threefold", {6}, "side_R", "side_r0", 2.396},
-                      Weave{"fourfold", {20, 10, 10}, "R", "r", 4.958}),
+                      Weave{"fourfold", {20, 10, 10}, "R", "r", 4.958},
+                      Weave{"box", {4, 4, 4, 4}, "inner_diameter", "wire_diameter", 4.4132},
+                      Weave{"byzantine", std::vector<int>(12, 4), "inner_diameter", "wire_diameter", 3.26542},
+                      Weave{"half_persian_3in1", {3, 3}, "inner_diameter", "wire_diameter", 3.8928},
+                      Weave{"half_persian_4in1", {4, 4}, "inner_diameter", "wire_diameter", 4.53942},
+                      Weave{"full_persian_6in1", {6, 6, 6, 6}, "inner_diameter", "wire_diameter", 5.05065},
+                      Weave{"dragonscale", {4, 4, 4, 4}, "large_R", "large_r", 6.70924}),
     [](const auto& info) { return std::string(info.param.name); });
+
+/// Links do not tell folded weaves from others with the same links: a Byzantine chain is a chain of pairs
+/// whose rings contact holds back. Their places are compared with those that another program found.
+class FoldedWeaves : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(FoldedWeaves, HaveThePlacesOfAnIndependentSearch)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("w.json", experiment({GetParam(), {}, "", "", 0.0}));
+  ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/solver/lessons=false"}).code, 0);
+  const json::value scene = read_results(folder / "out").at("scene");
+  const json::value expected =
+      parse_json(read_text(HAUBERK_SOURCE_DIR "/tests/experiments/scenes/weave_places.json"), "places")
+          .at(GetParam());
+  constexpr double in_length = 1e-6, in_angle = 2e-6;
+  const double R = number_at(scene, "/elements/0/primitives/0/parameters/R");
+  for (int v = 0; v < static_cast<int>(expected.at("vectors").as_array().size()); ++v) {
+    for (int c = 0; c < 2; ++c) {
+      const std::string at = fmt::format("/{}/{}", v, c);
+      EXPECT_NEAR(number_at(scene, "/cell_vectors" + at) / R, number_at(expected, "/vectors" + at), in_length)
+          << at;
+    }
+  }
+  const json::array& rings = expected.at("rings").as_array();
+  ASSERT_EQ(scene.at("elements").as_array().size(), rings.size());
+  for (int k = 0; k < static_cast<int>(rings.size()); ++k) {
+    const std::string ring = fmt::format("/elements/{}/rest", k);
+    const auto q = [&](int c) { return number_at(scene, fmt::format("{}/quaternion/{}", ring, c)); };
+    const double normal[] = {2.0 * (q(1) * q(3) + q(0) * q(2)), 2.0 * (q(2) * q(3) - q(0) * q(1)),
+                             1.0 - 2.0 * (q(1) * q(1) + q(2) * q(2))};
+    double same = 0.0, opposite = 0.0;  // distances of the normals
+    for (int c = 0; c < 3; ++c) {
+      const json::value& expected_ring = rings[static_cast<std::size_t>(k)];
+      EXPECT_NEAR(number_at(scene, fmt::format("{}/position/{}", ring, c)) / R,
+                  number_at(expected_ring, fmt::format("/centre/{}", c)), in_length)
+          << ring;
+      const double there = number_at(expected_ring, fmt::format("/normal/{}", c));
+      same = std::hypot(same, normal[c] - there);
+      opposite = std::hypot(opposite, normal[c] + there);
+    }
+    EXPECT_LT(std::min(same, opposite), in_angle) << ring;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, FoldedWeaves,
+                         ::testing::Values("box", "byzantine", "half_persian_3in1", "half_persian_4in1",
+                                           "full_persian_6in1", "dragonscale"),
+                         [](const auto& info) { return std::string(info.param); });
 
 /// n wires that pass through a round hole are n discs in a disc, and the hole's own tube is as thick: inner
 /// diameter / wire is at least the ratio of the radii of the smallest such disc. Chains, Japanese 4-in-1 and
@@ -150,14 +204,18 @@ TEST_P(SmallestRatio, IsFound)
   EXPECT_EQ(with_wire(thickest * (1.0 + 1e-5)), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, SmallestRatio,
-                         ::testing::Values(std::tuple{Weave{"chain", {2, 2}, "", "", 0.0}, 2.0},
-                                           std::tuple{Weave{"japanese_4in1", {4, 2, 2}, "", "", 0.0},
-                                                      1.0 + std::numbers::sqrt2},
-                                           std::tuple{Weave{"japanese_6in1", {6, 2, 2, 2}, "", "", 0.0}, 3.0},
-                                           std::tuple{Weave{"european_4in1", {4, 4}, "", "", 0.0}, 2.980955},
-                                           std::tuple{Weave{"european_6in1", {6, 6}, "", "", 0.0}, 4.372529}),
-                         [](const auto& info) { return std::string(std::get<0>(info.param).name); });
+INSTANTIATE_TEST_SUITE_P(
+    Library, SmallestRatio,
+    ::testing::Values(std::tuple{Weave{"chain", {2, 2}, "", "", 0.0}, 2.0},
+                      std::tuple{Weave{"japanese_4in1", {4, 2, 2}, "", "", 0.0}, 1.0 + std::numbers::sqrt2},
+                      std::tuple{Weave{"japanese_6in1", {6, 2, 2, 2}, "", "", 0.0}, 3.0},
+                      std::tuple{Weave{"european_4in1", {4, 4}, "", "", 0.0}, 2.9809270},
+                      std::tuple{Weave{"european_6in1", {6, 6}, "", "", 0.0}, 4.3724510},
+                      std::tuple{Weave{"box", {4, 4, 4, 4}, "", "", 0.0}, 4.4131965},
+                      std::tuple{Weave{"half_persian_3in1", {3, 3}, "", "", 0.0}, 3.8927953},
+                      std::tuple{Weave{"half_persian_4in1", {4, 4}, "", "", 0.0}, 4.5394156},
+                      std::tuple{Weave{"full_persian_6in1", {6, 6, 6, 6}, "", "", 0.0}, 5.0506407}),
+    [](const auto& info) { return std::string(std::get<0>(info.param).name); });
 
 /// Four rings of a chain.
 const char* const patch = R"({ "name": "patch",
@@ -297,8 +355,9 @@ TEST(WeaveFiles, MistakesAreReported)
   };
   EXPECT_EQ(
       after("\"chain\"", "\"japanese_4in2\""),
-      ":1: /cell/weave/name: no weave 'japanese_4in2'; did you mean 'japanese_4in1'?; the library has chain, "
-      "european_4in1, european_6in1, fourfold, japanese_4in1, japanese_6in1, threefold\n");
+      ":1: /cell/weave/name: no weave 'japanese_4in2'; did you mean 'japanese_4in1'?; the library has box, "
+      "byzantine, chain, dragonscale, european_4in1, european_6in1, fourfold, full_persian_6in1, half_persian_3in1, half_persian_4in1, japanese_4in1, "
+      "japanese_6in1, threefold\n");
   // Beside it, what else is wrong with the file.
   const std::string both =
       run_program({"check", folder.write("w.json", with(with(good, "\"chain\"", "\"chian\""),

@@ -165,10 +165,12 @@ class SceneReader {
     if (counts != nullptr) {
       for (std::size_t k = 0; k < counts->items.size(); ++k)
         repeat[k] = static_cast<int>(counts->items[k].number);
-      // The default is that of a sheet.
+      // The default of two is that of a sheet.
       const bool beyond = std::any_of(repeat.begin() + static_cast<std::ptrdiff_t>(v.size()), repeat.end(),
                                       [](int count) { return count != 1; });
-      if (!v.empty() && (counts->items.size() > std::max<std::size_t>(v.size(), 2) || beyond))
+      const std::size_t given = counts->items.size();
+      if (!v.empty() && (beyond || given > std::max<std::size_t>(v.size(), 2) ||
+                         given < std::min<std::size_t>(v.size(), 2)))
         problems_.add(*counts, fmt::format("expected one number for each of the {} vectors, found {}",
                                            v.size(), counts->items.size()));
     }

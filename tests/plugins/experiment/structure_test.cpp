@@ -55,7 +55,7 @@ TEST(Structure, RangesAndChoices)
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [2, 0], \"place\": ["),
             "t.json:9: /cell/repeat/1: expected an integer >= 1, found 0");
   EXPECT_EQ(after("\"place\": [", "\"repeat\": [2], \"place\": ["),
-            "t.json:9: /cell/repeat: expected an array of 2 to 3 integers >= 1, found an array of 1 value");
+            "t.json:9: /cell/repeat: expected one number for each of the 2 vectors, found 1");
 }
 
 TEST(Structure, PublishedResultsOfADesign)

@@ -58,6 +58,9 @@ TEST_F(Answers, OfAChainAreThoseOfTheClosedForm)
   // Taut, every ring sits in the next ones: two rings take two inner diameters.
   ASSERT_TRUE(sheet.ways[0].stretch);
   EXPECT_NEAR(sheet.ways[0].pitch * (1.0 + *sheet.ways[0].stretch), 16.0, 1e-8);
+  // Pushed together it does not turn aside: rings of a kind lie side by side along it, a wire apart at least.
+  ASSERT_TRUE(sheet.ways[0].compress);
+  EXPECT_GT(sheet.ways[0].pitch * (1.0 + *sheet.ways[0].compress), 1.2 - 1e-8);
   // Surfaces that stay 0.4 mm apart take as much of each inner diameter.
   ASSERT_TRUE(sheet.printable);
   ASSERT_TRUE(sheet.with_gap[0].stretch);

@@ -19,13 +19,12 @@ std::optional<Vector> transformed_macro(const Model& m, const Mat3& O, const Vec
 }
 
 /// Element coordinates that bring an element (rest position X, image translation T) to x: Gauss-Newton from
-/// zero, which needs one step where the load case is affine. Null if nothing brings it there.
+/// e, which needs one step where the load case is affine. Null if it does not lead there.
 std::optional<Vector> coordinates_at(const Model& m, const Vector& macro, const Vec3& X, const Vec3& T,
-                                     const Vec3& x)
+                                     const Vec3& x, Vector e)
 {
   constexpr int most_steps = 20;
   const Eigen::Index nc = m.coordinate_count;
-  Vector e = Vector::Zero(nc);
   PositionMap map;
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps; ++k) {
@@ -112,8 +111,16 @@ std::optional<State> transformed(const Model& m, const SceneSymmetry& g, const S
     const std::size_t k = i;
     const std::size_t j = g.to[k];
     const Vec3 x = g.O * image_pose(m, s, i, {}).position + shift;
+    // On a rolled sheet elements that slid far are beyond the reach of Newton's method from zero, or a turn
+    // further; there coordinates are displacements along it, which turn with the scene.
+    Vector near = none;
+    if (m.load->bends()) {
+      Vec3 displaced = Vec3::Zero();
+      displaced.head(nc) = s.e.segment(i * nc, nc);
+      near = (g.O * displaced).head(nc);
+    }
     const std::optional<Vector> e =
-        coordinates_at(m, out.macro, m.rest[j].position, m.translation(g.image[k]), x);
+        coordinates_at(m, out.macro, m.rest[j].position, m.translation(g.image[k]), x, std::move(near));
     if (!e) return std::nullopt;
     out.e.segment(g.to[k] * nc, nc) = *e;
     out.rotation[j] = g.O * s.rotation[k] * g.local[k].transpose();

@@ -171,8 +171,8 @@ std::string experiment_text(const Weave& weave, const Question& question, double
   for (const char c : weave.name)
     name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ? c : '_';
   json::object load{{"plugin", "in_plane_periodic"}, {"directions_deg", directions}};
-  // A chain hangs on nothing beside it, and is as high as it is wide: it may shrink and swell across. With its
-  // direction free as well (no shear held) it would turn aside instead of being pushed together.
+  // A chain hangs on nothing beside it, and is as high as it is wide: it may shrink and swell across. With
+  // its direction free as well (no shear held) it would turn aside instead of being pushed together.
   if (weave.ways.size() == 1) load["out_of_plane"] = "free";
   json::object document{
       {"name", name},

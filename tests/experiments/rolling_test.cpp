@@ -188,6 +188,20 @@ TEST(StripRolling, IsThePatchWhereNothingRepeats)
   EXPECT_NEAR(number_at(r, "/limits/1/value"), -exact, 1e-8 * exact);
 }
 
+/// Flat and upright rings are their own mirror images in the sheet, so that it bends as far down as up, also
+/// where elements have slid far along it.
+TEST(StripRolling, MirrorImagesBendAlike)
+{
+  const json::value r = results_of(R"({
+  "name": "mirrored", "length_unit": "mm",
+  "cell": { "weave": { "name": "japanese_4in1", "parameters": { "inner_diameter": 8, "wire_diameter": 2 } },
+            "strip": { "axis": [0, 1], "rows": 3 } },
+  "load_case": { "plugin": "strip_roll", "directions_deg": [90] } })");
+  const double up = number_at(r, "/limits/0/value");
+  EXPECT_GT(up, 0.25);
+  EXPECT_NEAR(number_at(r, "/limits/1/value"), -up, 1e-7 * up);
+}
+
 class StripResults : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { results_ = results_of(strip(2)); }

@@ -126,7 +126,7 @@ TEST_P(FoldedWeaves, HaveThePlacesOfAnIndependentSearch)
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/solver/lessons=false"}).code, 0);
   const json::value scene = read_results(folder / "out").at("scene");
   const json::value expected =
-      parse_json(read_text(HAUBERK_SOURCE_DIR "/tests/experiments/scenes/weave_places.json"), "places")
+      parse_json(read_text(HAUBERK_SOURCE_DIR "/tests/experiments/weave_places.json"), "places")
           .at(GetParam());
   constexpr double in_length = 1e-6, in_angle = 2e-6;
   const double R = number_at(scene, "/elements/0/primitives/0/parameters/R");

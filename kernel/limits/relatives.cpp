@@ -116,8 +116,12 @@ std::optional<State> Carrier::state(const State& from) const
     const CellPlace there = place_of(cell_at(k / n, to_repeat_), from_repeat_);
     const Pose pose = image_pose(from_, from, there.cell * n + k % n, there.image);
     out.rotation[k] = pose.rotation;
-    // Positions are affine in an element's coordinates, or nearly: Newton's method ends at once.
+    // Positions are affine in an element's coordinates, or nearly: Newton's method ends at once. On a rolled
+    // sheet, along which elements may have slid far, it begins where the element is along it.
     auto e = out.e.segment(k * to_.coordinate_count, to_.coordinate_count);
+    const int along = std::min(from_.coordinate_count, to_.coordinate_count);
+    if (to_.load->bends() && along >= 2)
+      e.head(along) = from.e.segment((there.cell * n + k % n) * from_.coordinate_count, along);
     double missed = 0.0;
     for (int step = 0; step < 4; ++step) {
       to_.load->position(macro, {e.data(), nc}, to_.rest[k].position, Vec3::Zero(), map);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hauberk {
@@ -54,12 +55,13 @@ double wall_step(const Model& m, const State& from, const Vector& dy, double kee
 namespace {
 
 /// Margin of `near_pairs` that no pair which touches on the way exceeds, from how the lattice moves; infinite
-/// where it changes by too much for that.
+/// where it changes by too much for that, or where what accelerates is not known to move images linearly.
 ///
 /// With A the lattice's vectors, G = (dA/ds) A^-1 and n the image, x_ij,n = x_ij,0 - A n moves by
 ///   v_ij,n = v_ij,0 - G (x_ij,0 - x_ij,n) = G x_ij,n + q_i - q_j,   q_i = v_i - G x_i,
-/// and what touches at some s in [0, 1] has |x_ij,n(0)| <= touching + |v_ij,n|, so that
-///   |x_ij,n(0)| <= (touching + |q_i - q_j|) / (1 - |G|).
+/// and what touches at some s in [0, 1] has |x_ij,n(0)| <= touching + |v_ij,n| + (a_i + a_j)/2, with a
+/// the bounds of accelerations, so that
+///   |x_ij,n(0)| <= (touching + |q_i - q_j| + (a_i + a_j)/2) / (1 - |G|).
 /// The q of elements that keep their places in the moving lattice, however far it was stretched, differ
 /// little.
 double margin_of_lattice(const Model& m, const State& from, const Vector& dy, double widest)
@@ -72,7 +74,6 @@ double margin_of_lattice(const Model& m, const State& from, const Vector& dy, do
     Image image{};
     image[k] = 1;
     const Track there(m, from, dy, 0, image);
-    if (there.acceleration > 0.0) return never;
     A.col(static_cast<Eigen::Index>(k)) = there.pose.position - origin.pose.position;
     dA.col(static_cast<Eigen::Index>(k)) = there.velocity - origin.velocity;
   }
@@ -80,43 +81,36 @@ double margin_of_lattice(const Model& m, const State& from, const Vector& dy, do
   const double change = G.norm();
   if (!(change <= most_change)) return never;
   Vec3 lowest = Vec3::Constant(never), highest = -lowest;
+  double bend = 0.0;
   for (int i = 0; i < m.element_count(); ++i) {
     const Track t(m, from, dy, i, {0, 0});
-    if (t.acceleration > 0.0) return never;
     const Vec3 q = t.velocity - G * t.pose.position;
     lowest = lowest.cwiseMin(q);
     highest = highest.cwiseMax(q);
+    bend = std::max(bend, t.acceleration);
   }
+  if (bend > 0.0 && !m.load->bends()) return never;
   const double touching = 2.0 * widest + m.clearance;
-  return (touching + (highest - lowest).norm()) / (1.0 - change) - 2.0 * widest;
+  return (touching + (highest - lowest).norm() + bend) / (1.0 - change) - 2.0 * widest;
 }
 
-/// How near to each other, beyond their reach, elements of a strip that bends have to be at the beginning of
-/// a step that brings them together. Images are displaced linearly in the macroscopic unknowns, so that with
-/// A, G and q as above
-///   |x_ij,n(0)| <= (touching + |q_i - q_j| + (a_i + a_j)/2)/(1 - |G|),
-/// where a bounds accelerations. Where the strip is strained too much for that: what touches at some s has
-/// images |n| A_min <= touching + |x_ij,0(s)|, with A_min the shorter of the vector's two lengths.
+/// The same for a strip that bends, however much it is strained. Its vector is A at the beginning and nowhere
+/// shorter than A_min. What touches at some s has images |n| A_min <= touching + |x_ij,0(s)|, so that
+///   |x_ij,n(0)| <= |x_ij,0(0)| + A/A_min (touching + |x_ij,0(0)| + 2 v),
+/// where v is how far the fastest element goes.
 double margin_of_strip(const Model& m, const State& from, const Vector& dy, double widest)
 {
-  constexpr double most_change = 0.6;
   const Track origin(m, from, dy, 0, {0, 0}), image(m, from, dy, 0, {1, 0});
   const Vec3 A = image.pose.position - origin.pose.position, dA = image.velocity - origin.velocity;
-  const double shortest = std::min(A.norm(), (A + dA).norm()), touching = 2.0 * widest + m.clearance;
-  const Mat3 G = dA * A.transpose() / A.squaredNorm();
-  Eigen::AlignedBox3d places, rates;
-  double bend = 0.0, fastest = 0.0;
+  Eigen::AlignedBox3d places;
+  double fastest = 0.0;
   for (int i = 0; i < m.element_count(); ++i) {
     const Track t(m, from, dy, i, {0, 0});
     places.extend(t.pose.position);
-    rates.extend(t.velocity - G * t.pose.position);
-    bend = std::max(bend, t.acceleration);
     fastest = std::max(fastest, t.velocity.norm() + 0.5 * t.acceleration);
   }
-  if (G.norm() <= most_change)
-    return (touching + rates.diagonal().norm() + bend) / (1.0 - G.norm()) - 2.0 * widest;
-  const double spread = places.diagonal().norm();
-  return spread + A.norm() / shortest * (touching + spread + 2.0 * fastest);
+  const double shortest = std::min(A.norm(), (A + dA).norm()), spread = places.diagonal().norm();
+  return spread + A.norm() / shortest * (2.0 * widest + m.clearance + spread + 2.0 * fastest);
 }
 
 /// Pairs of a periodic cell that the step may bring together.
@@ -125,8 +119,11 @@ std::vector<ElementPair> pairs_of_cell(const Model& m, const State& from, const 
 {
   double widest = 0.0;
   for (const double r : m.reach) widest = std::max(widest, r);
-  if (m.load->bends())
-    return near_pairs(m, from, margin_of_strip(m, from, dy, widest) * (1.0 + 1e-9), keep_going);
+  if (m.load->bends()) {
+    double margin = margin_of_lattice(m, from, dy, widest);
+    if (!std::isfinite(margin)) margin = margin_of_strip(m, from, dy, widest);
+    return near_pairs(m, from, margin * (1.0 + 1e-9), keep_going);
+  }
   // x_ij(s) = F(s) X + u_ij(s), X at rest. A pair that touches at s has |x_ij(s)| <= touching, so that
   //   |X| <= (touching + |u_ij(s)|)/s_min,   |x_ij(0)| <= touching + own + |dF| |X|,
   // where u_ij is as far as elements have left their places in the deformed lattice. The smallest stretch of

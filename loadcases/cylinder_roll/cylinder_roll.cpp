@@ -1,11 +1,10 @@
 #include "cylinder_roll.hpp"
 
 #include "common/conditions.hpp"
+#include "common/sheet.hpp"
 #include "common/stumpff.hpp"
 
 #include <hauberk/kit/jet.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -208,15 +207,9 @@ bool CylinderRoll::do_contains(const LoadCase& other) const
 
 std::string CylinderRoll::do_not_a_sheet(const SheetState& state) const
 {
-  const auto widest = std::max_element(state.radius.begin(), state.radius.end());
-  if (widest == state.radius.end()) return {};
   const Principal most = principal(tensor(state.macro));
-  if (!(most.curvature * *widest < most_curvature)) {
-    return fmt::format(
-        "no sheet on the scale of its elements: the radius of the roll is {:.3g} times that of element {}, "
-        "which counts above {:g}",
-        1.0 / (most.curvature * *widest), widest - state.radius.begin(), 1.0 / most_curvature);
-  }
+  if (std::string why = bent_too_tightly(state, most.curvature, "the radius of the roll is"); !why.empty())
+    return why;
   const auto own = static_cast<std::size_t>(do_coordinate_count());
   const auto at = [&](std::size_t i) -> Eigen::Vector2d {
     return on_sheet(state.e.subspan(i * own, own), state.X[i]).head<2>();
@@ -227,23 +220,9 @@ std::string CylinderRoll::do_not_a_sheet(const SheetState& state) const
     low = std::min(low, along);
     high = std::max(high, along);
   }
-  const double turns = most.curvature * (high - low) / (2.0 * std::numbers::pi);
-  if (!(turns < most_turns)) {
-    return fmt::format(
-        "no sheet beside itself: the patch goes {:.3g} times around the roll, which counts below {:g}", turns,
-        most_turns);
-  }
-  for (const auto& [i, j] : state.linked) {
-    const std::size_t k = i, l = j;
-    const double unit = std::max((state.X[l] - state.X[k]).norm(), 0.5 * (state.radius[k] + state.radius[l]));
-    const double apart = (at(l) - at(k)).norm();
-    if (apart < most_stretch * unit) continue;
-    return fmt::format(
-        "no sheet on the scale of its elements: along the sheet the linked elements {} and {} are {:.3g} "
-        "times as far apart as at rest or as their mean radius, whichever is longer, which counts below {:g}",
-        i, j, apart / unit, most_stretch);
-  }
-  return {};
+  if (std::string why = rolled_too_often(most.curvature, high - low, "the patch"); !why.empty()) return why;
+  return parted(state, "sheet",
+                [&](std::size_t i, std::size_t j, const Vec3&) { return (at(j) - at(i)).norm(); });
 }
 
 }  // namespace hauberk

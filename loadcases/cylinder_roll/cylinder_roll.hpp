@@ -35,11 +35,6 @@ namespace hauberk {
 /// value is one over its radius.
 class CylinderRoll final : public LoadCase {
  public:
-  /// Up to where a state is a sheet: the largest curvature times the largest radius of an element, the
-  /// distance of linked elements along the sheet over that at rest or the mean of their radii, whichever is
-  /// longer, and the turns of the patch about the axis.
-  static constexpr double most_curvature = 2.0, most_stretch = 3.0, most_turns = 1.0;
-
   /// What is zero at a limit. Places hold along components, too, and elements have no coordinates along the
   /// sheet then; the others hold along angles only.
   struct Hold {

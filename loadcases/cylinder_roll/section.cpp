@@ -1,44 +1,19 @@
 #include "cylinder_roll.hpp"
 
-#include <utility>
+#include "common/fields.hpp"
 
 namespace hauberk {
 
 void cylinder_roll_fields(std::vector<Field>& out)
 {
-  Field held;
-  held.kind = Field::Kind::choice;
-  held.doc =
+  out.push_back(hold_field(
+      {"places", "twist", "transverse"},
       "places: every element stays where it is along the sheet; twist, transverse: n^T K m, m^T K m of the "
-      "curvature K are zero.";
-  held.choices = {"places", "twist", "transverse"};
-  Field hold;
-  hold.name = "hold";
-  hold.kind = Field::Kind::list;
-  hold.doc =
+      "curvature K are zero.",
       "What is held at a limit; n is along the load, m across it. With twist and transverse the patch is on a "
-      "cylinder. places hold along components, too, the others along angles only.";
-  hold.default_json = "[\"twist\", \"transverse\"]";
-  hold.max_items = 3;
-  hold.children = {std::move(held)};
-  out.push_back(std::move(hold));
-
-  Field height;
-  height.kind = Field::Kind::number;
-  height.doc = "Elements stay on the rolled sheet.";
-  height.minimum = height.maximum = 0.0;
-  Field free;
-  free.kind = Field::Kind::choice;
-  free.doc = "Nothing keeps elements on the rolled sheet, which is fitted to them.";
-  free.choices = {"free"};
-  Field out_of_plane;
-  out_of_plane.name = "out_of_plane";
-  out_of_plane.kind = Field::Kind::any_of;
-  out_of_plane.doc =
-      "Whether elements may leave the rolled sheet, which is fitted to them then (free), or stay on it (0).";
-  out_of_plane.default_json = "0";
-  out_of_plane.children = {std::move(height), std::move(free)};
-  out.push_back(std::move(out_of_plane));
+      "cylinder. places hold along components, too, the others along angles only.",
+      "[\"twist\", \"transverse\"]"));
+  out.push_back(off_roll_field());
 }
 
 std::unique_ptr<LoadCase> make_cylinder_roll(const Node& section, double /*length*/, Problems& /*problems*/)

@@ -1,5 +1,7 @@
 #include "in_plane_periodic.hpp"
 
+#include "common/fields.hpp"
+
 #include <utility>
 
 namespace hauberk {
@@ -16,37 +18,19 @@ void in_plane_periodic_fields(std::vector<Field>& out)
   measure.choices = {"tensor", "equation_12"};
   out.push_back(std::move(measure));
 
-  Field held;
-  held.kind = Field::Kind::choice;
-  held.doc = "shear: n^T eps m = 0, so that principal axes stay at the load; lateral: m^T eps m = 0.";
-  held.choices = {"shear", "lateral"};
-  Field hold;
-  hold.name = "hold";
-  hold.kind = Field::Kind::list;
-  hold.doc =
+  out.push_back(hold_field(
+      {"shear", "lateral"},
+      "shear: n^T eps m = 0, so that principal axes stay at the load; lateral: m^T eps m = 0.",
       "Strains that are zero at the limits of directions_deg; n is along the load, m across it. Limits along "
-      "components (directions) hold nothing.";
-  hold.default_json = "[\"shear\"]";
-  hold.max_items = 2;
-  hold.children = {std::move(held)};
-  out.push_back(std::move(hold));
+      "components (directions) hold nothing.",
+      "[\"shear\"]"));
 
   Field height;
-  height.kind = Field::Kind::number;
   height.doc = "Half-height of the layer around their height at rest that elements may not leave.";
   height.unit = "length";
-  height.minimum = 0.0;
-  Field free;
-  free.kind = Field::Kind::choice;
-  free.doc = "Nothing keeps elements in the plane.";
-  free.choices = {"free"};
-  Field out_of_plane;
-  out_of_plane.name = "out_of_plane";
-  out_of_plane.kind = Field::Kind::any_of;
-  out_of_plane.doc = "How far elements may leave the plane, after removing the mean; 0 fixes z.";
-  out_of_plane.default_json = "0";
-  out_of_plane.children = {std::move(height), std::move(free)};
-  out.push_back(std::move(out_of_plane));
+  out.push_back(
+      out_of_plane_field(std::move(height), "Nothing keeps elements in the plane.",
+                         "How far elements may leave the plane, after removing the mean; 0 fixes z."));
 }
 
 std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double length, Problems& /*problems*/)

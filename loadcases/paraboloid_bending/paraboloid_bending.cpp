@@ -1,6 +1,6 @@
 #include "paraboloid_bending.hpp"
 
-#include <fmt/format.h>
+#include "common/sheet.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -185,32 +185,18 @@ std::vector<MacroCondition> ParaboloidBending::do_conditions(double theta) const
 
 std::string ParaboloidBending::do_not_a_sheet(const SheetState& state) const
 {
-  const auto widest = std::max_element(state.radius.begin(), state.radius.end());
-  if (widest == state.radius.end()) return {};
-  const double curvature = largest_curvature(state.macro) * *widest;
-  if (!(curvature < most_curvature)) {
-    return fmt::format(
-        "no sheet on the scale of its elements: at the apex the radius of curvature is {:.3g} times that of "
-        "element {}, which counts above {:g}",
-        1.0 / curvature, widest - state.radius.begin(), 1.0 / most_curvature);
-  }
-  const std::size_t own = state.e.size() / state.X.size();
-  const auto place = [&](int k, std::size_t axis) {
-    const std::size_t i = k;
+  if (std::string why =
+          bent_too_tightly(state, largest_curvature(state.macro), "at the apex the radius of curvature is");
+      !why.empty())
+    return why;
+  const auto own = static_cast<std::size_t>(do_coordinate_count());
+  const auto place = [&](std::size_t i, std::size_t axis) {
     return state.X[i][static_cast<Eigen::Index>(axis)] + (axis < own ? state.e[i * own + axis] : 0.0);
   };
-  for (const auto& [i, j] : state.linked) {
-    const std::size_t k = i, l = j;
+  return parted(state, "surface", [&](std::size_t i, std::size_t j, const Vec3&) {
     const double x = place(i, 0), y = place(i, 1);
-    const double along = length_along(state.macro, x, y, place(j, 0) - x, place(j, 1) - y);
-    const double unit = std::max((state.X[l] - state.X[k]).norm(), 0.5 * (state.radius[k] + state.radius[l]));
-    if (along < most_stretch * unit) continue;
-    return fmt::format(
-        "no sheet on the scale of its elements: along the surface the linked elements {} and {} are {:.3g} "
-        "times as far apart as at rest or as their mean radius, whichever is longer, which counts below {:g}",
-        i, j, along / unit, most_stretch);
-  }
-  return {};
+    return length_along(state.macro, x, y, place(j, 0) - x, place(j, 1) - y);
+  });
 }
 
 bool ParaboloidBending::do_contains(const LoadCase& other) const

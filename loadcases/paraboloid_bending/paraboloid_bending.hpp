@@ -22,13 +22,11 @@ namespace hauberk {
 ///
 /// A paraboloid keeps no lengths: where no contact stops it, a patch turns into a hairpin, which is a state
 /// of rings hung on each other and none of a fabric. So a state counts while it is a sheet on the scale of
-/// its elements: the largest curvature times the largest radius of an element stays below `most_curvature`,
-/// and linked elements stay nearer along the surface than `most_stretch` times their distance at rest, or
-/// times the mean of their radii where that is longer.
+/// its elements: the largest curvature times the largest radius of an element stays below
+/// `most_sheet_curvature`, and linked elements stay nearer along the surface than `most_sheet_stretch` times
+/// their distance at rest, or times the mean of their radii where that is longer.
 class ParaboloidBending final : public LoadCase {
  public:
-  static constexpr double most_curvature = 2.0, most_stretch = 3.0;
-
   struct Hold {
     bool places = false, twist = false, transverse = false;
   };

@@ -1,27 +1,18 @@
 #include "paraboloid_bending.hpp"
 
-#include <utility>
+#include "common/fields.hpp"
 
 namespace hauberk {
 
 void paraboloid_bending_fields(std::vector<Field>& out)
 {
-  Field held;
-  held.kind = Field::Kind::choice;
-  held.doc =
+  out.push_back(hold_field(
+      {"places", "twist", "transverse"},
       "places: every element's x and y stay at rest; twist, transverse: n^T H m, m^T H m of the curvature H "
-      "are zero.";
-  held.choices = {"places", "twist", "transverse"};
-  Field hold;
-  hold.name = "hold";
-  hold.kind = Field::Kind::list;
-  hold.doc =
+      "are zero.",
       "What is held at a limit; n is along the load, m across it. places hold along components, too, the "
-      "others along angles only.";
-  hold.default_json = "[]";
-  hold.max_items = 3;
-  hold.children = {std::move(held)};
-  out.push_back(std::move(hold));
+      "others along angles only.",
+      "[]"));
 }
 
 std::unique_ptr<LoadCase> make_paraboloid_bending(const Node& section, double /*length*/,

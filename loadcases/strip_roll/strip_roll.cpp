@@ -1,11 +1,10 @@
 #include "strip_roll.hpp"
 
 #include "common/conditions.hpp"
+#include "common/sheet.hpp"
 #include "common/stumpff.hpp"
 
 #include <hauberk/kit/jet.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,15 +145,8 @@ bool StripRoll::do_contains(const LoadCase& other) const
 
 std::string StripRoll::do_not_a_sheet(const SheetState& state) const
 {
-  const auto widest = std::max_element(state.radius.begin(), state.radius.end());
-  if (widest == state.radius.end()) return {};
   const double k = std::abs(state.macro[curvature]);
-  if (!(k * *widest < most_curvature)) {
-    return fmt::format(
-        "no sheet on the scale of its elements: the radius of the roll is {:.3g} times that of element {}, "
-        "which counts above {:g}",
-        1.0 / (k * *widest), widest - state.radius.begin(), 1.0 / most_curvature);
-  }
+  if (std::string why = bent_too_tightly(state, k, "the radius of the roll is"); !why.empty()) return why;
   const auto own = static_cast<std::size_t>(do_coordinate_count());
   const double stretch = 1.0 + state.macro[exx];
   const auto at = [&](std::size_t i, const Vec3& T) -> Eigen::Vector2d {
@@ -167,25 +159,10 @@ std::string StripRoll::do_not_a_sheet(const SheetState& state) const
     low = std::min(low, around);
     high = std::max(high, around);
   }
-  const double turns = k * (high - low) / (2.0 * std::numbers::pi);
-  if (!(turns < most_turns)) {
-    return fmt::format(
-        "no sheet beside itself: the strip goes {:.3g} times around the roll, which counts below {:g}", turns,
-        most_turns);
-  }
-  for (std::size_t n = 0; n < state.linked.size(); ++n) {
-    const std::size_t i = state.linked[n][0], j = state.linked[n][1];
-    const Vec3& T = state.translations[n];
-    const double unit =
-        std::max((state.X[j] + T - state.X[i]).norm(), 0.5 * (state.radius[i] + state.radius[j]));
-    const double apart = (at(j, T) - at(i, Vec3::Zero())).norm();
-    if (apart < most_stretch * unit) continue;
-    return fmt::format(
-        "no sheet on the scale of its elements: along the sheet the linked elements {} and {} are {:.3g} "
-        "times as far apart as at rest or as their mean radius, whichever is longer, which counts below {:g}",
-        i, j, apart / unit, most_stretch);
-  }
-  return {};
+  if (std::string why = rolled_too_often(k, high - low, "the strip"); !why.empty()) return why;
+  return parted(state, "sheet", [&](std::size_t i, std::size_t j, const Vec3& T) {
+    return (at(j, T) - at(i, Vec3::Zero())).norm();
+  });
 }
 
 }  // namespace hauberk

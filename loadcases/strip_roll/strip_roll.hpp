@@ -29,9 +29,6 @@ namespace hauberk {
 /// which is fitted to them then.
 class StripRoll final : public LoadCase {
  public:
-  /// Up to where a state is a sheet; see CylinderRoll.
-  static constexpr double most_curvature = 2.0, most_stretch = 3.0, most_turns = 1.0;
-
   /// `places`: no element moves along the sheet. `lifts`: elements may leave it along its normal.
   StripRoll(bool places, bool lifts);
 

@@ -1,17 +1,15 @@
 #include "maker/weave_roll.hpp"
 
 #include "document/json_text.hpp"
-#include "run/interrupt.hpp"
-#include "run/limits_run.hpp"
-#include "tasks/job.hpp"
-
-#include <hauberk/error.hpp>
+#include "maker/job_limits.hpp"
+#include "maker/lattice_step.hpp"
 
 #include <fmt/format.h>
 #include <boost/json/parse.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hauberk::maker {
@@ -21,27 +19,6 @@ namespace {
 constexpr double most_turns = 0.75;
 constexpr int fewest_rows = 2, most_rows = 6;
 constexpr double same_radius = 0.01;
-
-/// The shortest lattice vector across a way, as counts of both vectors; (0, 0) where none is.
-std::array<int, 2> across(const std::vector<Vec3>& lattice, double degrees)
-{
-  constexpr int most = 8;
-  constexpr double aside = 1e-6;
-  const double angle = degrees * std::numbers::pi / 180.0;
-  const Vec3 n(std::cos(angle), std::sin(angle), 0.0);
-  std::array<int, 2> out{};
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int i = -most; i <= most; ++i) {
-    for (int j = -most; j <= most; ++j) {
-      const Vec3 t = i * lattice[0] + j * lattice[1];
-      if (!(std::abs(t.dot(n)) < aside * t.norm()) || !(t.norm() < shortest) || !(n.cross(t).z() > 0.0))
-        continue;
-      shortest = t.norm();
-      out = {i, j};
-    }
-  }
-  return out;
-}
 
 std::string strip_text(const Weave& weave, const Question& question, const std::array<int, 2>& axis, int rows)
 {
@@ -68,18 +45,9 @@ double turns(const LimitResult& limit)
 /// Radii of a strip of so many rows, up and down.
 RollAnswer of_rows(const Job& job, RollAnswer roll, unsigned threads, Progress& progress)
 {
-  const Prepared& prepared = *job.prepared;
   const std::vector<LimitTask> tasks = job.task->limit_tasks();
-  const std::vector<LimitResult> limits = run_limits({&prepared.model,
-                                                      &prepared.scene,
-                                                      tasks,
-                                                      prepared.settings,
-                                                      prepared.experiment.load_case_plugin,
-                                                      threads,
-                                                      fmt::format("rolled {}, {} rows", roll.name, roll.rows),
-                                                      {}},
-                                                     progress, [](const std::vector<LimitResult>&) {});
-  if (interrupted()) throw ComputationError("interrupted: the limits are not known, and nothing was written");
+  const std::vector<LimitResult> limits =
+      limits_of(job, threads, fmt::format("rolled {}, {} rows", roll.name, roll.rows), progress);
   for (std::size_t k = 0; k < limits.size(); ++k) {
     const bool up = tasks[k].sense == Sense::positive;
     const bool locked = limits[k].status == LimitStatus::locked;
@@ -127,19 +95,19 @@ class Narrowing {
 
 }  // namespace
 
-std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const WeaveLookup& lookup,
-                              const std::shared_ptr<const Registry>& registry, unsigned threads,
-                              Progress& progress)
+std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const std::vector<Vec3>& lattice,
+                              const WeaveLookup& lookup, const std::shared_ptr<const Registry>& registry,
+                              unsigned threads, Progress& progress)
 {
   const std::string label = "hauberk weave " + question.weave;
-  const Job flat = prepare_job(registry, {label, experiment_text(weave, question, 0.0), {}, lookup});
   std::vector<RollAnswer> out;
   for (const Weave::Way& way : weave.ways) {
-    const std::array<int, 2> axis = across(flat.prepared->scene.lattice, way.degrees);
-    if (axis == std::array{0, 0}) continue;
+    const std::optional<LatticeStep> axis = step_along(lattice, way.degrees + 90.0);
+    if (!axis) continue;
     Narrowing narrowing;
     for (int rows = fewest_rows; rows <= most_rows && !narrowing.is_done(); ++rows) {
-      const Job job = prepare_job(registry, {label, strip_text(weave, question, axis, rows), {}, lookup});
+      const Job job =
+          prepare_job(registry, {label, strip_text(weave, question, axis->counts, rows), {}, lookup});
       narrowing.add(of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, "", ""}, threads, progress));
     }
     out.push_back(narrowing.answer());

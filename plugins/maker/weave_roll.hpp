@@ -5,12 +5,13 @@
 
 namespace hauberk::maker {
 
-/// Rolls along every way of the sheet that has a lattice vector across it, which the rod is along: of strips
-/// of two rows of cells, three and more, until one more row changes both radii by less than a hundredth, or
-/// strips close into tubes. Elements stay on the sheet, and slide along it. Throws as `answer` does.
-std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const WeaveLookup& lookup,
-                              const std::shared_ptr<const Registry>& registry, unsigned threads,
-                              Progress& progress);
+/// Rolls along every way of the sheet, whose lattice at rest is given, that has a vector of it across, which
+/// the rod is along: of strips of two rows of cells, three and more, until one more row changes both radii by
+/// less than a hundredth, or strips close into tubes. Elements stay on the sheet, and slide along it. Throws
+/// as `answer` does.
+std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const std::vector<Vec3>& lattice,
+                              const WeaveLookup& lookup, const std::shared_ptr<const Registry>& registry,
+                              unsigned threads, Progress& progress);
 
 /// As lines of a page for people, empty without rolls, and as a list for programs.
 std::string rolls_text(const std::vector<RollAnswer>& rolls);

@@ -3,9 +3,9 @@
 #include "document/json_text.hpp"
 #include "document/jsonc.hpp"
 #include "document/node_access.hpp"
+#include "maker/job_limits.hpp"
+#include "maker/lattice_step.hpp"
 #include "maker/weave_roll.hpp"
-#include "run/interrupt.hpp"
-#include "run/limits_run.hpp"
 #include "tasks/job.hpp"
 
 #include <hauberk/error.hpp>
@@ -28,24 +28,11 @@ double length_of(const Node& root, const char* outer, const char* name)
   return value != nullptr && value->is(Node::Type::number) ? value->number : 0.0;
 }
 
-/// How far a lattice repeats itself along a direction: the shortest of few combinations of its vectors that
-/// lies along it; 0 where none does.
+/// How far a lattice repeats itself along a direction; 0 where it does not.
 double pitch_along(const std::vector<Vec3>& lattice, double degrees)
 {
-  constexpr int most = 8;
-  constexpr double aside = 1e-6;
-  const double angle = degrees * std::numbers::pi / 180.0;
-  const Vec3 n(std::cos(angle), std::sin(angle), 0.0);
-  double shortest = 0.0;
-  for (int i = -most; i <= most; ++i) {
-    for (int j = -most; j <= most; ++j) {
-      const Vec3 t = i * lattice[0] + j * lattice[1];
-      const double along = t.dot(n);
-      if (along > 0.0 && (t - along * n).norm() < aside * along && (shortest == 0.0 || along < shortest))
-        shortest = along;
-    }
-  }
-  return shortest;
+  const std::optional<LatticeStep> step = step_along(lattice, degrees);
+  return step ? step->length : 0.0;
 }
 
 Job job_of(const Weave& weave, const Question& question, double clearance, const WeaveLookup& lookup,
@@ -61,16 +48,7 @@ std::vector<WayAnswer> answers(const Job& job, const Weave& weave, unsigned thre
 {
   const Prepared& prepared = *job.prepared;
   const std::vector<LimitTask> tasks = job.task->limit_tasks();
-  const std::vector<LimitResult> limits = run_limits({&prepared.model,
-                                                      &prepared.scene,
-                                                      tasks,
-                                                      prepared.settings,
-                                                      prepared.experiment.load_case_plugin,
-                                                      threads,
-                                                      label,
-                                                      {}},
-                                                     progress, [](const std::vector<LimitResult>&) {});
-  if (interrupted()) throw ComputationError("interrupted: the limits are not known, and nothing was written");
+  const std::vector<LimitResult> limits = limits_of(job, threads, label, progress);
   std::vector<WayAnswer> out;
   for (const Weave::Way& way : weave.ways)
     out.push_back({way.name, way.degrees, pitch_along(prepared.scene.lattice, way.degrees), {}, {}, "", ""});
@@ -207,7 +185,7 @@ Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lo
                             : count / area * square_decimetre;
   sheet.ways = answers(job, weave, threads, progress, "limits");
   if (question.roll && !sheet.chain)
-    sheet.rolls = rolls(weave, question, lookup, registry, threads, progress);
+    sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
   // Surfaces that stay a gap apart are those of wire as much thicker that touch.
   const Question thicker{question.weave, question.inner - question.gap, question.wire + question.gap,
                          question.gap};

@@ -71,6 +71,7 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
     for (const Vec3& v : scene.lattice)
       vectors.push_back(detail::lattice_vector_json(v, scene.lattice.size()));
     cell["vectors"] = std::move(vectors);
+    cell.erase("strip");  // which is laid out
     cell["repeat"] = {1, 1};
   }
   cell["place"] = std::move(place);

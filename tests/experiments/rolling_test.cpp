@@ -257,6 +257,24 @@ TEST_F(StripResults, AreThoseOfTheStripWrittenOut)
             write_json(results_of(write_json(results_.at("experiment"))).at_pointer("/scene/cell_vectors")));
 }
 
+/// A design of a strip leaves an experiment that is laid out, and that can be run.
+TEST(StripRolling, CanBeDesigned)
+{
+  const TemporaryFolder folder;
+  std::string text = with(strip(2), "\"directions_deg\": [90]",
+                          R"("directions_deg": [90], "senses": ["up"], "hold": ["places"])");
+  text = with(text, "\"length_unit\": \"mm\",", R"("length_unit": "mm", "task": "design",
+  "design": { "optimizer": { "plugin": "sqp", "max_iterations": 5 }, "quantity": "curvature", "tolerance": 0.01,
+    "variables": [{ "parameters": ["ring.r0", "ring.r1"], "tied": true, "per": "all", "lower": 0.9, "upper": 1.2 }],
+    "targets": [{ "direction_deg": 90, "value": 0.07 }] },)");
+  ASSERT_EQ(run_program({"run", folder.write("d.json", text), "-o", folder / "out"}).code, 0);
+  EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 0.07, 7e-4);
+  EXPECT_EQ(run_program({"verify", folder / "out"}).code, 0);
+  const Outcome designed = run_program({"run", folder / "out/designed.json", "-o", folder / "again"});
+  ASSERT_EQ(designed.code, 0) << designed.err;
+  EXPECT_NEAR(number_at(read_results(folder / "again"), "/limits/0/value"), 0.07, 7e-4);
+}
+
 TEST(StripRolling, SaysWhatIsNoStrip)
 {
   const TemporaryFolder folder;

@@ -1,5 +1,7 @@
 #include "../strip_roll.hpp"
 
+#include "common/test/paths.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,19 +19,12 @@ const StripRoll free_strip(false, true);
 
 using Unknowns = std::array<double, all>;
 
-struct Draw {
-  Unknowns y{}, dy{};
-  Vec3 X, T;
-};
+using Draw = test::Path<macros, all>;
 
 Draw draw(std::mt19937_64& rng)
 {
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  Draw d;
-  for (double& v : d.y) v = u(rng);
-  for (double& v : d.dy) v = u(rng);
-  d.X = 2.0 * Vec3(u(rng), u(rng), 0.3 * u(rng));
-  d.T = Vec3(3.0 * u(rng), 0.0, 0.0);
+  Draw d = Draw::drawn(rng, {2.0, 2.0, 0.6});
+  d.T = Vec3(3.0 * d.X.z(), 0.0, 0.0);
   return d;
 }
 
@@ -38,13 +33,6 @@ PositionMap position(const LoadCase& load, std::span<const double> y, const Vec3
   PositionMap map;
   load.position(y.first(macros), y.subspan(macros), X, T, map);
   return map;
-}
-
-Unknowns along(const Draw& d, double s)
-{
-  Unknowns y = d.y;
-  for (std::size_t k = 0; k < all; ++k) y[k] += s * d.dy[k];
-  return y;
 }
 
 TEST(StripRoll, RestIsThePlace)
@@ -82,33 +70,10 @@ TEST(StripRoll, CoordinatesAreLengthsAlongTheSheet)
   }
 }
 
-/// Central differences over h and h/2: the errors of exact derivatives fall by four.
 TEST(StripRoll, DerivativesAreExact)
 {
   std::mt19937_64 rng(3);
-  for (int repeat = 0; repeat < 50; ++repeat) {
-    const Draw d = draw(rng);
-    const PositionMap map = position(free_strip, d.y, d.X, d.T);
-    ASSERT_TRUE(map.curved);
-    Vec3 slope = Vec3::Zero(), second = Vec3::Zero();
-    for (std::size_t i = 0; i < all; ++i) {
-      slope += map.J.col(static_cast<Eigen::Index>(i)) * d.dy[i];
-      for (std::size_t j = 0; j < all; ++j)
-        second += d.dy[i] * d.dy[j] * Vec3(map.H[0][i][j], map.H[1][i][j], map.H[2][i][j]);
-    }
-    std::array<double, 2> first_error{}, second_error{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double h = k == 0 ? 4e-3 : 2e-3;
-      const Vec3 a = position(free_strip, along(d, h), d.X, d.T).x,
-                 b = position(free_strip, along(d, -h), d.X, d.T).x;
-      first_error[k] = ((a - b) / (2.0 * h) - slope).norm();
-      second_error[k] = ((a - 2.0 * map.x + b) / (h * h) - second).norm();
-    }
-    EXPECT_LT(first_error[0], 1e-2);
-    EXPECT_LT(second_error[0], 1e-2);
-    EXPECT_NEAR(first_error[0] / first_error[1], 4.0, 0.05 + 1e-11 / first_error[1]);
-    EXPECT_NEAR(second_error[0] / second_error[1], 4.0, 0.05 + 1e-8 / second_error[1]);
-  }
+  for (int repeat = 0; repeat < 50; ++repeat) test::expect_exact_derivatives(free_strip, draw(rng));
 }
 
 /// The kernel's broad phase rests on this: an image is displaced by (1 + exx) T, whatever the curvature.
@@ -122,31 +87,20 @@ TEST(StripRoll, ImagesAreDisplacedLinearly)
   }
 }
 
-/// Second differences along paths never pass the bound, and come near to it where a flat strip begins to
-/// roll.
+/// Never exceeded, and reached where a flat strip begins to roll.
 TEST(StripRoll, AccelerationIsBounded)
 {
-  const auto worst = [](const Draw& d) {
-    const std::span y(d.y), dy(d.dy);
-    const double bound = free_strip.acceleration_bound(y.first(macros), dy.first(macros), y.subspan(macros),
-                                                       dy.subspan(macros), d.X, d.T);
-    double most = 0.0;
-    for (double s = 0.01; s < 1.0; s += 0.02) {
-      constexpr double h = 1e-3;
-      const Vec3 a = position(free_strip, along(d, s - h), d.X, d.T).x,
-                 b = position(free_strip, along(d, s), d.X, d.T).x,
-                 c = position(free_strip, along(d, s + h), d.X, d.T).x;
-      most = std::max(most, (a - 2.0 * b + c).norm() / (h * h));
-    }
-    return most / bound;
-  };
   std::mt19937_64 rng(5);
-  for (int repeat = 0; repeat < 200; ++repeat) EXPECT_LT(worst(draw(rng)), 1.0 + 1e-5);
-  Draw flat;
-  flat.X = Vec3(0.0, 2.0, 0.0);
-  flat.T = Vec3::Zero();
-  flat.dy[1] = 1e-2;
-  EXPECT_GT(worst(flat), 0.999);
+  double tightest = 0.0;
+  for (int repeat = 0; repeat < 2000; ++repeat)
+    tightest = std::max(tightest, draw(rng).tightness(free_strip));
+  EXPECT_LE(tightest, 1.0);
+  EXPECT_GT(tightest, 0.7);
+  Draw begins;
+  begins.X = Vec3(0.0, 2.0, 0.0);
+  begins.dy[1] = 0.1;
+  EXPECT_LE(begins.tightness(free_strip), 1.0 + 1e-14);
+  EXPECT_GT(begins.tightness(free_strip), 1.0 - 1e-14);
 }
 
 /// A state of two elements in rows 2 apart.

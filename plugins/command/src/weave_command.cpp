@@ -91,6 +91,10 @@ int weave_command(const std::vector<std::string>& words)
         "rings from {:.3f} mm on, or wire up to {:.3f} mm",
         weave.name, question.inner, question.wire, question.inner / question.wire, weave.smallest_ratio,
         weave.smallest_ratio * question.wire, question.inner / weave.smallest_ratio));
+  if (question.roll && weave.ways.size() == 1)
+    throw UsageError(
+        fmt::format("--roll: '{}' is a chain, which has no width to be wound; leave it out", weave.name),
+        options.usage());
   const bool kept = options.has("output");
   const std::filesystem::path folder = kept ? options.get<std::string>("output") : "";
   if (kept) prepare_output_directory(folder, options.has("force"), sheet_files);

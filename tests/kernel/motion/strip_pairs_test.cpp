@@ -7,27 +7,39 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 namespace hauberk::test {
 namespace {
 
-/// Rings of several sizes in rows of a strip, whose vector is as short as a ring is wide.
-SceneSpec strip()
+/// Equal rings in a strip; their reach is 1.1.
+SceneSpec rings_at(const std::vector<Vec3>& places, double period)
 {
   SceneSpec scene;
   scene.types.push_back({"ring", std::make_shared<Rings>()});
-  scene.lattice = {Vec3(2.5, 0.0, 0.0)};
-  std::mt19937_64 rng(1);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (int row = 0; row < 6; ++row) {
+  scene.lattice = {period * Vec3::UnitX()};
+  for (const Vec3& place : places) {
     PlacedElement e;
-    e.parameters = {1.0 + 0.3 * u(rng), 0.1, 0.1};
-    e.rest = {Vec3(u(rng), 2.0 * row - 5.0, 0.2 * u(rng)), random_rotation(rng)};
+    e.parameters = {1.0, 0.1, 0.1};
+    e.rest.position = place;
     scene.elements.push_back(std::move(e));
   }
   return scene;
+}
+constexpr double clearance = 0.01, touching = 2.21;
+
+/// Rings in rows of a strip, whose vector is as short as a ring is wide.
+SceneSpec strip()
+{
+  std::vector<Vec3> places;
+  std::mt19937_64 rng(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int row = 0; row < 6; ++row) places.emplace_back(u(rng), 2.0 * row - 5.0, 0.2 * u(rng));
+  return rings_at(places, 2.5);
 }
 
 using Pair = std::tuple<int, int, Image>;
@@ -55,7 +67,7 @@ std::set<Pair> that_meet(const Model& m, const State& from, const Vector& dy)
 TEST(StripPairs, NoneIsMissed)
 {
   const StripRoll load(false, true);
-  const Model m = make_model(strip(), load, 0.01);
+  const Model m = make_model(strip(), load, clearance);
   std::mt19937_64 rng(7);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   State from = rest_state(m);
@@ -83,6 +95,61 @@ TEST(StripPairs, NoneIsMissed)
   EXPECT_GT(met, 500U);
   EXPECT_LT(found_by_short, 1.5 * static_cast<double>(met_by_short)) << "of " << met_by_short;
 }
+
+/// Steps of two rings or a ring and its image that come to touch at their very end, by nothing but what the
+/// case names: the bound is what they need, and no more.
+struct Meeting {
+  const char* name;
+  std::vector<Vec3> places;
+  double period;
+  std::vector<double> step;  ///< exx, k; then u of each ring
+  Pair pair;
+};
+
+std::ostream& operator<<(std::ostream& out, const Meeting& meeting) { return out << meeting.name; }
+
+class LastMoment : public ::testing::TestWithParam<Meeting> {};
+
+TEST_P(LastMoment, IsFound)
+{
+  const Meeting& meeting = GetParam();
+  const StripRoll load(false, true);
+  const SceneSpec scene = rings_at(meeting.places, meeting.period);
+  const Model m = make_model(scene, load, clearance);
+  const State from = rest_state(m);
+  Vector dy = Vector::Zero(m.dofs());
+  for (int k = 0; k < 2; ++k) dy[k] = meeting.step[static_cast<std::size_t>(k)] * (k == 1 ? m.length : 1.0);
+  for (int i = 0; i < m.element_count(); ++i)
+    for (int c = 0; c < 3; ++c)
+      dy[m.offset(i) + c] = meeting.step[static_cast<std::size_t>(2 + 3 * i + c)] / m.length;
+  const auto finds = [&](double part) {
+    for (const CandidatePair& found : candidate_pairs(m, from, Vector(part * dy)))
+      if (Pair{found.ti.element, found.tj.element, found.tj.image} == meeting.pair) return true;
+    return false;
+  };
+  EXPECT_TRUE(finds(1.0 + 1e-6));
+  EXPECT_FALSE(finds(0.9)) << "nothing is near that soon";
+}
+
+/// sin(k s)/k = d/2 for s = 2 and d = 2.21, so that the ends of the arc are d apart.
+double closing()
+{
+  double low = 0.1, high = 1.5;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (std::sin(2.0 * middle) / middle > 0.5 * touching ? low : high) = middle;
+  }
+  return high;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, LastMoment,
+    ::testing::Values(
+        Meeting{"Rows", {{0, -2, 0}, {0, 2, 0}}, 50.0, {0, 0, 0, 0.895, 0, 0, -0.895, 0}, {0, 1, {}}},
+        Meeting{"Images", {{0, 0, 0}, {46, 0, 0}}, 50.0, {0, 0, -0.895, 0, 0, 0.895, 0, 0}, {0, 1, {-1}}},
+        Meeting{"Strain", {{0, 0, 0}}, 3.0, {touching / 3.0 - 1.0, 0, 0, 0, 0}, {0, 0, {1}}},
+        Meeting{"Curvature", {{0, -2, 0}, {0, 2, 0}}, 50.0, {0, closing(), 0, 0, 0, 0, 0, 0}, {0, 1, {}}}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace hauberk::test

@@ -289,6 +289,8 @@ TEST(StripRolling, SaysWhatIsNoStrip)
           "'strip_roll' loads cells with 1 vector, and there are 2: cut one with cell.strip");
   refused(with(good, "strip_roll", "in_plane_periodic"),
           "'in_plane_periodic' loads cells with 2 vectors, and there is 1");
+  refused(with(good, "[90]", "[0, 90, 180]"),
+          "/load_case/directions_deg/0: 'strip_roll' has no load at 0 degrees");
   refused(with(good, "[0, 1]", "[2, 4]"),
           "/cell/strip/axis: expected two whole numbers without a common factor, found 2 and 4");
   refused(with(good, R"("rows": 2 })", R"("rows": 2 }, "repeat": [1, 2])"),

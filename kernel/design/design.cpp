@@ -90,17 +90,6 @@ std::vector<double> random_move(const DesignSpec& design, int start)
   return d;
 }
 
-/// Relaxed rest of a design as a scene.
-SceneSpec scene_of(const DesignPoint& p)
-{
-  SceneSpec s = p.spec;
-  const std::vector<Pose> rest = poses(p.model, p.rest);
-  for (std::size_t k = 0; k < rest.size(); ++k) {
-    s.elements[k].rest = {rest[k].position * p.model.length, rest[k].rotation};
-  }
-  return s;
-}
-
 }  // namespace
 
 std::vector<int> DesignVariable::elements() const
@@ -265,7 +254,7 @@ struct StartSearch {
 StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double clearance,
                         const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                         unsigned threads, int start, const DesignObserver& observer, EvaluationMemory* memory,
-                        const KeepGoing& keep_going, const LimitsProgress& look)
+                        const KeepGoing& keep_going, const LimitsReport& report)
 {
   SceneSpec frozen = scene;
   frozen.length = characteristic_length(scene);
@@ -273,9 +262,9 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
   coarse.last = std::max(coarse.last, design.coarse_last);
   StartSearch out;
   out.problem = std::make_unique<DesignProblem>(
-      DesignScene{frozen, load, clearance, limits, design, threads, keep_going, look},
+      DesignScene{frozen, load, clearance, limits, design, threads, keep_going, report},
       static_cast<std::uint64_t>(start));
-  out.initial_scene = scene_of(out.problem->current());
+  out.initial_scene = with_relaxed_rest(out.problem->current());
   out.problem->set_memory(memory);
   out.problem->set_schedule(coarse);
   const std::vector<double> x0 = out.problem->feasible_towards(random_move(design, start));
@@ -287,17 +276,18 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
 
 bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                   const DesignSpec& design, const Optimizer& optimizer, unsigned threads, int start,
-                  const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going)
+                  const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going,
+                  const LimitsReport& report)
 {
   return !search_from(scene, load, clearance, limits, design, optimizer, threads, start, observer, &memory,
-                      keep_going, {})
+                      keep_going, report)
               .outcome.interrupted;
 }
 
 Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearance,
                     const LimitSettings& limits, const DesignSpec& design, const Optimizer& optimizer,
                     unsigned threads, const DesignObserver& observer, EvaluationMemory* memory,
-                    const KeepGoing& keep_going, const LimitsProgress& look)
+                    const KeepGoing& keep_going, const LimitsReport& report)
 {
   const auto t0 = std::chrono::steady_clock::now();
   Designed out;
@@ -307,7 +297,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   bool interrupted = false;
   for (int start = 0; start < design.starts && !interrupted; ++start) {
     auto [problem, initial_scene, s] = search_from(scene, load, clearance, limits, design, optimizer, threads,
-                                                   start, observer, memory, keep_going, look);
+                                                   start, observer, memory, keep_going, report);
     if (start == 0) out.result.initial_scene = std::move(initial_scene);
     out.result.evaluations += problem->evaluations();
     interrupted = s.interrupted;
@@ -344,7 +334,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
     }
   }
   enter(out.result, *best_problem, design, best);
-  out.scene = scene_of(best_problem->current());
+  out.scene = with_relaxed_rest(best_problem->current());
   out.result.quantity = design.quantity_name;
   out.result.seconds = seconds_since(t0);
   return out;

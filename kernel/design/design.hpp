@@ -68,26 +68,39 @@ struct Designed {
   SceneSpec scene;      ///< best design with its relaxed rest state
 };
 
+/// Where the limits that targets need lock when they are reported.
+struct ReportedStates {
+  SceneSpec scene;                           ///< the design, its rest as it is reported
+  Model model;                               ///< of it
+  std::vector<std::optional<State>> states;  ///< furthest ones, in the order of `target_tasks`
+  long evaluations = 0;                      ///< of closest points, of all searches
+};
+/// Computes the limits of a design, given with its relaxed rest, as they are reported: whoever asks for it
+/// again at the end of a search can have kept them. Called by one thread at a time.
+using LimitsReport = std::function<ReportedStates(const SceneSpec& design)>;
+
 class EvaluationMemory;
 
 /// Runs all starts of the design with coarse stages, then continues the best of them with the final ones.
 /// Evaluations that `memory` knows are not made again (evaluation_memory.hpp); null: none are known, nor
 /// recorded. Throws InputError when the initial design is infeasible at rest, ComputationError when no
 /// evaluation succeeds, and Interrupted where `keep_going` says no within an evaluation, which is then not
-/// recorded. `look` is told of the thorough looks at what a search ends with, each of which takes as long as
-/// the limits that are reported.
+/// recorded. With `report`, a search ends only with a design whose values are those of its reported limits,
+/// as far as a few continuations lead to one; the last that is asked for need not be the one that is
+/// returned.
 Designed run_design(
     const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
     const DesignSpec& design, const Optimizer& optimizer, unsigned threads, const DesignObserver& observer,
     EvaluationMemory* memory = nullptr, const KeepGoing& keep_going = [] { return true; },
-    const LimitsProgress& look = {});
+    const LimitsReport& report = {});
 
 /// Of a run that is divided: the search from one of its starts with coarse stages, for `memory` alone. Throws
 /// InputError when the initial design is infeasible at rest, Interrupted as run_design. False: the observer
 /// interrupted it.
 bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance, const LimitSettings& limits,
                   const DesignSpec& design, const Optimizer& optimizer, unsigned threads, int start,
-                  const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going);
+                  const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going,
+                  const LimitsReport& report);
 
 /// The limits that the targets need (both senses for eta), in the order of the targets.
 std::vector<LimitTask> target_tasks(const DesignSpec& design);

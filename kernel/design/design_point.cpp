@@ -2,9 +2,12 @@
 
 #include "design/body_between.hpp"
 #include "equilibrium/relaxation.hpp"
+#include "equilibrium/rest.hpp"
 #include "geometry/separation.hpp"
+#include "limits/relatives.hpp"
 #include "model/held_model.hpp"
 #include "model/links.hpp"
+#include "motion/advancement.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -167,6 +170,26 @@ std::optional<State> opened(const Model& m, const State& state, const Vector& dy
 }
 
 }  // namespace
+
+SceneSpec with_relaxed_rest(const DesignPoint& point)
+{
+  return with_rest(point.spec, point.model, point.rest);
+}
+
+std::vector<std::optional<State>> carried_to(const DesignPoint& p, const ReportedStates& reported)
+{
+  std::vector<std::optional<State>> states(reported.states.size());
+  const Carrier carrier(reported.model, reported.scene, p.model, p.spec);
+  const std::optional<State> rest = carrier.state(rest_state(reported.model));
+  if (!rest) return states;
+  const Vector way = difference(p.model, p.rest, *rest);
+  if (!(step_norm(p.model, way) < rounding_of_scenes) &&
+      largest_safe_step(p.model, p.rest, way, 0.0).alpha < 1.0)
+    return states;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (reported.states[k]) states[k] = carrier.state(*reported.states[k]);
+  return states;
+}
 
 SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables,
                          std::span<const double> x)

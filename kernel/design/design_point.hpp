@@ -37,6 +37,13 @@ struct DesignPoint {
   std::string why;              ///< why it could not be evaluated
 };
 
+/// The design as a scene, its relaxed rest included.
+SceneSpec with_relaxed_rest(const DesignPoint& point);
+
+/// Its states in the unknowns of a design whose limits were reported, in their order; none where no straight
+/// certified motion leads from the design's relaxed rest to the rest of the report.
+std::vector<std::optional<State>> carried_to(const DesignPoint& point, const ReportedStates& reported);
+
 /// Turns variables into element parameters.
 SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariable>& variables,
                          std::span<const double> x);

@@ -16,7 +16,7 @@ struct DesignScene {
   DesignSpec design;
   unsigned threads = 1;
   KeepGoing keep_going;
-  LimitsProgress look = {};  ///< of thorough looks at what a search may end with
+  LimitsReport report = {};  ///< of what a search may end with; empty: it ends with what it has
 
   /// The scene's own values of the variables.
   std::vector<double> variables() const;

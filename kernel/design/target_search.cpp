@@ -163,24 +163,12 @@ TargetSearch::LockedTarget TargetSearch::lock_target(const DesignPoint& p, const
   return out;
 }
 
-std::vector<std::optional<State>> TargetSearch::thorough_states(const DesignPoint& p, unsigned threads,
-                                                                long& evaluations) const
+std::vector<std::optional<State>> TargetSearch::reported_states(const DesignPoint& p, long& evaluations) const
 {
-  LimitSettings settings = scene_->limits;
-  settings.start = p.rest;
-  settings.schedule = schedule_;
-  std::vector<std::optional<State>> states;
-  LimitsObserver observer;
-  observer.on_states = [&states](const auto& found) { states = found; };
-  const auto count = [&evaluations](const std::vector<LimitResult>& limits) {
-    for (const LimitResult& limit : limits) evaluations += limit.evaluations;
-  };
-  observer.on_unreported = count;
-  observer.keep_going = scene_->keep_going;
-  static_cast<LimitsProgress&>(observer) = scene_->look;
-  count(compute_limits(p.model, p.spec, tasks_, settings, threads, observer));
+  const ReportedStates reported = scene_->report(with_relaxed_rest(p));
   if (!scene_->keep_going()) throw Interrupted();
-  return states;
+  evaluations += reported.evaluations;
+  return carried_to(p, reported);
 }
 
 void TargetSearch::learn(const DesignPoint& p, const std::vector<MacroLoad>& loads, unsigned threads,
@@ -263,7 +251,7 @@ long TargetSearch::solve(DesignPoint& p, const DesignPoint& from, unsigned threa
   const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
   long evaluations = 0;
   std::vector<std::optional<State>> known(n);
-  if (p.thorough && p.x == from.x) known = thorough_states(p, threads, evaluations);
+  if (p.thorough && p.x == from.x && scene_->report) known = reported_states(p, evaluations);
   each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k], known[k]); });
   p.continued = p.x != from.x && std::any_of(targets.begin(), targets.end(),
                                              [](const LockedTarget& t) { return t.followed && !t.changed; });

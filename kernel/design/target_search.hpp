@@ -63,9 +63,8 @@ class TargetSearch {
   /// The continuation of a state of another design from its tightest stage that can be followed.
   bool lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                          const std::vector<WarmStart>& warm, LockedTarget& out) const;
-  /// The furthest states of a design that limits come to when they are computed by themselves, per task.
-  std::vector<std::optional<State>> thorough_states(const DesignPoint& p, unsigned threads,
-                                                    long& evaluations) const;
+  /// Where the limits of a design lock when they are reported (DesignScene::report), per task.
+  std::vector<std::optional<State>> reported_states(const DesignPoint& p, long& evaluations) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
   /// another that is further along its direction and keeps what it holds, until there is none.
   void learn(const DesignPoint& p, const std::vector<MacroLoad>& loads, unsigned threads,

@@ -215,11 +215,18 @@ PreparedScene prepare_rest(const SceneSpec& spec, const Model& m)
   if (!r.problem.empty())
     throw InputError("the rest state has no room nearby: " + r.problem + tightest_pair(spec, m, r.state));
   if (const std::string problem = meshes(r.state); !problem.empty()) throw InputError(problem);
-  const std::vector<Pose> p = poses(m, r.state);
-  for (std::size_t k = 0; k < p.size(); ++k)
-    out.scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};
+  out.scene = with_rest(spec, m, r.state);
   out.moved = r.largest_motion * m.length;
   return out;
+}
+
+SceneSpec with_rest(const SceneSpec& spec, const Model& m, const State& rest)
+{
+  SceneSpec scene = spec;
+  const std::vector<Pose> p = poses(m, rest);
+  for (std::size_t k = 0; k < p.size(); ++k)
+    scene.elements[k].rest = {p[k].position * m.length, p[k].rotation};
+  return scene;
 }
 
 }  // namespace hauberk

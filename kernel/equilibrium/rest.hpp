@@ -24,4 +24,7 @@ struct PreparedScene {
 };
 PreparedScene prepare_rest(const SceneSpec& spec, const Model& model);
 
+/// The scene of a model with the poses of a state for its rest.
+SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest);
+
 }  // namespace hauberk

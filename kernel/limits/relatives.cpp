@@ -107,7 +107,10 @@ Carrier::Carrier(const Model& from, const SceneSpec& from_spec, const Model& to,
 std::optional<State> Carrier::state(const State& from) const
 {
   State out = rest_state(to_);
+  const double scale = from_.length / to_.length;
   out.macro = from.macro;
+  for (int k = 0; k < to_.macro_count; ++k)
+    out.macro[k] *= std::pow(scale, to_.load->macros()[k].length_power);
   const auto n = from_.element_count() / cell_count(from_repeat_);
   const std::span<const double> macro = out.macro_values();
   const std::size_t nc = to_.coordinate_count;
@@ -121,11 +124,11 @@ std::optional<State> Carrier::state(const State& from) const
     auto e = out.e.segment(k * to_.coordinate_count, to_.coordinate_count);
     const int along = std::min(from_.coordinate_count, to_.coordinate_count);
     if (to_.load->bends() && along >= 2)
-      e.head(along) = from.e.segment((there.cell * n + k % n) * from_.coordinate_count, along);
+      e.head(along) = scale * from.e.segment((there.cell * n + k % n) * from_.coordinate_count, along);
     double missed = 0.0;
     for (int step = 0; step < 4; ++step) {
       to_.load->position(macro, {e.data(), nc}, to_.rest[k].position, Vec3::Zero(), map);
-      const Vec3 left = pose.position - map.x;
+      const Vec3 left = scale * pose.position - map.x;
       missed = left.norm();
       if (nc == 0 || missed < 1e-15) break;
       const Matrix J = map.J.middleCols(to_.macro_count, to_.coordinate_count);

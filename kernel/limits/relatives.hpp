@@ -29,7 +29,8 @@ bool contains(const Model& outer, const SceneSpec& outer_spec, const Model& inne
               const SceneSpec& inner_spec);
 
 /// Carries states of a scene over to one that contains it: elements of every copy of its cell have the poses
-/// of their images. Models and specifications must outlive it. Immutable, thread safe.
+/// of their images. Their scaled lengths may differ (Model::length). Models and specifications must outlive
+/// it. Immutable, thread safe.
 class Carrier {
  public:
   Carrier(const Model& from, const SceneSpec& from_spec, const Model& to, const SceneSpec& to_spec);

@@ -34,6 +34,8 @@ std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, co
   observer.keep_going = [] { return !interrupted(); };
   static_cast<LimitsProgress&>(observer) = shown_as(job.label, progress);
   observer.memory = job.memory;
+  observer.on_states = job.on_states;
+  observer.on_unreported = job.on_unreported;
   observer.on_limit = [&](const std::vector<LimitResult>& limits) { sink(named(limits)); };
   return named(
       compute_limits(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, job.known));

@@ -25,6 +25,9 @@ struct LimitsJob {
   /// Results that are known already, by task; empty: none.
   std::vector<std::optional<LimitResult>> known;
   SearchMemory* memory = nullptr;  ///< as LimitsObserver::memory
+  /// As LimitsObserver's.
+  std::function<void(const std::vector<std::optional<State>>&)> on_states = {};
+  std::function<void(const std::vector<LimitResult>&)> on_unreported = {};
 };
 
 /// The surface of an experiment's limits along components; null when it has none. `length` is L.

@@ -113,15 +113,6 @@ PluginLookup lookup_in(const Registry& registry)
   };
 }
 
-SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest)
-{
-  SceneSpec scene = spec;
-  const std::vector<Pose> at = poses(model, rest);
-  for (std::size_t k = 0; k < at.size(); ++k)
-    scene.elements[k].rest = {at[k].position * model.length, at[k].rotation};
-  return scene;
-}
-
 std::vector<std::string> macro_names(const LoadCase& load_case)
 {
   std::vector<std::string> out;

@@ -57,9 +57,6 @@ std::unique_ptr<const Prepared> prepare_experiment(
     std::shared_ptr<const Registry> registry, const ExperimentSource& source,
     const std::function<void(const Prepared&, Diagnostics&)>& then);
 
-/// Relaxed rest state of a scene by the model's state in it.
-SceneSpec with_rest(const SceneSpec& spec, const Model& model, const State& rest);
-
 /// Names of the macroscopic unknowns of a load case.
 std::vector<std::string> macro_names(const LoadCase& load_case);
 

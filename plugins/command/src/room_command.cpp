@@ -2,6 +2,7 @@
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
+#include "equilibrium/rest.hpp"
 #include "experiment_options.hpp"
 #include "limits/room.hpp"
 #include "run/interrupt.hpp"

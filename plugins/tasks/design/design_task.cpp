@@ -13,6 +13,7 @@
 #include "run/plan_text.hpp"
 #include "run/presets.hpp"
 #include "run/run_folder.hpp"
+#include "tasks/design/design_limits.hpp"
 #include "tasks/design/design_section.hpp"
 #include "tasks/design/design_spec.hpp"
 #include "tasks/design/design_tables.hpp"
@@ -52,7 +53,7 @@ class DesignTask final : public TaskRun {
       : TaskRun(prepared),
         experiment_(prepared.experiment),
         spec_(design_spec(experiment_)),
-        tasks_(design_tasks(spec_, profile_tasks(experiment_)))
+        limits_(prepared, target_tasks(spec_).size(), design_tasks(spec_, profile_tasks(experiment_)))
   {
     run_.scene = prepared.scene;
     for (const Problem& problem : design_solver_problems(experiment_.solver))
@@ -71,7 +72,7 @@ class DesignTask final : public TaskRun {
     }
   }
 
-  std::vector<LimitTask> limit_tasks() const override { return tasks_; }
+  std::vector<LimitTask> limit_tasks() const override { return limits_.tasks(); }
 
   /// A target in a direction that links leave free can never be met.
   void check_plan(const Plan& plan, Diagnostics& diagnostics) const override
@@ -90,7 +91,7 @@ class DesignTask final : public TaskRun {
 
   std::string check_line(const Plan& plan) const override
   {
-    return fmt::format("{}, {} design variables", limits_check_line(plan, tasks_.size()),
+    return fmt::format("{}, {} design variables", limits_check_line(plan, limits_.tasks().size()),
                        spec_.variables.size());
   }
 
@@ -109,7 +110,7 @@ class DesignTask final : public TaskRun {
     const std::size_t searched = (spec_.quantity == DesignQuantity::eta ? 2 : 1) * spec_.targets.size();
     return {{"variables", variables},      {"limits_per_evaluation", searched},
             {"starts", spec_.starts},      {"first_search", search(spec_.coarse_last)},
-            {"final_search", search(0.0)}, {"limits_before_and_after", 2 * tasks_.size()}};
+            {"final_search", search(0.0)}, {"limits_before_and_after", 2 * limits_.tasks().size()}};
   }
 
   /// The limits before and after, and from every start one evaluation of the searched ones.
@@ -126,7 +127,7 @@ class DesignTask final : public TaskRun {
   bool resume(const boost::json::value& results) override
   {
     const boost::json::value& design = results.at("design");
-    const KeptLimits kept = kept_limits(results, experiment_, tasks_);
+    const KeptLimits kept = kept_limits(results, experiment_, limits_.tasks());
     if (design.is_null() || !kept.complete) return false;
     const std::string status(design.at("status").as_string());
     if (status == "interrupted") return false;
@@ -143,11 +144,11 @@ class DesignTask final : public TaskRun {
     start_partial();
     DesignResult& design = *run_.design;
     // The profile's directions too, so that plots compare before and after everywhere.
-    design.initial_limits =
-        limits(limits_before, initial_scene_, [&](const std::vector<LimitResult>& so_far) {
-          design.initial_limits = so_far;
-          context.save_sometimes();
-        });
+    design.initial_limits = limits_.compute(context, limits_before, limits_.as_it_is(initial_scene_),
+                                            [&](const std::vector<LimitResult>& so_far) {
+                                              design.initial_limits = so_far;
+                                              context.save_sometimes();
+                                            });
     enter_initial();
     context.save();
     if (interrupted()) return;
@@ -162,20 +163,7 @@ class DesignTask final : public TaskRun {
   void run_part(RunContext& context, const Share& share) override
   {
     context_ = &context;
-    const Model model = make_model(initial_scene_, *experiment_.load_case, experiment_.solver.clearance);
-    std::optional<MemoryWithin> memory = memory_for(limits_before);
-    const LimitSettings settings =
-        limit_settings(experiment_.solver, initial_scene_, experiment_.length_unit);
-    run_searches({&model,
-                  &initial_scene_,
-                  tasks_,
-                  settings,
-                  experiment_.load_case_plugin,
-                  context.threads,
-                  limits_before,
-                  {},
-                  memory ? &*memory : nullptr},
-                 context.progress, share);
+    limits_.compute_part(context, limits_before, limits_.as_it_is(initial_scene_), share);
     const std::string identity = context.identity(), processor = this_machine().processor;
     for (int start = 0; start < spec_.starts && !interrupted(); ++start) {
       if (!share.has(static_cast<std::size_t>(start))) continue;
@@ -253,14 +241,15 @@ class DesignTask final : public TaskRun {
   static constexpr const char *limits_before = "limits before", *limits_after = "limits after";
 
   /// A search from one start, for its memory. What ends it early ends it again where it is asked for.
-  void search(int start, EvaluationMemory& memory, const DesignObserver& observer) const
+  void search(int start, EvaluationMemory& memory, const DesignObserver& observer)
   {
     const auto& section = *experiment_.section<ExperimentDesign>();
     const TappedOptimizer optimizer(*section.optimizer, section.max_iterations, [](const DesignPoint&) {});
     try {
-      search_start(prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings,
-                   spec_, optimizer, context_->threads, start, observer, memory,
-                   [] { return !interrupted(); });
+      search_start(
+          prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
+          optimizer, context_->threads, start, observer, memory, [] { return !interrupted(); },
+          limits_.report(*context_));
     } catch (const SearchInterrupted&) {
     } catch (const Interrupted&) {
     } catch (const InputError&) {
@@ -269,7 +258,7 @@ class DesignTask final : public TaskRun {
   }
 
   /// Throws ComputationError where the first evaluation of a log is not what it is here, though it should be.
-  void check_first(int start, const StartLog& log) const
+  void check_first(int start, const StartLog& log)
   {
     FirstEvaluation first;
     search(start, first, [](const DesignProgress&) { return false; });
@@ -282,34 +271,6 @@ class DesignTask final : public TaskRun {
     context_->progress.warn(fmt::format(
         "warning: {}: its first evaluation is not what it is here: processors of several kinds round differently",
         log.file.string()));
-  }
-
-  /// What the run remembers of one of its computations of limits.
-  std::optional<MemoryWithin> memory_for(const std::string& label) const
-  {
-    if (context_->memory == nullptr) return std::nullopt;
-    return MemoryWithin(*context_->memory, label + ": ");
-  }
-
-  std::vector<LimitResult> limits(const std::string& label, const SceneSpec& scene, const LimitsSink& sink)
-  {
-    const Model model = make_model(scene, *experiment_.load_case, experiment_.solver.clearance);
-    // Of this scene: a design may have made tubes thinner.
-    LimitSettings settings = limit_settings(experiment_.solver, scene, experiment_.length_unit);
-    settings.start = strained_start_;
-    std::optional<MemoryWithin> memory = memory_for(label);
-    const LimitsJob job{&model,
-                        &scene,
-                        tasks_,
-                        settings,
-                        experiment_.load_case_plugin,
-                        context_->threads,
-                        label,
-                        {},
-                        memory ? &*memory : nullptr};
-    std::vector<LimitResult> out = run_limits(job, context_->progress, sink);
-    context_->progress.clear();
-    return out;
   }
 
   /// A design result that is whole at any time, as partial results hold it.
@@ -408,8 +369,7 @@ class DesignTask final : public TaskRun {
             run_.design->evaluations = log.closest_points();
             return observe(p);
           },
-          &log, [] { return !interrupted(); },
-          shown_as("a thorough look at this design", context_->progress));
+          &log, [] { return !interrupted(); }, limits_.report(*context_));
     } catch (const SearchInterrupted&) {
       return stopped(log);
     } catch (const Interrupted&) {
@@ -448,15 +408,18 @@ class DesignTask final : public TaskRun {
     const std::string status = d.status, message = d.message;
     d.status = "interrupted";
     d.message = "the search was done (" + status + "), its limits were not yet recomputed";
-    // Opens gaps that touch, as for any other scene: with rest_clearance = clearance the search closes them.
-    PreparedScene prepared = prepare_rest(
-        run_.scene, make_model(run_.scene, *experiment_.load_case, experiment_.solver.clearance));
-    run_.scene = std::move(prepared.scene);
-    strained_start_ = std::move(prepared.start);
-    run_.limits = limits(limits_after, run_.scene, [&](const std::vector<LimitResult>& so_far) {
-      run_.limits = so_far;
-      context_->save_sometimes();
-    });
+    // With rest_clearance = clearance the search closes gaps.
+    const ReportedScene after = limits_.with_open_gaps(run_.scene);
+    run_.scene = after.scene;
+    if (const std::vector<LimitResult>* known = limits_.reported(after)) {
+      run_.limits = *known;
+    } else {
+      run_.limits =
+          limits_.compute(*context_, limits_after, after, [&](const std::vector<LimitResult>& so_far) {
+            run_.limits = so_far;
+            context_->save_sometimes();
+          });
+    }
     run_.profiles = profiles(run_.limits, *experiment_.load_case);
     std::stable_sort(
         run_.profiles.begin(), run_.profiles.end(), [](const ProfilePoint& a, const ProfilePoint& b) {
@@ -470,11 +433,10 @@ class DesignTask final : public TaskRun {
 
   const Experiment& experiment_;
   DesignSpec spec_;
-  std::vector<LimitTask> tasks_;  ///< targets first
-  SceneSpec initial_scene_;       ///< relaxed to the design's rest clearance
+  DesignLimits limits_;
+  SceneSpec initial_scene_;  ///< relaxed to the design's rest clearance
   RunResult run_;
-  RunContext* context_ = nullptr;        ///< while it runs
-  std::optional<State> strained_start_;  ///< where the final limits start, if not at rest
+  RunContext* context_ = nullptr;  ///< while it runs
 
   const DesignPoint* point_ = nullptr;  ///< of the iterate that is being observed
   std::vector<DesignIterate> history_;  ///< of the search that runs, with that of the one it continues

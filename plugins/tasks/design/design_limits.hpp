@@ -1,0 +1,67 @@
+#pragma once
+/// Limits of designs as they are reported: before the search, after it, and of what it may end with.
+
+#include "design/design.hpp"
+#include "run/context.hpp"
+#include "run/limits_run.hpp"
+#include "run/prepared.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hauberk {
+
+/// A scene whose limits are computed as they are reported.
+struct ReportedScene {
+  SceneSpec scene;
+  Model model;
+  LimitSettings settings;
+};
+
+/// Not thread safe; the search calls it in between its evaluations.
+class DesignLimits {
+ public:
+  /// Tasks: those of `targets` (target_tasks), then what else the result shows. `prepared` outlives it.
+  DesignLimits(const Prepared& prepared, std::size_t targets, std::vector<LimitTask> tasks)
+      : prepared_(prepared), targets_(targets), tasks_(std::move(tasks))
+  {
+  }
+
+  const std::vector<LimitTask>& tasks() const { return tasks_; }
+
+  ReportedScene as_it_is(const SceneSpec& scene) const;
+  /// Gaps that touch are open, as in any other scene.
+  ReportedScene with_open_gaps(SceneSpec scene) const;
+
+  std::vector<LimitResult> compute(const RunContext& context, const std::string& label,
+                                   const ReportedScene& of, const LimitsSink& sink) const;
+  /// A share of the searches of these limits, for the memory of the run.
+  void compute_part(const RunContext& context, const std::string& label, const ReportedScene& of,
+                    const Share& share) const;
+
+  /// For the search: limits of designs that it may end with, computed once for each and kept; what is asked
+  /// for again costs the same evaluations, so that a run that goes on where it was stopped counts as many.
+  /// Refers to this and the context.
+  LimitsReport report(const RunContext& context);
+  /// The limits of all tasks that a report has found for this scene; null: it was not asked for it.
+  const std::vector<LimitResult>* reported(const ReportedScene& of) const;
+
+ private:
+  LimitsJob job(const RunContext& context, const std::string& label, const ReportedScene& of) const;
+
+  struct Reported {
+    ReportedStates states;
+    std::vector<LimitResult> limits;
+  };
+
+  /// Null: there is none of this scene.
+  const Reported* find(const SceneSpec& scene) const;
+
+  const Prepared& prepared_;
+  std::size_t targets_;
+  std::vector<LimitTask> tasks_;
+  std::vector<Reported> reported_;
+};
+
+}  // namespace hauberk

@@ -42,6 +42,10 @@ HAUBERK_CONFORMANCE_TESTS(StrutFrameListed, folder + "strut_frame.so",
 HAUBERK_CONFORMANCE_TESTS(RoundedRing, folder + "rounded_ring.so",
                           R"({ "shape": "rounded_ring",
                                "parameters": { "R": 5, "w": 0.7, "h": 0.5, "corner": 0.2 } })");
+HAUBERK_CONFORMANCE_TESTS(SplineTube, folder + "spline_tube.so",
+                          R"({ "shape": "spline_tube",
+                               "nodes": [[6, 0, 0, 0.8], [0, 5, 0.3, 0.6], [-6, 0, 0, 0.8], [0, -5, -0.3, 0.6]] })",
+                          1, false);
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodic, folder + "in_plane_periodic.so");
 HAUBERK_CONFORMANCE_TESTS(InPlanePeriodicEquation12, folder + "in_plane_periodic.so",
                           R"({ "measure": "equation_12", "hold": [] })");

@@ -257,16 +257,23 @@ TEST_F(StripResults, AreThoseOfTheStripWrittenOut)
             write_json(results_of(write_json(results_.at("experiment"))).at_pointer("/scene/cell_vectors")));
 }
 
-/// A design of a strip leaves an experiment that is laid out, and that can be run.
-TEST(StripRolling, CanBeDesigned)
+/// Two rows whose tubes are designed for a curvature of 0.07.
+std::string strip_design()
 {
-  const TemporaryFolder folder;
   std::string text = with(strip(2), "\"directions_deg\": [90]",
                           R"("directions_deg": [90], "senses": ["up"], "hold": ["places"])");
   text = with(text, "\"length_unit\": \"mm\",", R"("length_unit": "mm", "task": "design",
   "design": { "optimizer": { "plugin": "sqp", "max_iterations": 5 }, "quantity": "curvature", "tolerance": 0.01,
     "variables": [{ "parameters": ["ring.r0", "ring.r1"], "tied": true, "per": "all", "lower": 0.9, "upper": 1.2 }],
     "targets": [{ "direction_deg": 90, "value": 0.07 }] },)");
+  return text;
+}
+
+/// A design of a strip leaves an experiment that is laid out, and that can be run.
+TEST(StripRolling, CanBeDesigned)
+{
+  const TemporaryFolder folder;
+  const std::string text = strip_design();
   ASSERT_EQ(run_program({"run", folder.write("d.json", text), "-o", folder / "out"}).code, 0);
   EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 0.07, 7e-4);
   EXPECT_EQ(run_program({"verify", folder / "out"}).code, 0);
@@ -291,6 +298,8 @@ TEST(StripRolling, SaysWhatIsNoStrip)
           "'in_plane_periodic' loads cells with 2 vectors, and there is 1");
   refused(with(good, "[90]", "[0, 90, 180]"),
           "/load_case/directions_deg/0: 'strip_roll' has no load at 0 degrees");
+  refused(with(strip_design(), R"("direction_deg": 90)", R"("direction_deg": 0)"),
+          "/design/targets/0/direction_deg: 'strip_roll' has no load at 0 degrees");
   refused(with(good, "[0, 1]", "[2, 4]"),
           "/cell/strip/axis: expected two whole numbers without a common factor, found 2 and 4");
   refused(with(good, R"("rows": 2 })", R"("rows": 2 }, "repeat": [1, 2])"),

@@ -44,8 +44,29 @@ void read_senses(Node& section, const LoadCase& load_case, Problems& problems, s
 
 }  // namespace
 
-void check_directions(const std::vector<std::pair<const Node*, double>>& directions, Problems& problems)
+namespace {
+
+/// Angles at which the load is zero ask nothing: a strip cannot be rolled about the axis across it.
+void check_loads(const std::vector<std::pair<const Node*, double>>& directions, const LoadCase& load_case,
+                 const std::string& name, Problems& problems)
 {
+  constexpr double nothing = 1e-12;
+  std::vector<double> load(static_cast<std::size_t>(load_case.macro_count()));
+  for (const auto& [node, degrees] : directions) {
+    load_case.load(Direction::at_degrees(degrees), load);
+    if (std::all_of(load.begin(), load.end(), [](double t) { return std::abs(t) < nothing; }))
+      problems.add(*node, fmt::format("'{}' has no load at {} degrees: give another direction", name,
+                                      format_number(degrees)));
+  }
+}
+
+}  // namespace
+
+void check_directions(const std::vector<std::pair<const Node*, double>>& directions,
+                      const Experiment& experiment, Problems& problems)
+{
+  if (experiment.load_case)
+    check_loads(directions, *experiment.load_case, experiment.load_case_plugin, problems);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
       const double difference = std::remainder(directions[k].second - directions[j].second, 180.0);
@@ -93,24 +114,6 @@ void check_extent(const Node& root, const Node& section, const LoadCase& load_ca
 
 }  // namespace
 
-namespace {
-
-/// Angles at which the load is zero ask nothing: a strip cannot be rolled about the axis across it.
-void check_loads(const std::vector<std::pair<const Node*, double>>& directions, const LoadCase& load_case,
-                 const std::string& name, Problems& problems)
-{
-  constexpr double nothing = 1e-12;
-  std::vector<double> load(static_cast<std::size_t>(load_case.macro_count()));
-  for (const auto& [node, degrees] : directions) {
-    load_case.load(Direction::at_degrees(degrees), load);
-    if (std::all_of(load.begin(), load.end(), [](double t) { return std::abs(t) < nothing; }))
-      problems.add(*node, fmt::format("'{}' has no load at {} degrees: give another direction", name,
-                                      format_number(degrees)));
-  }
-}
-
-}  // namespace
-
 void read_load_case(Node& root, PluginResolver& plugins, bool angles_only, Problems& problems,
                     Experiment& experiment)
 {
@@ -128,9 +131,7 @@ void read_load_case(Node& root, PluginResolver& plugins, bool angles_only, Probl
   if (const Node* list = find_typed(*section, "directions_deg", Node::Type::array)) {
     std::vector<std::pair<const Node*, double>> directions;
     for (const Node& item : list->items) directions.emplace_back(&item, item.number);
-    check_directions(directions, problems);
-    if (experiment.load_case)
-      check_loads(directions, *experiment.load_case, experiment.load_case_plugin, problems);
+    check_directions(directions, experiment, problems);
     experiment.directions_deg = list->numbers();
   }
 }

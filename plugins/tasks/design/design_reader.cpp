@@ -43,7 +43,8 @@ Aim read_aim(const Node& item, Problems& problems)
   return aim;
 }
 
-std::vector<ExperimentTarget> read_targets(const Node& section, Problems& problems)
+std::vector<ExperimentTarget> read_targets(const Node& section, const Experiment& experiment,
+                                           Problems& problems)
 {
   std::vector<ExperimentTarget> targets;
   const Node* list = find_typed(section, "targets", Node::Type::array);
@@ -58,7 +59,7 @@ std::vector<ExperimentTarget> read_targets(const Node& section, Problems& proble
     targets.push_back(
         {direction->number, value->number, number_or(item, "weight", 1.0), read_aim(item, problems)});
   }
-  check_directions(directions, problems);
+  check_directions(directions, experiment, problems);
   return targets;
 }
 
@@ -121,7 +122,7 @@ std::shared_ptr<const TaskSection> read_design(Node& section, SectionContext& co
   if (const Node* variables = find_typed(section, "variables", Node::Type::array)) {
     design.variables = read_variables(*variables, context);
   }
-  design.targets = read_targets(section, problems);
+  design.targets = read_targets(section, experiment, problems);
   check_published(section, problems);
   design.hole_clearance = read_clearance(section, "hole_clearance", experiment.solver.clearance, problems);
   design.rest_clearance = read_clearance(section, "rest_clearance", experiment.solver.clearance, problems);

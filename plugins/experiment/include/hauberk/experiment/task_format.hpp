@@ -24,8 +24,10 @@ struct SectionContext {
   Problems& problems;
 };
 
-/// Reports entries of `directions` (degrees, and where they stand) that repeat an earlier one modulo 180.
-void check_directions(const std::vector<std::pair<const Node*, double>>& directions, Problems& problems);
+/// Reports entries of `directions` (degrees, and where they stand) that repeat an earlier one modulo 180, and
+/// those at which the load of the experiment's load case, if it is there, is zero.
+void check_directions(const std::vector<std::pair<const Node*, double>>& directions,
+                      const Experiment& experiment, Problems& problems);
 
 struct TaskFormat {
   std::string_view name;  ///< of the task, and of its section

@@ -30,7 +30,7 @@ class Recorder final : public OptimizerObserver {
            const DesignObserver& observer)
       : problem_(problem),
         design_(design),
-        tasks_(target_tasks(design)),
+        tasks_(target_limits(design).tasks),
         start_(start),
         first_(first),
         observer_(observer),
@@ -101,16 +101,26 @@ std::vector<int> DesignVariable::elements() const
   return out;
 }
 
-std::vector<LimitTask> target_tasks(const DesignSpec& design)
+TargetLimits target_limits(const DesignSpec& design)
 {
-  std::vector<LimitTask> tasks;
-  for (const DesignTarget& t : design.targets) {
+  constexpr double same = 1e-9;  // degrees
+  TargetLimits limits;
+  for (std::size_t i = 0; i < design.targets.size(); ++i) {
+    const double degrees = design.targets[i].direction_deg;
+    const auto known = std::find_if(limits.first.begin(), limits.first.end(), [&](std::size_t k) {
+      return std::abs(std::remainder(limits.tasks[k].direction.degrees() - degrees, 180.0)) < same;
+    });
+    if (known != limits.first.end()) {
+      limits.first.push_back(*known);
+      continue;
+    }
+    limits.first.push_back(limits.tasks.size());
     if (design.quantity != DesignQuantity::negative)
-      tasks.push_back({Direction::at_degrees(t.direction_deg), Sense::positive});
+      limits.tasks.push_back({Direction::at_degrees(degrees), Sense::positive});
     if (design.quantity != DesignQuantity::positive)
-      tasks.push_back({Direction::at_degrees(t.direction_deg), Sense::negative});
+      limits.tasks.push_back({Direction::at_degrees(degrees), Sense::negative});
   }
-  return tasks;
+  return limits;
 }
 
 namespace {
@@ -134,17 +144,16 @@ std::vector<std::optional<double>> target_values(const DesignSpec& design,
                                                  const std::vector<LimitResult>& limits)
 {
   std::vector<std::optional<double>> out;
-  std::size_t k = 0;
+  const std::vector<std::size_t> first = target_limits(design).first;
   const auto locked = [&limits](std::size_t i) -> std::optional<double> {
     return limits[i].status == LimitStatus::locked ? limits[i].value : std::nullopt;
   };
   for (std::size_t i = 0; i < design.targets.size(); ++i) {
     if (design.quantity == DesignQuantity::eta) {
-      const auto s = locked(k), c = locked(k + 1);
-      k += 2;
+      const auto s = locked(first[i]), c = locked(first[i] + 1);
       out.push_back(s && c && 1.0 + *c > 0.0 ? std::optional((*s - *c) / (1.0 + *c)) : std::nullopt);
     } else {
-      out.push_back(locked(k++));
+      out.push_back(locked(first[i]));
     }
   }
   return out;
@@ -367,6 +376,7 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
 {
   const auto before = target_values(design, initial), after = target_values(design, final);
   const std::size_t per = design.quantity == DesignQuantity::eta ? 2 : 1;
+  const std::vector<std::size_t> first = target_limits(design).first;
   const auto objective = [&](const std::vector<std::optional<double>>& v) {
     double sum = 0.0;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -380,7 +390,7 @@ void finish_design(DesignResult& result, const DesignSpec& design, const std::ve
     DesignTargetResult& t = result.targets[i];
     t.initial = before[i];
     t.recomputed = after[i];
-    for (std::size_t k = per * i; k < per * (i + 1); ++k) t.better_state |= final[k].better_state;
+    for (std::size_t k = first[i]; k < first[i] + per; ++k) t.better_state |= final[k].better_state;
     t.met = t.recomputed && is_within(met_share(t.aim), t.aim, t.target, *t.recomputed);
   }
   if (result.status == "targets_met") result.message = recomputed_message(result.targets, *design.tolerance);

@@ -72,7 +72,7 @@ struct Designed {
 struct ReportedStates {
   SceneSpec scene;                           ///< the design, its rest as it is reported
   Model model;                               ///< of it
-  std::vector<std::optional<State>> states;  ///< furthest ones, in the order of `target_tasks`
+  std::vector<std::optional<State>> states;  ///< furthest ones, of each of `target_limits`
   long evaluations = 0;                      ///< of closest points, of all searches
 };
 /// Computes the limits of a design, given with its relaxed rest, as they are reported: whoever asks for it
@@ -102,14 +102,18 @@ bool search_start(const SceneSpec& scene, const LoadCase& load, double clearance
                   const DesignObserver& observer, EvaluationMemory& memory, const KeepGoing& keep_going,
                   const LimitsReport& report);
 
-/// The limits that the targets need (both senses for eta), in the order of the targets.
-std::vector<LimitTask> target_tasks(const DesignSpec& design);
+/// The limits that targets need, each once: two bounds in one direction are of the same limits.
+struct TargetLimits {
+  std::vector<LimitTask> tasks;
+  std::vector<std::size_t> first;  ///< per target: its task; of eta the stretch, with the compression next
+};
+TargetLimits target_limits(const DesignSpec& design);
 
 /// Whether every value is within `tolerance` of its target (bounds: within `met_share`), which ends a search;
 /// false without a tolerance.
 bool meets_targets(const DesignSpec& design, const std::vector<double>& values);
 
-/// Values of the designed quantity from limits in the order of `target_tasks`; null where not locked.
+/// Values of the designed quantity from limits in the order of `target_limits`; null where not locked.
 std::vector<std::optional<double>> target_values(const DesignSpec& design,
                                                  const std::vector<LimitResult>& limits);
 

@@ -287,13 +287,13 @@ void TargetSearch::enter_objective(DesignPoint& p, const std::vector<Estimate>& 
     const std::size_t k = i;
     if (design.quantity == DesignQuantity::eta) {
       // eta = (s - c)/(1 + c)
-      const auto& [s, ds] = estimates[2 * k];
-      const auto& [c, dc] = estimates[2 * k + 1];
+      const auto& [s, ds] = estimates[first_[k]];
+      const auto& [c, dc] = estimates[first_[k] + 1];
       p.values[k] = (s - c) / (1.0 + c);
       p.value_gradients.row(i) = (ds / (1.0 + c) - dc * (1.0 + s) / ((1.0 + c) * (1.0 + c))).transpose();
     } else {
-      p.values[k] = estimates[k].value;
-      p.value_gradients.row(i) = estimates[k].gradient.transpose();
+      p.values[k] = estimates[first_[k]].value;
+      p.value_gradients.row(i) = estimates[first_[k]].gradient.transpose();
     }
     const DesignTarget& t = design.targets[k];
     const double r = miss(t.aim, t.value, p.values[k]);

@@ -18,7 +18,7 @@ namespace hauberk {
 class TargetSearch {
  public:
   explicit TargetSearch(std::shared_ptr<const DesignScene> scene)
-      : scene_(std::move(scene)), schedule_(scene_->design.schedule), tasks_(target_tasks(scene_->design))
+      : TargetSearch(scene, target_limits(scene->design))
   {
   }
 
@@ -33,6 +33,14 @@ class TargetSearch {
   long solve(DesignPoint& p, const DesignPoint& from, unsigned threads) const;
 
  private:
+  TargetSearch(std::shared_ptr<const DesignScene> scene, TargetLimits limits)
+      : scene_(std::move(scene)),
+        schedule_(scene_->design.schedule),
+        tasks_(std::move(limits.tasks)),
+        first_(std::move(limits.first))
+  {
+  }
+
   /// What one target asks for, locked.
   struct LockedTarget {
     Locked locked;
@@ -77,6 +85,7 @@ class TargetSearch {
   std::shared_ptr<const DesignScene> scene_;
   Schedule schedule_;
   std::vector<LimitTask> tasks_;
+  std::vector<std::size_t> first_;  ///< TargetLimits::first
 };
 
 }  // namespace hauberk

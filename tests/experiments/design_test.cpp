@@ -117,6 +117,58 @@ TEST_P(DesignBounds, MoveWhatBreaksThemAndNothingElse)
 
 INSTANTIATE_TEST_SUITE_P(Senses, DesignBounds, ::testing::Values("stretch", "compress"));
 
+/// Two bounds in one direction are of one limit, which is computed once, and end up on either side of it.
+TEST(Design, ABandOfTwoBoundsIsKept)
+{
+  const TemporaryFolder folder;
+  const auto text = [](const std::string& targets) {
+    return fmt::format(R"({{ "extends": "{0}/threefold_round.json", "name": "band", "task": "design",
+  "load_case": {{ "senses": ["stretch"] }}, "solver": {{ "starts": 2, "lessons": false }},
+  "design": {{ "quantity": "stretch", "tolerance": 0.001, "perturbation": 0,
+    "variables": [{{ "parameters": ["centre.r0", "centre.r1", "side.r0", "side.r1"], "tied": true, "per": "all",
+                     "lower": 0.85, "upper": 1.05 }}],
+    "targets": [{1}] }} }})",
+                       HAUBERK_SOURCE_DIR "/share/experiments", targets);
+  };
+  const auto band = [](double nearest, double furthest) {
+    return fmt::format(R"({{ "direction_deg": 90, "value": {}, "aim": "no_nearer" }},
+      {{ "direction_deg": -90, "value": {}, "aim": "no_further" }})",
+                       nearest, furthest);
+  };
+  const std::string out = folder / "free";
+  ASSERT_EQ(run_program({"run", folder.write("free.json", text(band(0.001, 0.9))), "-o", out}).code, 0);
+  const json::value free = read_results(out);
+  ASSERT_EQ(free.at("limits").as_array().size(), 1U);
+  EXPECT_EQ(number_at(free, "/design/objective"), 0.0);
+  const double value = number_at(free, "/limits/0/value");
+  EXPECT_EQ(number_at(free, "/design/targets/0/recomputed"), value);
+  EXPECT_EQ(number_at(free, "/design/targets/1/recomputed"), value);
+  for (const auto& [nearest, furthest] : {std::pair(0.8, 0.9), std::pair(1.1, 1.2)}) {
+    const std::string moved = folder / fmt::format("moved_{}", nearest);
+    const std::string file = folder.write("moved.json", text(band(nearest * value, furthest * value)));
+    ASSERT_EQ(run_program({"run", file, "-o", moved}).code, 0);
+    EXPECT_EQ(run_program({"verify", moved}).code, 0);
+    const json::value r = read_results(moved);
+    EXPECT_TRUE(r.at_pointer("/design/targets/0/met").as_bool());
+    EXPECT_TRUE(r.at_pointer("/design/targets/1/met").as_bool());
+    EXPECT_GT(number_at(r, "/limits/0/value"), 0.995 * nearest * value);
+    EXPECT_LT(number_at(r, "/limits/0/value"), 1.005 * furthest * value);
+  }
+  const auto refusal = [&](const std::string& targets) {
+    const Outcome o = run_program({"check", folder.write("bad.json", text(targets))});
+    EXPECT_EQ(o.code, 2);
+    return o.err;
+  };
+  EXPECT_NE(refusal(band(0.3, 0.2))
+                .find("/design/targets/1/value: nothing is between the bounds of this "
+                      "direction: no_nearer than 0.3 and no_further than 0.2"),
+            std::string::npos);
+  for (const char* third : {R"("value": 0.15)", R"("value": 0.15, "aim": "no_further")"})
+    EXPECT_NE(refusal(band(0.1, 0.2) + fmt::format(R"(, {{ "direction_deg": 90, {} }})", third))
+                  .find("/design/targets/2/direction_deg: direction 90 is given twice"),
+              std::string::npos);
+}
+
 TEST(Design, ABoundOfZeroIsRefused)
 {
   const TemporaryFolder folder;

@@ -53,7 +53,7 @@ Field design_field()
                "aim",
                "Reach the value, or keep it as a bound: end no further than it, or no nearer, further being "
                "away from zero. What keeps its bound adds nothing to the objective; a bound counts as met "
-               "to within a thousandth.",
+               "to within a thousandth. Two bounds in one direction are a band.",
                {"reach", "no_further", "no_nearer"}),
            "\"reach\""),
        number("published",

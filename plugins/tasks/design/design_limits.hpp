@@ -22,7 +22,7 @@ struct ReportedScene {
 /// Not thread safe; the search calls it in between its evaluations.
 class DesignLimits {
  public:
-  /// Tasks: those of `targets` (target_tasks), then what else the result shows. `prepared` outlives it.
+  /// Tasks: those of `targets` (target_limits), then what else the result shows. `prepared` outlives it.
   DesignLimits(const Prepared& prepared, std::size_t targets, std::vector<LimitTask> tasks)
       : prepared_(prepared), targets_(targets), tasks_(std::move(tasks))
   {

@@ -2,6 +2,9 @@
 #include "document/node_access.hpp"
 #include "tasks/design/design_section.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hauberk {
 
 namespace {
@@ -43,6 +46,27 @@ Aim read_aim(const Node& item, Problems& problems)
   return aim;
 }
 
+bool along_one_line(double a, double b) { return std::abs(std::remainder(a - b, 180.0)) < 1e-9; }
+
+/// Whether `target` is the other end of a band whose one end is among `targets`: no_nearer than one value and
+/// no_further than another. A band that is empty is a problem of `value`.
+bool closes_band(const ExperimentTarget& target, const std::vector<ExperimentTarget>& targets,
+                 const Node& value, Problems& problems)
+{
+  const auto there = [&target](const ExperimentTarget& t) {
+    return along_one_line(t.direction_deg, target.direction_deg);
+  };
+  if (std::ranges::count_if(targets, there) != 1) return false;
+  const auto other = std::ranges::find_if(targets, there);
+  if (other->aim == target.aim || other->aim == Aim::reach || target.aim == Aim::reach) return false;
+  const bool is_outer = target.aim == Aim::no_further;
+  const double outer = is_outer ? target.value : other->value, inner = is_outer ? other->value : target.value;
+  if (!(std::abs(inner) < std::abs(outer)))
+    problems.add(value, "nothing is between the bounds of this direction: no_nearer than " +
+                            format_number(inner) + " and no_further than " + format_number(outer));
+  return true;
+}
+
 std::vector<ExperimentTarget> read_targets(const Node& section, const Experiment& experiment,
                                            Problems& problems)
 {
@@ -53,11 +77,17 @@ std::vector<ExperimentTarget> read_targets(const Node& section, const Experiment
   for (const Node& item : list->items) {
     const Node* direction = item.find("direction_deg");
     const Node* value = item.find("value");
-    if (direction != nullptr) directions.emplace_back(direction, direction->number);
     if (value != nullptr) check_target_value(*value, string_or(section, "quantity", ""), problems);
-    if (direction == nullptr || value == nullptr) continue;
-    targets.push_back(
-        {direction->number, value->number, number_or(item, "weight", 1.0), read_aim(item, problems)});
+    if (direction == nullptr) continue;
+    if (value == nullptr) {
+      directions.emplace_back(direction, direction->number);
+      continue;
+    }
+    const ExperimentTarget target{direction->number, value->number, number_or(item, "weight", 1.0),
+                                  read_aim(item, problems)};
+    if (!closes_band(target, targets, *value, problems))
+      directions.emplace_back(direction, direction->number);
+    targets.push_back(target);
   }
   check_directions(directions, experiment, problems);
   return targets;
@@ -103,7 +133,11 @@ void check_published(const Node& section, Problems& problems)
 std::vector<double> ExperimentDesign::own_directions() const
 {
   std::vector<double> out;
-  for (const ExperimentTarget& target : targets) out.push_back(target.direction_deg);
+  for (const ExperimentTarget& target : targets) {
+    const bool known = std::ranges::any_of(
+        out, [&target](double angle) { return along_one_line(angle, target.direction_deg); });
+    if (!known) out.push_back(target.direction_deg);
+  }
   return out;
 }
 

@@ -53,7 +53,7 @@ DesignSpec design_spec(const Experiment& experiment)
 
 std::vector<LimitTask> design_tasks(const DesignSpec& design, const std::vector<LimitTask>& profile)
 {
-  std::vector<LimitTask> tasks = target_tasks(design);
+  std::vector<LimitTask> tasks = target_limits(design).tasks;
   for (const LimitTask& t : profile) {
     const bool known =
         std::any_of(tasks.begin(), tasks.end(), [&t](const LimitTask& k) { return same(k, t); });

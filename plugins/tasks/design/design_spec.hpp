@@ -12,7 +12,7 @@ namespace hauberk {
 /// The design as the kernel takes it. The experiment must have the section.
 DesignSpec design_spec(const Experiment& experiment);
 
-/// Limits of a design: those of the targets first (in the order of `target_tasks`), then those of the final
+/// Limits of a design: those of the targets first (in the order of `target_limits`), then those of the final
 /// profile that are not among them; directions count modulo 180 degrees.
 std::vector<LimitTask> design_tasks(const DesignSpec& design, const std::vector<LimitTask>& profile);
 

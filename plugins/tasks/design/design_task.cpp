@@ -53,7 +53,7 @@ class DesignTask final : public TaskRun {
       : TaskRun(prepared),
         experiment_(prepared.experiment),
         spec_(design_spec(experiment_)),
-        limits_(prepared, target_tasks(spec_).size(), design_tasks(spec_, profile_tasks(experiment_)))
+        limits_(prepared, target_limits(spec_).tasks.size(), design_tasks(spec_, profile_tasks(experiment_)))
   {
     run_.scene = prepared.scene;
     for (const Problem& problem : design_solver_problems(experiment_.solver))
@@ -78,8 +78,9 @@ class DesignTask final : public TaskRun {
   void check_plan(const Plan& plan, Diagnostics& diagnostics) const override
   {
     const std::size_t per = spec_.quantity == DesignQuantity::eta ? 2 : 1;
-    for (std::size_t k = 0; k < per * spec_.targets.size(); ++k) {
-      const auto& [task, bounded] = plan.bounded[k];
+    const std::vector<std::size_t> first = target_limits(spec_).first;
+    for (std::size_t k = 0; k < per * first.size(); ++k) {
+      const auto& [task, bounded] = plan.bounded[first[k / per] + k % per];
       if (bounded == Boundedness::attained) continue;
       const std::string name =
           limit_name(experiment_.load_case->sense_name(task.direction, task.sense), task.direction);
@@ -107,7 +108,7 @@ class DesignTask final : public TaskRun {
       return boost::json::object{{"stages", stages.size()},
                                  {"last_activation_distance", stages.back().g_hat}};
     };
-    const std::size_t searched = (spec_.quantity == DesignQuantity::eta ? 2 : 1) * spec_.targets.size();
+    const std::size_t searched = target_limits(spec_).tasks.size();
     return {{"variables", variables},      {"limits_per_evaluation", searched},
             {"starts", spec_.starts},      {"first_search", search(spec_.coarse_last)},
             {"final_search", search(0.0)}, {"limits_before_and_after", 2 * limits_.tasks().size()}};
@@ -116,7 +117,7 @@ class DesignTask final : public TaskRun {
   /// The limits before and after, and from every start one evaluation of the searched ones.
   Work work(const Plan& plan) const override
   {
-    const double searched = (spec_.quantity == DesignQuantity::eta ? 2.0 : 1.0) * spec_.targets.size();
+    const auto searched = static_cast<double>(target_limits(spec_).tasks.size());
     Work work = work_of(plan, plan.searches).times(2.0);
     const Work starts = work_of(plan, searched).times(spec_.starts);
     work.searches += starts.searches;

@@ -103,22 +103,19 @@ std::vector<int> DesignVariable::elements() const
 
 TargetLimits target_limits(const DesignSpec& design)
 {
-  constexpr double same = 1e-9;  // degrees
   TargetLimits limits;
-  for (std::size_t i = 0; i < design.targets.size(); ++i) {
-    const double degrees = design.targets[i].direction_deg;
+  for (const DesignTarget& target : design.targets) {
+    const Direction direction = Direction::at_degrees(target.direction_deg);
     const auto known = std::find_if(limits.first.begin(), limits.first.end(), [&](std::size_t k) {
-      return std::abs(std::remainder(limits.tasks[k].direction.degrees() - degrees, 180.0)) < same;
+      return on_one_line(limits.tasks[k].direction, direction);
     });
     if (known != limits.first.end()) {
       limits.first.push_back(*known);
       continue;
     }
     limits.first.push_back(limits.tasks.size());
-    if (design.quantity != DesignQuantity::negative)
-      limits.tasks.push_back({Direction::at_degrees(degrees), Sense::positive});
-    if (design.quantity != DesignQuantity::positive)
-      limits.tasks.push_back({Direction::at_degrees(degrees), Sense::negative});
+    if (design.quantity != DesignQuantity::negative) limits.tasks.push_back({direction, Sense::positive});
+    if (design.quantity != DesignQuantity::positive) limits.tasks.push_back({direction, Sense::negative});
   }
   return limits;
 }

@@ -54,6 +54,12 @@ struct LimitTask {
   Sense sense = Sense::positive;
 };
 
+/// Whether two angles are one direction: directions and their opposites are (degrees, to 1e-9, far below what
+/// changes a limit visibly).
+bool on_one_line(double degrees, double other);
+/// The same of directions that are angles; false of others.
+bool on_one_line(const Direction& a, const Direction& b);
+
 /// How elements that are copies of each other (PlacedElement::copy_of) are perturbed.
 enum class Copies {
   alike,  ///< all in the same way: the repeated cell behaves like the one that it repeats
@@ -122,17 +128,13 @@ LimitResult summarize(const Model& model, const SceneSpec& spec, const LimitTask
 /// something else may (elements can be entangled without a link), so the load is tried.
 Boundedness bounded_by_links(const Model& model, const LimitTask& task);
 
-/// Who is told how far a computation of limits is. Empty functions are not called.
-struct LimitsProgress {
+/// Who follows a computation of limits. Empty functions are not called.
+struct LimitsObserver {
   /// After each start of each task, one call at a time.
   std::function<void(std::size_t done, std::size_t total)> on_start;
   /// Before the first and after each lesson of a round (limits learn from each other), one call at a time.
   /// How many rounds there will be is not known.
   std::function<void(int round, std::size_t done, std::size_t total)> on_lesson;
-};
-
-/// Who follows a computation of limits. Empty functions are not called.
-struct LimitsObserver : LimitsProgress {
   /// False: stop as soon as possible. Called from all threads.
   std::function<bool()> keep_going;
   /// After an interrupt: how long it may take to report starts that were done; those that are not ready by

@@ -78,13 +78,6 @@ RestSearches beside(const Model& model, const LimitTask& task, const LimitSettin
 /// Of the evaluations from rest, what another search of a taut limit may have, and what any may.
 constexpr long allowed = 4, always_allowed = 500'000;
 
-/// Directions and their opposites are one.
-bool on_one_line(const LimitTask& a, const LimitTask& b)
-{
-  return a.direction.is_angle() && b.direction.is_angle() &&
-         std::abs(std::remainder(a.direction.degrees() - b.direction.degrees(), 180.0)) < 1e-9;
-}
-
 /// Whether another of the tasks is within `apart` degrees.
 bool has_company(const LimitTask& task, const std::vector<LimitTask>& tasks, double apart)
 {
@@ -100,12 +93,22 @@ void add(std::vector<RestSearches>& searches, const Model& model, const RestSear
 {
   const LimitTask& task = entry.task;
   const bool there = std::any_of(searches.begin(), searches.end(), [&](const RestSearches& s) {
-    return s.task.sense == task.sense && on_one_line(s.task, task);
+    return s.task.sense == task.sense && on_one_line(s.task.direction, task.direction);
   });
   if (!there && bounded_by_links(model, task) == Boundedness::attained) searches.push_back(entry);
 }
 
 }  // namespace
+
+bool on_one_line(double degrees, double other)
+{
+  return std::abs(std::remainder(degrees - other, 180.0)) < 1e-9;
+}
+
+bool on_one_line(const Direction& a, const Direction& b)
+{
+  return a.is_angle() && b.is_angle() && on_one_line(a.degrees(), b.degrees());
+}
 
 long allowance(long evaluations) { return std::max(always_allowed, allowed * evaluations); }
 

@@ -16,13 +16,26 @@ std::optional<BoundarySurface> boundary_of(const Experiment& experiment, const L
                           further_than(settings) * scale);
 }
 
-LimitsProgress shown_as(const std::string& label, Progress& progress)
+namespace {
+
+/// What a job is told by, and whom it tells how far it is.
+LimitsObserver observer_of(const LimitsJob& job, Progress& progress)
 {
-  return {[label, &progress](std::size_t done, std::size_t total) { progress.limits(label, done, total); },
-          [label, &progress](int round, std::size_t done, std::size_t total) {
-            progress.lessons(label, round, done, total);
-          }};
+  LimitsObserver observer;
+  observer.keep_going = [] { return !interrupted(); };
+  observer.on_start = [&job, &progress](std::size_t done, std::size_t total) {
+    progress.limits(job.label, done, total);
+  };
+  observer.on_lesson = [&job, &progress](int round, std::size_t done, std::size_t total) {
+    progress.lessons(job.label, round, done, total);
+  };
+  observer.memory = job.memory;
+  observer.on_states = job.on_states;
+  observer.on_unreported = job.on_unreported;
+  return observer;
 }
+
+}  // namespace
 
 std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink)
 {
@@ -30,12 +43,7 @@ std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, co
     for (LimitResult& limit : limits) limit.load_case = job.load_case;
     return limits;
   };
-  LimitsObserver observer;
-  observer.keep_going = [] { return !interrupted(); };
-  static_cast<LimitsProgress&>(observer) = shown_as(job.label, progress);
-  observer.memory = job.memory;
-  observer.on_states = job.on_states;
-  observer.on_unreported = job.on_unreported;
+  LimitsObserver observer = observer_of(job, progress);
   observer.on_limit = [&](const std::vector<LimitResult>& limits) { sink(named(limits)); };
   return named(
       compute_limits(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, job.known));
@@ -43,11 +51,8 @@ std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, co
 
 void run_searches(const LimitsJob& job, Progress& progress, const Share& share)
 {
-  LimitsObserver observer;
-  observer.keep_going = [] { return !interrupted(); };
-  static_cast<LimitsProgress&>(observer) = shown_as(job.label, progress);
-  observer.memory = job.memory;
-  compute_searches(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer, share);
+  compute_searches(*job.model, *job.scene, job.tasks, job.settings, job.threads, observer_of(job, progress),
+                   share);
 }
 
 }  // namespace hauberk

@@ -37,9 +37,6 @@ std::optional<BoundarySurface> boundary_of(const Experiment& experiment, const L
 /// All limits so far; those not finished have status interrupted.
 using LimitsSink = std::function<void(const std::vector<LimitResult>&)>;
 
-/// How far a computation of limits is, on a display that outlives it.
-LimitsProgress shown_as(const std::string& label, Progress& progress);
-
 /// Computes all tasks until done or interrupted by a signal, under the progress display. `sink` is called
 /// after every finished limit, one call at a time.
 std::vector<LimitResult> run_limits(const LimitsJob& job, Progress& progress, const LimitsSink& sink);

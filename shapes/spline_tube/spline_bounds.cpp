@@ -74,10 +74,7 @@ struct Pair {
 
 class ReachBound {
  public:
-  explicit ReachBound(const BallSpline& spline) : spline_(spline)
-  {
-    for (int k = 0; k < spline.period(); ++k) pieces_.emplace_back(spline, k, 0.5, 0.5);
-  }
+  explicit ReachBound(const BallSpline& spline) : spline_(spline), pieces_(stretches(spline, 1)) {}
 
   /// Of all pairs; with `enough`, of as many as tell that it is above that.
   double of_all(double enough = infinity)
@@ -207,21 +204,17 @@ double change_bound(const BallSpline& spline)
   //   D^3 f = F_xxx + 3 F_xxt t' + 3 F_xtt t'^2 + F_ttt t'^3.
   // On the surface, |x - c| = r and n . c' = -r', and w is across n: F_xxx = 0, |F_xxt| = |r'|/r^2,
   // |F_xt| <= |c'|/r, |F_xtt| <= |c''|/r + 2 |c'| |r'|/r^2.
-  constexpr int fine = 32;
   double most = 0.0;
-  for (int k = 0; k < spline.period(); ++k) {
-    for (int i = 0; i < fine; ++i) {
-      const Stretch s(spline, k, (i + 0.5) / fine, 0.5 / fine);
-      const double V = s.centre[1], A = s.centre[2], r = s.thinnest, slope = s.radius[1];
-      const double bend = (s.slowest * s.slowest - slope * slope) / s.thickest -
-                          (Cone(s.d).most(s.d[2].head<3>()) + s.d[2][3] +
-                           s.half * (s.centre[3] + s.radius[3]) + A * normals_turn(s));
-      if (!(r > 0.0 && bend > 0.0)) return infinity;
-      const double ttt = (3.0 * V * A + 3.0 * slope * (V * V / r + A)) / r + s.centre[3] + s.radius[3];
-      const double moves = V / (r * bend);
-      most = std::max(most, moves * (3.0 * slope / (r * r) +
-                                     moves * (3.0 * (A / r + 2.0 * V * slope / (r * r)) + moves * ttt)));
-    }
+  for (const Stretch& s : stretches(spline, fine)) {
+    const double V = s.centre[1], A = s.centre[2], r = s.thinnest, slope = s.radius[1];
+    const double bend = (s.slowest * s.slowest - slope * slope) / s.thickest -
+                        (Cone(s.d).most(s.d[2].head<3>()) + s.d[2][3] + s.half * (s.centre[3] + s.radius[3]) +
+                         A * normals_turn(s));
+    if (!(r > 0.0 && bend > 0.0)) return infinity;
+    const double ttt = (3.0 * V * A + 3.0 * slope * (V * V / r + A)) / r + s.centre[3] + s.radius[3];
+    const double moves = V / (r * bend);
+    most = std::max(most, moves * (3.0 * slope / (r * r) +
+                                   moves * (3.0 * (A / r + 2.0 * V * slope / (r * r)) + moves * ttt)));
   }
   return most * (1.0 + 1e-12);
 }

@@ -17,8 +17,6 @@ constexpr double turn_around = 2.0 * std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-12;  ///< relative, of bounds that are sums of a few terms
 constexpr int stretches_per_piece = 4, parts_per_piece = 16;
-constexpr int fine =
-    32;  ///< parts of a piece where bounds of radii, off by the square of the width, are exact enough
 
 std::vector<BallSpline::Point> nodes_of(std::span<const double> sizes)
 {
@@ -106,7 +104,7 @@ struct BallDistance {
   Vec3 n;  ///< from the centre to the point, unit
   double d = 0.0, value = 0.0, slope = 0.0, bend = 0.0;
 
-  BallDistance(const BallSpline::Derivatives& b, const Vec3& x)
+  BallDistance(const BallSpline::To<2>& b, const Vec3& x)
   {
     const Vec3 way = x - centre(b[0]), speed = centre(b[1]);
     d = std::max(way.norm(), 1e-300);
@@ -134,51 +132,52 @@ Stretch::Stretch(const BallSpline& spline, int of_piece, double middle, double h
   thickest = d[0][3] + radius[0];
 }
 
+std::vector<Stretch> stretches(const BallSpline& spline, int to_a_piece)
+{
+  std::vector<Stretch> all;
+  for (int k = 0; k < spline.period(); ++k)
+    for (int i = 0; i < to_a_piece; ++i)
+      all.emplace_back(spline, k, (i + 0.5) / to_a_piece, 0.5 / to_a_piece);
+  return all;
+}
+
 SplineSolid::SplineSolid(std::vector<double> sizes, std::shared_ptr<const PeriodicSpline<3>> reference)
     : sizes_(std::move(sizes)),
       reference_(std::move(reference)),
       basis_(static_cast<int>(sizes_.size() / 4)),
       spline_(basis_, nodes_of(sizes_)),
+      stretches_(stretches(spline_, stretches_per_piece)),
       thinnest_(infinity)
 {
-  for (int k = 0; k < spline_.period(); ++k) {
-    for (int i = 0; i < stretches_per_piece; ++i)
-      stretches_.emplace_back(spline_, k, (i + 0.5) / stretches_per_piece, 0.5 / stretches_per_piece);
-    for (int i = 0; i < fine; ++i) {
-      const Stretch s(spline_, k, (i + 0.5) / fine, 0.5 / fine);
-      radius_ = std::max(radius_, s.d[0].head<3>().norm() + s.centre[0] + s.thickest);
-      thinnest_ = std::min(thinnest_, s.thinnest);
-    }
+  for (const Stretch& s : stretches(spline_, fine)) {
+    radius_ = std::max(radius_, s.d[0].head<3>().norm() + s.centre[0] + s.thickest);
+    thinnest_ = std::min(thinnest_, s.thinnest);
   }
 }
 
 std::string SplineSolid::problem() const
 {
   constexpr double steepest = 0.9;
-  for (int k = 0; k < spline_.period(); ++k) {
-    for (int i = 0; i < fine; ++i) {
-      const Stretch s(spline_, k, (i + 0.5) / fine, 0.5 / fine);
-      const int next = (k + 1) % spline_.period();
-      const auto names = [k, next](const char* of) {
-        return fmt::format("p{}.{} and p{}.{}", k, of, next, of);
-      };
-      if (!(s.thinnest > 0.0))
-        return fmt::format("{}: between them the radius falls to 0; give larger or more even ones",
-                           names("r"));
-      if (!(s.slowest > 0.0))
-        return fmt::format("{}: between these nodes the curve has a corner; give more even ones", names("x"));
-      if (!(s.radius[1] <= steepest * s.slowest))
-        return fmt::format(
-            "{}: between them the radius changes by more than {} of the way, so that one end swallows the "
-            "other; give more even ones",
-            names("r"), steepest);
-      const Vec3 a = reference_->at(k, s.at)[0], T = s.d[1].head<3>().normalized();
-      if (!((a - a.dot(T) * T).norm() >= least_across))
-        return fmt::format(
-            "{}: between these nodes the curve is turned too far from the nodes of the section; give nodes "
-            "nearer to the parameters, or more of them",
-            names("x"));
-    }
+  for (const Stretch& s : stretches(spline_, fine)) {
+    const int k = s.piece, next = (k + 1) % spline_.period();
+    const auto names = [k, next](const char* of) {
+      return fmt::format("p{}.{} and p{}.{}", k, of, next, of);
+    };
+    if (!(s.thinnest > 0.0))
+      return fmt::format("{}: between them the radius falls to 0; give larger or more even ones", names("r"));
+    if (!(s.slowest > 0.0))
+      return fmt::format("{}: between these nodes the curve has a corner; give more even ones", names("x"));
+    if (!(s.radius[1] <= steepest * s.slowest))
+      return fmt::format(
+          "{}: between them the radius changes by more than {} of the way, so that one end swallows the "
+          "other; give more even ones",
+          names("r"), steepest);
+    const Vec3 a = reference_->at<0>(k, s.at)[0], T = s.d[1].head<3>().normalized();
+    if (!((a - a.dot(T) * T).norm() >= least_across))
+      return fmt::format(
+          "{}: between these nodes the curve is turned too far from the nodes of the section; give nodes "
+          "nearer to the parameters, or more of them",
+          names("x"));
   }
   if (meets_itself(spline_))
     return "p0.r, p1.r, ...: the tube is too thick for its curve, which bends more tightly or comes closer to "
@@ -197,8 +196,8 @@ std::vector<std::string> SplineSolid::size_names() const
 ProbeDerivatives SplineSolid::probe(const ProbeAngles& at) const
 {
   const double scale = spline_.period() / turn_around, t = scale * angle(at.cos_u, at.sin_u);
-  const BallSpline::Derivatives ball = spline_.at(t);
-  const PeriodicSpline<3>::Derivatives reference = reference_->at(t);
+  const auto ball = spline_.at(t);
+  const auto reference = reference_->at(t);
   using J = kit::Jet<double, 1, 2>;
   const auto of = [](const auto& d) {
     return [&d](int order, int axis) { return d[static_cast<std::size_t>(order)][axis]; };
@@ -221,46 +220,45 @@ ProbeDerivatives SplineSolid::probe(const ProbeAngles& at) const
   return out;
 }
 
-const std::vector<SplineSolid::Part>& SplineSolid::parts() const
+std::vector<SplineSolid::Part> SplineSolid::parts() const
 {
-  std::call_once(parts_once_, [this] {
-    using kit::Interval;
-    using J = kit::Jet<Interval, 1, 3>;
-    const double scale = spline_.period() / turn_around, half = 0.5 / parts_per_piece;
-    const auto ranges = [half](const auto& d) {
-      return [&d, half](int order, int axis) {
-        const auto size = [&](int k) { return std::abs(d[static_cast<std::size_t>(k)][axis]); };
-        const double x = d[static_cast<std::size_t>(order)][axis], off = taylor_sum(order, 1, half, size);
-        return Interval(x - off - rounding * std::abs(x), x + off + rounding * std::abs(x));
-      };
+  std::vector<Part> parts;
+  using kit::Interval;
+  using J = kit::Jet<Interval, 1, 3>;
+  const double scale = spline_.period() / turn_around, half = 0.5 / parts_per_piece;
+  const auto ranges = [half](const auto& d) {
+    return [&d, half](int order, int axis) {
+      const auto size = [&](int k) { return std::abs(d[static_cast<std::size_t>(k)][axis]); };
+      const double x = d[static_cast<std::size_t>(order)][axis], off = taylor_sum(order, 1, half, size);
+      return Interval(x - off - rounding * std::abs(x), x + off + rounding * std::abs(x));
     };
-    for (int k = 0; k < spline_.period(); ++k) {
-      for (int i = 0; i < parts_per_piece; ++i) {
-        const double s = (i + 0.5) / parts_per_piece;
-        const BallSpline::Derivatives ball = spline_.at(k, s);
-        const PeriodicSpline<3>::Derivatives reference = reference_->at(k, s);
-        const Circle<J> c = circle_jet<J>(scale, ranges(ball), ranges(reference));
-        Part part;
-        const std::array<const Triple<J>*, 3> all{&c.p, &c.q, &c.w};
-        for (std::size_t f = 0; f < 3; ++f) {
-          double factorial = 1.0;
-          for (std::size_t order = 0; order < 4; ++order) {
-            if (order > 1) factorial *= static_cast<double>(order);
-            Vec3 off;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-              const Interval& range = (*all[f])[axis].c[order];
-              const auto a = static_cast<Eigen::Index>(axis);
-              part.center[f][order][a] = range.mid() * factorial;
-              off[a] = range.is_bounded() ? range.rad() * factorial : infinity;
-            }
-            part.off[f][order] = off.norm() * (1.0 + rounding);
+  };
+  for (int k = 0; k < spline_.period(); ++k) {
+    for (int i = 0; i < parts_per_piece; ++i) {
+      const double s = (i + 0.5) / parts_per_piece;
+      const BallSpline::Derivatives ball = spline_.at(k, s);
+      const PeriodicSpline<3>::Derivatives reference = reference_->at(k, s);
+      const Circle<J> c = circle_jet<J>(scale, ranges(ball), ranges(reference));
+      Part part;
+      const std::array<const Triple<J>*, 3> all{&c.p, &c.q, &c.w};
+      for (std::size_t f = 0; f < 3; ++f) {
+        double factorial = 1.0;
+        for (std::size_t order = 0; order < 4; ++order) {
+          if (order > 1) factorial *= static_cast<double>(order);
+          Vec3 off;
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Interval& range = (*all[f])[axis].c[order];
+            const auto a = static_cast<Eigen::Index>(axis);
+            part.center[f][order][a] = range.mid() * factorial;
+            off[a] = range.is_bounded() ? range.rad() * factorial : infinity;
           }
+          part.off[f][order] = off.norm() * (1.0 + rounding);
         }
-        parts_.push_back(part);
       }
+      parts.push_back(part);
     }
-  });
-  return parts_;
+  }
+  return parts;
 }
 
 ProbeBounds SplineSolid::probe_bounds(double at_u, double at_v, double half_u, double half_v) const
@@ -280,7 +278,7 @@ ProbeBounds SplineSolid::probe_bounds(double at_u, double at_v, double half_u, d
     out = std::max(out, (std::min(near, p.norm() + S) + off) * (1.0 + rounding));
   };
   constexpr double margin = 1e-9;  // radians, of rounded angles
-  const std::vector<Part>& all = parts();
+  const std::vector<Part>& all = parts_.get([this] { return parts(); });
   const auto count = static_cast<std::ptrdiff_t>(all.size());
   const double per_turn = static_cast<double>(count) / turn_around;
   const auto part_at = [per_turn](double u) { return static_cast<std::ptrdiff_t>(std::floor(per_turn * u)); };
@@ -300,7 +298,7 @@ SplineSolid::Ball SplineSolid::nearest_ball(const Vec3& x) const
 {
   Ball best{0.0, infinity};
   const auto seen = [&](const Stretch& s, double at) {
-    const BallDistance f(spline_.at(s.piece, at), x);
+    const BallDistance f(spline_.at<2>(s.piece, at), x);
     if (f.value < best.value) best = {s.piece + at, f.value};
     return f;
   };
@@ -347,7 +345,7 @@ SplineSolid::Ball SplineSolid::nearest_ball(const Vec3& x) const
     if (&s != &*nearest && low(s) < best.value) refined(s);
   // A value that is the least to rounding is so over the root of that in t, which normals would show.
   for (int step = 0; step < 4; ++step) {
-    const BallDistance f(spline_.at(best.t), x);
+    const BallDistance f(spline_.at<2>(best.t), x);
     if (!(f.bend > 0.0)) break;
     const double move = -f.slope / f.bend;
     constexpr double rounded = 1e-6;  // of a piece: farther away it was found by the search
@@ -356,7 +354,7 @@ SplineSolid::Ball SplineSolid::nearest_ball(const Vec3& x) const
     if (std::abs(move) < 1e-15) break;
   }
   best.t -= spline_.period() * std::floor(best.t / spline_.period());
-  best.value = BallDistance(spline_.at(best.t), x).value;
+  best.value = BallDistance(spline_.at<2>(best.t), x).value;
   return best;
 }
 
@@ -365,7 +363,7 @@ SolidDistance SplineSolid::distance(const Vec3& x) const
   // f(x) = min over t of F = |x - c| - r has the gradient n and the Hessian F_xx - F_xt F_xt^T/F_tt, where
   // F_xx = (1 - n n^T)/d and F_xt = -(c' - n n . c')/d.
   const Ball ball = nearest_ball(x);
-  const BallSpline::Derivatives b = spline_.at(ball.t);
+  const auto b = spline_.at<2>(ball.t);
   const BallDistance f(b, x);
   const Vec3 speed = centre(b[1]), across = speed - f.n.dot(speed) * f.n;
   const double slide = across.norm();
@@ -378,26 +376,19 @@ SolidDistance SplineSolid::distance(const Vec3& x) const
   return out;
 }
 
-SolidSmoothness SplineSolid::smoothness() const { return smooth(); }
-
-const SolidSmoothness& SplineSolid::smooth() const
+SolidSmoothness SplineSolid::smoothness() const
 {
-  std::call_once(smooth_once_, [this] {
-    smooth_ = {(1.0 + rounding) / thinnest_, reach_bound(spline_), change_bound(spline_)};
+  return smoothness_.get([this] {
+    return SolidSmoothness{(1.0 + rounding) / thinnest_, reach_bound(spline_), change_bound(spline_)};
   });
-  return smooth_;
 }
 
 void SplineSolid::distance_sizes(const Vec3& x, std::span<double> out) const
 {
   const double t = nearest_ball(x).t;
-  const Vec3 n = BallDistance(spline_.at(t), x).n;
-  const int piece = std::min(static_cast<int>(t), spline_.period() - 1);
-  const double s = t - piece;
+  const Vec3 n = BallDistance(spline_.at<2>(t), x).n;
   for (int node = 0; node < spline_.period(); ++node) {
-    const auto c = basis_.coefficients(node, piece);
-    double weight = 0.0;
-    for (int j = CardinalSpline::degree; j >= 0; --j) weight = weight * s + c[j];
+    const double weight = basis_.at(node, t).value;
     double* const of_node = out.data() + static_cast<std::ptrdiff_t>(4) * node;
     for (int axis = 0; axis < 3; ++axis) of_node[axis] = -weight * n[axis];
     of_node[3] = -weight;
@@ -407,10 +398,8 @@ void SplineSolid::distance_sizes(const Vec3& x, std::span<double> out) const
 void SplineSolid::probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const
 {
   const double t = spline_.period() / turn_around * angle(at.cos_u, at.sin_u);
-  const int piece = std::min(static_cast<int>(t), spline_.period() - 1);
-  const double s = t - piece;
-  const BallSpline::Derivatives ball = spline_.at(piece, s);
-  const Vec3 reference = reference_->at(piece, s)[0];
+  const auto ball = spline_.at<1>(t);
+  const Vec3 reference = reference_->at<0>(t)[0];
   // n . x by the derivative of the centre, the radius and its derivative; by the centre itself it is n.
   using J = kit::Jet<double, 5, 1>;
   Triple<J> c, dc, a;
@@ -427,12 +416,7 @@ void SplineSolid::probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<do
     moves += (circle.p[k] + circle.q[k] * at.cos_v + circle.w[k] * at.sin_v) * n[axis];
   }
   for (int node = 0; node < spline_.period(); ++node) {
-    const auto coefficients = basis_.coefficients(node, piece);
-    double weight = 0.0, slope = 0.0;
-    for (int j = CardinalSpline::degree; j >= 0; --j) {
-      slope = slope * s + weight;
-      weight = weight * s + coefficients[j];
-    }
+    const auto [weight, slope] = basis_.at(node, t);
     double* const of_node = out.data() + static_cast<std::ptrdiff_t>(4) * node;
     for (int axis = 0; axis < 3; ++axis) of_node[axis] = weight * n[axis] + slope * moves.slope(axis);
     of_node[3] = weight * moves.slope(3) + slope * moves.slope(4);
@@ -452,16 +436,11 @@ double SplineSolid::speed(std::span<const double> sizes) const
   if (sizes.size() != sizes_.size()) return infinity;
   std::vector<double> change(sizes.begin(), sizes.end());
   for (std::size_t k = 0; k < change.size(); ++k) change[k] -= sizes_[k];
-  const BallSpline moves(basis_, nodes_of(change));
   double fastest = 0.0;
-  for (int k = 0; k < moves.period(); ++k) {
-    for (int i = 0; i < fine; ++i) {
-      const Stretch s(moves, k, (i + 0.5) / fine, 0.5 / fine);
-      fastest = std::max(fastest, s.d[0].head<3>().norm() + s.centre[0] + std::abs(s.d[0][3]) + s.radius[0]);
-    }
-  }
+  for (const Stretch& s : stretches(BallSpline(basis_, nodes_of(change)), fine))
+    fastest = std::max(fastest, s.d[0].head<3>().norm() + s.centre[0] + std::abs(s.d[0][3]) + s.radius[0]);
   const SplineSolid other(std::vector<double>(sizes.begin(), sizes.end()), reference_);
-  return fastest < std::min(smooth().reach, other.smooth().reach) ? fastest : infinity;
+  return fastest < std::min(smoothness().reach, other.smoothness().reach) ? fastest : infinity;
 }
 
 std::vector<std::vector<Vec3>> SplineSolid::cores() const
@@ -473,7 +452,8 @@ std::vector<std::vector<Vec3>> SplineSolid::cores() const
     for (int i = 0; i < stretches_per_piece; ++i)
       bend = std::max(bend, stretches_[static_cast<std::size_t>(k * stretches_per_piece + i)].centre[2]);
     const int count = std::max(2, static_cast<int>(std::ceil(std::sqrt(bend / (4.0 * thinnest_)))));
-    for (int i = 0; i < count; ++i) core.push_back(centre(spline_.at(k, static_cast<double>(i) / count)[0]));
+    for (int i = 0; i < count; ++i)
+      core.push_back(centre(spline_.at<0>(k, static_cast<double>(i) / count)[0]));
   }
   return {core};
 }
@@ -484,14 +464,14 @@ std::shared_ptr<const PeriodicSpline<3>> carried_reference(std::span<const doubl
   const CardinalSpline basis(static_cast<int>(sizes.size() / 4));
   const BallSpline spline(basis, nodes_of(sizes));
   const auto tangent = [&spline](int k, int i) {
-    return Vec3(centre(spline.at(k, static_cast<double>(i) / steps)[1]).normalized());
+    return Vec3(centre(spline.at<1>(k, static_cast<double>(i) / steps)[1]).normalized());
   };
   const auto carried = [](const Vec3& a, const Vec3& from, const Vec3& to) {
     return Vec3(Eigen::Quaterniond::FromTwoVectors(from, to) * a);
   };
   const Vec3 first = tangent(0, 0);
   // Of a flat curve the reference is the plane's normal: across the tangent and the bend, where it bends.
-  const Vec3 bend = centre(spline.at(0, 0.0)[2]), normal = first.cross(bend);
+  const Vec3 bend = centre(spline.at<2>(0, 0.0)[2]), normal = first.cross(bend);
   const bool bends = normal.norm() > 1e-6 * bend.norm();
   std::vector<Vec3> at_node{bends ? Vec3(normal.normalized()) : Vec3(first.unitOrthogonal())},
       tangents{first};

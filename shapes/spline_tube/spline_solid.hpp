@@ -4,11 +4,11 @@
 
 #include "periodic_spline.hpp"
 
+#include <hauberk/kit/lazy.hpp>
 #include <hauberk/solid.hpp>
 
+#include <array>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +31,12 @@ struct Stretch {
   Stretch(const BallSpline& spline, int piece, double at, double half);
   double t() const { return piece + at; }
 };
+
+/// All of a spline in stretches, so many to a piece.
+std::vector<Stretch> stretches(const BallSpline& spline, int to_a_piece);
+
+/// Stretches to a piece that leave bounds of radii, which are off by the square of the width, exact enough.
+inline constexpr int fine = 32;
 
 /// Sizes: x, y, z and r of each node, which the spline passes at t = 0, 1, ..., n - 1. Outside, the distance
 /// from a union of balls is the least of |x - c(t)| - r(t) over t; of its stationary points the derivatives
@@ -81,7 +87,6 @@ class SplineSolid final : public Solid {
   };
   /// The ball that is nearest to a point.
   Ball nearest_ball(const Vec3& x) const;
-  const SolidSmoothness& smooth() const;
 
   /// x = p + cos v q + sin v w and derivatives in u up to the third over a part of u: centres, and how far
   /// from them.
@@ -89,7 +94,7 @@ class SplineSolid final : public Solid {
     std::array<std::array<Vec3, 4>, 3> center;
     std::array<std::array<double, 4>, 3> off;
   };
-  const std::vector<Part>& parts() const;
+  std::vector<Part> parts() const;
 
   std::vector<double> sizes_;
   std::shared_ptr<const PeriodicSpline<3>> reference_;
@@ -97,9 +102,8 @@ class SplineSolid final : public Solid {
   BallSpline spline_;
   std::vector<Stretch> stretches_;
   double radius_ = 0.0, thinnest_ = 0.0;
-  mutable std::once_flag parts_once_, smooth_once_;
-  mutable std::vector<Part> parts_;
-  mutable SolidSmoothness smooth_;
+  kit::Lazy<std::vector<Part>> parts_;
+  kit::Lazy<SolidSmoothness> smoothness_;
 };
 
 /// Unit vectors across the curve of a spline at its nodes, carried along it without turning about it and

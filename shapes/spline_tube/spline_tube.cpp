@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace hauberk {
 
 SplineTube::SplineTube(std::vector<double> nodes) : reference_(carried_reference(nodes))
@@ -20,26 +18,16 @@ SplineTube::SplineTube(std::vector<double> nodes) : reference_(carried_reference
   }
 }
 
-std::shared_ptr<const SplineSolid> SplineTube::solid(std::span<const double> sizes) const
-{
-  constexpr std::size_t most = 64;
-  const std::lock_guard lock(mutex_);
-  for (const auto& known : made_)
-    if (std::ranges::equal(known->sizes(), sizes)) return known;
-  auto made =
-      std::make_shared<const SplineSolid>(std::vector<double>(sizes.begin(), sizes.end()), reference_);
-  if (const std::string problem = made->problem(); !problem.empty()) throw InputError(problem);
-  made_.push_front(std::move(made));
-  if (made_.size() > most) made_.pop_back();
-  return made_.front();
-}
-
 void SplineTube::do_primitives(std::span<const double> p, std::vector<Primitive>& out) const
 {
   Primitive tube;
   tube.name = "tube";
   tube.kind = PrimitiveKind::solid;
-  tube.solid = solid(p);
+  tube.solid = solids_.get(p, [&] {
+    auto made = std::make_shared<const SplineSolid>(std::vector<double>(p.begin(), p.end()), reference_);
+    if (const std::string problem = made->problem(); !problem.empty()) throw InputError(problem);
+    return made;
+  });
   out.assign(1, tube);
 }
 

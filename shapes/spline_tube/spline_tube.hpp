@@ -3,12 +3,11 @@
 
 #include "spline_solid.hpp"
 
+#include <hauberk/kit/lazy.hpp>
 #include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>
 
-#include <deque>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,13 +28,9 @@ class SplineTube final : public Shape {
   void do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobian>& out) const override;
 
  private:
-  std::shared_ptr<const SplineSolid> solid(std::span<const double> sizes) const;
-
   std::vector<ParameterInfo> parameters_;
   std::shared_ptr<const PeriodicSpline<3>> reference_;
-  /// The last solids: what is certified of one takes a moment, and elements of one type ask for the same.
-  mutable std::mutex mutex_;
-  mutable std::deque<std::shared_ptr<const SplineSolid>> made_;
+  kit::KeptSolids<SplineSolid> solids_;
 };
 
 /// The fields of the shape's section of an experiment.

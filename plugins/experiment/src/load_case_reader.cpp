@@ -1,5 +1,6 @@
 #include "document/json_writer.hpp"
 #include "document/node_access.hpp"
+#include "limits/limits.hpp"
 #include "sections.hpp"
 
 #include <hauberk/suggestion.hpp>
@@ -12,8 +13,6 @@
 namespace hauberk {
 
 namespace {
-
-constexpr double same_direction = 1e-9;  ///< degrees; far below what changes a limit visibly
 
 void read_senses(Node& section, const LoadCase& load_case, Problems& problems, std::vector<Sense>& senses)
 {
@@ -69,8 +68,7 @@ void check_directions(const std::vector<std::pair<const Node*, double>>& directi
     check_loads(directions, *experiment.load_case, experiment.load_case_plugin, problems);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
-      const double difference = std::remainder(directions[k].second - directions[j].second, 180.0);
-      if (std::abs(difference) > same_direction) continue;
+      if (!on_one_line(directions[k].second, directions[j].second)) continue;
       const bool equal = directions[k].second == directions[j].second;
       problems.add(*directions[k].first,
                    "direction " + format_number(directions[k].second) +

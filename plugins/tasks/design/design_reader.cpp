@@ -1,5 +1,6 @@
 #include "document/json_writer.hpp"
 #include "document/node_access.hpp"
+#include "limits/limits.hpp"
 #include "tasks/design/design_section.hpp"
 
 #include <algorithm>
@@ -46,15 +47,13 @@ Aim read_aim(const Node& item, Problems& problems)
   return aim;
 }
 
-bool along_one_line(double a, double b) { return std::abs(std::remainder(a - b, 180.0)) < 1e-9; }
-
 /// Whether `target` is the other end of a band whose one end is among `targets`: no_nearer than one value and
 /// no_further than another. A band that is empty is a problem of `value`.
 bool closes_band(const ExperimentTarget& target, const std::vector<ExperimentTarget>& targets,
                  const Node& value, Problems& problems)
 {
   const auto there = [&target](const ExperimentTarget& t) {
-    return along_one_line(t.direction_deg, target.direction_deg);
+    return on_one_line(t.direction_deg, target.direction_deg);
   };
   if (std::ranges::count_if(targets, there) != 1) return false;
   const auto other = std::ranges::find_if(targets, there);
@@ -135,7 +134,7 @@ std::vector<double> ExperimentDesign::own_directions() const
   std::vector<double> out;
   for (const ExperimentTarget& target : targets) {
     const bool known = std::ranges::any_of(
-        out, [&target](double angle) { return along_one_line(angle, target.direction_deg); });
+        out, [&target](double angle) { return on_one_line(angle, target.direction_deg); });
     if (!known) out.push_back(target.direction_deg);
   }
   return out;

@@ -6,17 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace hauberk {
 namespace {
 
-constexpr double same_direction = 1e-9;  ///< degrees
-
 bool same(const LimitTask& a, const LimitTask& b)
 {
-  return a.sense == b.sense && a.direction.is_angle() && b.direction.is_angle() &&
-         std::abs(std::remainder(a.direction.degrees() - b.direction.degrees(), 180.0)) < same_direction;
+  return a.sense == b.sense && on_one_line(a.direction, b.direction);
 }
 
 DesignQuantity quantity_of(const std::string& name)

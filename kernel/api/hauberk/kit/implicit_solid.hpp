@@ -2,31 +2,14 @@
 /// A solid made of an author's chart and field; see author.hpp for what is written, solid.hpp for what it
 /// gives.
 
+#include <hauberk/kit/lazy.hpp>
 #include <hauberk/kit/reach.hpp>
 #include <hauberk/kit/size_motion.hpp>
 #include <hauberk/kit/surface_balls.hpp>
 
-#include <mutex>
-#include <optional>
 #include <stdexcept>
 
 namespace hauberk::kit {
-
-/// A value that is made by the first call that asks for it, in any thread.
-template <class T>
-class Lazy {
- public:
-  template <class Make>
-  const T& get(const Make& make) const
-  {
-    std::call_once(once_, [&] { value_.emplace(make()); });
-    return *value_;
-  }
-
- private:
-  mutable std::once_flag once_;
-  mutable std::optional<T> value_;
-};
 
 template <class Author>
 class ImplicitSolid final : public Solid {

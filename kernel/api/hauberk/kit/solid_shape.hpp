@@ -4,36 +4,12 @@
 #include <hauberk/kit/implicit_solid.hpp>
 #include <hauberk/shape.hpp>
 
-#include <deque>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace hauberk::kit {
-
-/// Makes solids of one kind and keeps the last ones, as what is certified of a solid takes milliseconds and
-/// elements of one type ask for the same. Thread safe.
-template <class Author>
-class SolidMaker {
- public:
-  std::shared_ptr<const Solid> operator()(std::span<const double> sizes) const
-  {
-    const std::lock_guard lock(mutex_);
-    for (const auto& known : made_)
-      if (std::ranges::equal(known->sizes(), sizes)) return known;
-    made_.push_front(
-        std::make_shared<const ImplicitSolid<Author>>(std::vector<double>(sizes.begin(), sizes.end())));
-    if (made_.size() > most) made_.pop_back();
-    return made_.front();
-  }
-
- private:
-  static constexpr std::size_t most = 64;
-  mutable std::mutex mutex_;
-  mutable std::deque<std::shared_ptr<const Solid>> made_;
-};
 
 /// The element is the solid itself, at its origin; parameters are its sizes, in their order and by their
 /// names, as `Author::parameters()` declares them. Where the author has `check(const double* q)`, it throws
@@ -52,7 +28,9 @@ class SolidShape : public Shape {
     Primitive solid;
     solid.name = name_;
     solid.kind = PrimitiveKind::solid;
-    solid.solid = make_(p);
+    solid.solid = solids_.get(p, [p] {
+      return std::make_shared<const ImplicitSolid<Author>>(std::vector<double>(p.begin(), p.end()));
+    });
     out.assign(1, solid);
   }
 
@@ -66,7 +44,7 @@ class SolidShape : public Shape {
  private:
   std::string name_;
   std::vector<ParameterInfo> parameters_;
-  SolidMaker<Author> make_;
+  KeptSolids<ImplicitSolid<Author>> solids_;
 };
 
 }  // namespace hauberk::kit

@@ -16,6 +16,7 @@ packages=(
   libsuitesparse-dev                # CHOLMOD
   libnlopt-dev                      # optimizers/nlopt
   libfmt-dev
+  nettle-dev                        # SHA-256
   pybind11-dev python3-dev python3-numpy  # import hauberk; left out without them
   libzip-dev libpng-dev libexpat1-dev # 3MF and PNG, written and read; the program is built without them, too
   libgtest-dev python3-jsonschema   # tests only

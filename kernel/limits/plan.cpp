@@ -62,35 +62,6 @@ bool linked_together(const Model& m, const std::vector<ElementLink>& links, cons
                      [&](const Link& l) { return l.image == g.image && follows(l.a, A) && follows(l.b, B); });
 }
 
-/// The closest pairs of bodies at rest, each once.
-void list_tightest(Plan& p, const Model& m, const State& rest)
-{
-  const std::vector<ElementLink> links = element_links(m);
-  std::map<std::tuple<int, int, Image>, std::size_t> seen;  // bodies and image: where in the list
-  for (const Gap& g : find_gaps(m, rest, tight_range, false)) {
-    const Body& A = m.bodies[g.a];
-    const Body& B = m.bodies[g.b];
-    TightPair t;
-    t.elements = {A.element, B.element};
-    t.primitives = {A.index, B.index};
-    t.image = g.image;
-    t.distance = (g.gap + m.clearance) * m.length;
-    t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B,
-                              image_pose(m, rest, B.element, g.image)) != 0 ||
-               linked_together(m, links, g);
-    const auto [at, added] = seen.try_emplace({g.a, g.b, g.image}, p.tightest.size());
-    if (added) {
-      p.tightest.push_back(t);
-    } else {
-      TightPair& same = p.tightest[at->second];
-      same.distance = std::min(same.distance, t.distance);
-    }
-  }
-  std::stable_sort(p.tightest.begin(), p.tightest.end(),
-                   [](const TightPair& a, const TightPair& b) { return a.distance < b.distance; });
-  if (p.tightest.size() > most_tight_pairs) p.tightest.resize(most_tight_pairs);
-}
-
 /// Triangles and edges of the primitives, of which each may have others.
 MeshPlan mesh_plan(const Model& m)
 {
@@ -151,10 +122,40 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
       }
     }
   }
-  list_tightest(p, m, rest);
   for (auto& [name, k] : kinds) p.pairs.push_back(k);
   for (const LimitTask& t : tasks) p.bounded.emplace_back(t, bounded_by_links(m, t));
   return p;
+}
+
+std::vector<TightPair> tightest_pairs(const Model& m)
+{
+  const State rest = rest_state(m);
+  const std::vector<ElementLink> links = element_links(m);
+  std::map<std::tuple<int, int, Image>, std::size_t> seen;  // bodies and image: where in the list
+  std::vector<TightPair> out;
+  for (const Gap& g : find_gaps(m, rest, tight_range, false)) {
+    const Body& A = m.bodies[g.a];
+    const Body& B = m.bodies[g.b];
+    TightPair t;
+    t.elements = {A.element, B.element};
+    t.primitives = {A.index, B.index};
+    t.image = g.image;
+    t.distance = (g.gap + m.clearance) * m.length;
+    t.linked = linking_number(A, image_pose(m, rest, A.element, {0, 0}), B,
+                              image_pose(m, rest, B.element, g.image)) != 0 ||
+               linked_together(m, links, g);
+    const auto [at, added] = seen.try_emplace({g.a, g.b, g.image}, out.size());
+    if (added) {
+      out.push_back(t);
+    } else {
+      TightPair& same = out[at->second];
+      same.distance = std::min(same.distance, t.distance);
+    }
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const TightPair& a, const TightPair& b) { return a.distance < b.distance; });
+  if (out.size() > most_tight_pairs) out.resize(most_tight_pairs);
+  return out;
 }
 
 }  // namespace hauberk

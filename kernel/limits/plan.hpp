@@ -58,10 +58,14 @@ struct Plan {
   int image_pairs = 0;     ///< element pairs within reach at rest
   Image farthest_image{};  ///< largest image indices among them
   std::vector<int> links_per_element;
-  std::vector<TightPair> tightest;                         ///< up to ten, nearest first
   std::vector<std::pair<LimitTask, Boundedness>> bounded;  ///< per task, by links alone
 };
 
 Plan make_plan(const Model& model, const std::vector<LimitTask>& tasks, const LimitSettings& settings);
+
+/// The closest pairs of primitives at rest, each once, nearest first: up to ten of those nearer than the
+/// clearance and 0.3 L. Costs a search of every pair's local minima, which a limit may cost less than, so
+/// that a plan goes without it.
+std::vector<TightPair> tightest_pairs(const Model& model);
 
 }  // namespace hauberk

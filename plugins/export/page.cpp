@@ -264,8 +264,9 @@ void enter_design(const JsonPlace& design, const json::value& results, const std
   for (const JsonPlace& target : design.at("targets").items()) {
     const auto direction = target.find("direction_deg");
     if (direction)
-      targets.push_back(
-          json::object{{"direction", direction->number()}, {"value", target.at("target").number()}});
+      targets.push_back(json::object{{"direction", direction->number()},
+                                     {"value", target.at("target").number()},
+                                     {"aim", target.find("aim") ? target.at("aim").text() : "reach"}});
   }
 }
 

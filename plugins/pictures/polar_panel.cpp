@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -69,7 +70,7 @@ class Diagram {
         if (hollow)
           svg_.circle(at(degrees + turn, value), 3.6, "#fff", {curve.stroke.colour, 1.4, ""});
         else
-          draw_marker(svg_, at(degrees + turn, value), curve);
+          draw_marker(svg_, at(degrees + turn, value), curve, outward(degrees + turn));
       }
     }
   }
@@ -97,7 +98,8 @@ class Diagram {
       svg.line({end.x - across.x, end.y - across.y}, {end.x + across.x, end.y + across.y}, stroke);
   }
 
-  static void draw_marker(Svg& svg, Point2 p, const Curve& curve)
+  /// `outward`: away from the centre, of length one.
+  static void draw_marker(Svg& svg, Point2 p, const Curve& curve, Point2 outward)
   {
     switch (curve.marker) {
       case Curve::Marker::none:
@@ -118,14 +120,33 @@ class Diagram {
           svg.line({p.x - half, p.y + half}, {p.x + half, p.y - half}, stroke);
         }
         break;
+      case Curve::Marker::no_further:
+        draw_bound(svg, p, {-outward.x, -outward.y}, curve.stroke.colour);
+        break;
+      case Curve::Marker::no_nearer:
+        draw_bound(svg, p, outward, curve.stroke.colour);
+        break;
     }
   }
+
+  static Point2 outward(double degrees) { return {std::cos(radians(degrees)), -std::sin(radians(degrees))}; }
 
  private:
   Point2 at(double degrees, double value) const
   {
     const double r = radius * value / (rings_ * step_);
-    return {centre_.x + r * std::cos(radians(degrees)), centre_.y - r * std::sin(radians(degrees))};
+    const Point2 u = outward(degrees);
+    return {centre_.x + r * u.x, centre_.y + r * u.y};
+  }
+
+  /// A triangle whose base is across the direction at p.
+  static void draw_bound(Svg& svg, Point2 p, Point2 allowed, const std::string& colour)
+  {
+    constexpr double half = 5.5, height = 8.0;
+    const std::array<Point2, 3> corners{Point2{p.x - half * allowed.y, p.y + half * allowed.x},
+                                        Point2{p.x + half * allowed.y, p.y - half * allowed.x},
+                                        Point2{p.x + height * allowed.x, p.y + height * allowed.y}};
+    svg.polygon(corners, colour, {"#fff", 1.2, ""});
   }
 
   /// Joins neighbours around the circle, in runs without interruption.
@@ -174,7 +195,7 @@ void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves)
   for (const Curve& curve : curves) {
     if (curve.joined) svg.line({corner.x, y}, {corner.x + 44.0, y}, curve.stroke);
     if (!curve.bars.empty()) Diagram::draw_bar(svg, {corner.x + 10.0, y}, {corner.x + 34.0, y}, curve.stroke);
-    Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve);
+    Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve, Diagram::outward(90.0));
     svg.text({corner.x + 54.0, y + 4.0},
              curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)") +
                  (curve.hollow.empty() ? "" : " (hollow: in doubt)"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace hauberk::detail {
 namespace {
@@ -104,10 +105,12 @@ void add(Panel& panel, const RunResult& run, const PlotLabels& labels, Quantity 
 
 void add_targets(Panel& panel, const DesignResult& design)
 {
-  std::vector<std::pair<double, double>> targets;
-  targets.reserve(design.targets.size());
-  for (const DesignTargetResult& t : design.targets) targets.emplace_back(t.direction_deg, t.target);
-  add_marks(panel, "targets", Curve::Marker::target, "#c00000", targets);
+  using Values = std::vector<std::pair<double, double>>;
+  std::map<Aim, Values> targets;
+  for (const DesignTargetResult& t : design.targets) targets[t.aim].emplace_back(t.direction_deg, t.target);
+  add_marks(panel, "targets", Curve::Marker::target, "#c00000", targets[Aim::reach]);
+  add_marks(panel, "bounds: no further", Curve::Marker::no_further, "#c00000", targets[Aim::no_further]);
+  add_marks(panel, "bounds: no nearer", Curve::Marker::no_nearer, "#c00000", targets[Aim::no_nearer]);
 }
 
 Curve style(const char* colour, double width, const char* dash, Curve::Marker marker)

@@ -1,8 +1,7 @@
 #include "run/code_digest.hpp"
 
 #include "limits/limits.hpp"
-
-#include <hauberk/host/sha256.hpp>
+#include "run/sha256.hpp"
 
 #include <link.h>
 #include <cstdint>

@@ -189,13 +189,6 @@ json::object plan_json(const Prepared& prepared, const Plan& plan)
   out["image_pairs"] = p.image_pairs;
   out["farthest_image"] = boost::json::value_from(shown(p.farthest_image));
   out["links_per_element"] = json::array(p.links_per_element.begin(), p.links_per_element.end());
-  json::array& tightest = out["tightest"].emplace_array();
-  for (const TightPair& t : p.tightest)
-    tightest.push_back({{"elements", {t.elements[0], t.elements[1]}},
-                        {"primitives", {t.primitives[0], t.primitives[1]}},
-                        {"image", boost::json::value_from(shown(t.image))},
-                        {"distance", t.distance},
-                        {"linked", t.linked}});
   json::array& stages = out["stages"].emplace_array();
   for (const PlannedStage& stage : p.stages)
     stages.push_back({{"g_hat", stage.g_hat}, {"contact", name_of(stage.formulation)}});
@@ -210,6 +203,18 @@ json::object plan_json(const Prepared& prepared, const Plan& plan)
     bounded.push_back(std::move(entry));
   }
   out["rest_moved"] = prepared.moved;
+  return out;
+}
+
+json::array tightest_json(const std::vector<TightPair>& pairs)
+{
+  json::array out;
+  for (const TightPair& t : pairs)
+    out.push_back({{"elements", {t.elements[0], t.elements[1]}},
+                   {"primitives", {t.primitives[0], t.primitives[1]}},
+                   {"image", boost::json::value_from(shown(t.image))},
+                   {"distance", t.distance},
+                   {"linked", t.linked}});
   return out;
 }
 
@@ -260,7 +265,8 @@ std::string task_text(const std::string& task, const json::object& entries)
 
 }  // namespace
 
-std::string plan_text(const Prepared& prepared, const Plan& plan, const json::object& task)
+std::string plan_text(const Prepared& prepared, const Plan& plan, const json::object& task,
+                      const std::vector<TightPair>& tightest)
 {
   const Plan& p = plan;
   const std::string& unit = prepared.experiment.length_unit;
@@ -282,8 +288,8 @@ std::string plan_text(const Prepared& prepared, const Plan& plan, const json::ob
               ? fmt::format("  relaxed: elements moved by up to {:.3g} {}\n", prepared.moved, unit)
               : "  as given: nothing touches\n";
   text += fmt::format("  links per element: {}\n", links_text(p.links_per_element));
-  if (!p.tightest.empty()) text += "  tightest pairs (element.primitive):\n";
-  for (const TightPair& t : p.tightest)
+  if (!tightest.empty()) text += "  tightest pairs (element.primitive):\n";
+  for (const TightPair& t : tightest)
     text += fmt::format("    {}.{} - {}.{} of image [{}]: {:.6g} {}{}\n", t.elements[0], t.primitives[0],
                         t.elements[1], t.primitives[1], fmt::join(shown(t.image), ", "), t.distance, unit,
                         t.linked ? ", linked" : "");

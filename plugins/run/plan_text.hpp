@@ -4,9 +4,11 @@
 #include "limits/plan.hpp"
 #include "run/prepared.hpp"
 
+#include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
 #include <string>
+#include <vector>
 
 namespace hauberk {
 
@@ -16,7 +18,12 @@ std::string to_string(Boundedness bounded);
 /// As in results.json, share/doc/results.md.
 boost::json::object plan_json(const Prepared& prepared, const Plan& plan);
 
+/// `tightest` of `hauberk plan --json`, share/doc/results.md.
+boost::json::array tightest_json(const std::vector<TightPair>& pairs);
+
 /// Several lines, ended by a line break. `task`: what the task itself plans (TaskRun::plan), by name.
-std::string plan_text(const Prepared& prepared, const Plan& plan, const boost::json::object& task);
+/// `tightest`: the pairs to list (tightest_pairs).
+std::string plan_text(const Prepared& prepared, const Plan& plan, const boost::json::object& task,
+                      const std::vector<TightPair>& tightest);
 
 }  // namespace hauberk

@@ -3,8 +3,7 @@
 #include "numerics/fnv.hpp"
 #include "run/nearest_node.hpp"
 #include "run/presets.hpp"
-
-#include <hauberk/host/sha256.hpp>
+#include "run/sha256.hpp"
 
 #include <fmt/format.h>
 

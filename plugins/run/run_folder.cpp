@@ -2,9 +2,9 @@
 
 #include "document/json_text.hpp"
 #include "results/document.hpp"
+#include "run/sha256.hpp"
 
 #include <hauberk/error.hpp>
-#include <hauberk/host/sha256.hpp>
 
 #include <fmt/format.h>
 #include <boost/json/object.hpp>

@@ -32,6 +32,14 @@ boost::json::object plan_document(const Job& job)
   return plan;
 }
 
+ShownPlan show_plan(const Job& job)
+{
+  const std::vector<TightPair> tightest = tightest_pairs(job.prepared->model);
+  ShownPlan out{plan_text(*job.prepared, job.plan, job.task->plan(), tightest), plan_document(job)};
+  out.document["tightest"] = tightest_json(tightest);
+  return out;
+}
+
 boost::json::object blank_document(const Job& job, const Provenance& provenance)
 {
   const Prepared& prepared = *job.prepared;

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hauberk {
@@ -22,6 +23,13 @@ Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource
 
 /// The plan of results.json.
 boost::json::object plan_document(const Job& job);
+
+/// What `hauberk plan` says: the plan of results.json, and the tightest pairs at rest.
+struct ShownPlan {
+  std::string text;
+  boost::json::object document;
+};
+ShownPlan show_plan(const Job& job);
 
 /// The document of results.json without results: what does not change while the task runs.
 boost::json::object blank_document(const Job& job, const Provenance& provenance);

@@ -45,6 +45,7 @@ function(hauberk_add_plugin id)
     target_link_options(${id} PRIVATE -Wl,-z,defs)
   endif()
   if(in_tree)
+    set_target_properties(${id} PROPERTIES BUILD_WITH_INSTALL_RPATH ON)  # HauberkBuild.cmake says why
     set_property(GLOBAL APPEND PROPERTY HAUBERK_PLUGIN_TARGETS ${id})
     install(TARGETS ${id} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/hauberk/plugins")
   endif()

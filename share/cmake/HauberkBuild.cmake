@@ -13,6 +13,11 @@ set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(HAUBERK_PLUGIN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/hauberk/plugins")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+# What is installed is linked as it will be, where the layouts are one: CMake pads a path that it is to change at
+# installation with colons, and the loader takes what is empty between them for the current directory.
+if(CMAKE_INSTALL_LIBDIR STREQUAL "lib")
+  set(HAUBERK_ONE_LAYOUT ON)
+endif()
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Debug or RelWithDebInfo" FORCE)

@@ -5,7 +5,6 @@
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
 #include "run/interrupt.hpp"
-#include "run/plan_text.hpp"
 #include "run/provenance.hpp"
 #include "run/weave_library.hpp"
 #include "tasks/job.hpp"
@@ -82,8 +81,8 @@ std::pair<std::string, std::string> plan_of(const Source& source)
 {
   const py::gil_scoped_release free;
   const Job job = job_of(source);
-  return {plan_text(*job.prepared, job.plan, job.task->plan()),
-          write_json(boost::json::value(plan_document(job)))};
+  ShownPlan shown = show_plan(job);
+  return {std::move(shown.text), write_json(boost::json::value(std::move(shown.document)))};
 }
 
 /// A folder that is gone when this is.

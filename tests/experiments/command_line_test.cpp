@@ -3,6 +3,7 @@
 #include "document/json_text.hpp"
 #include "program.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
@@ -183,7 +184,22 @@ TEST(CommandLine, PlanAsJsonIsThatOfTheResults)
   EXPECT_NE(text.out.find("stretch attained: 0 degrees\n"), std::string::npos) << text.out;
   const Outcome json = run_program({"plan", file, "--json"});
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
-  EXPECT_EQ(parse_json(json.out, "plan"), read_results(folder / "out").at("plan"));
+  boost::json::value shown = parse_json(json.out, "plan");
+  // Every ring and its own image are a period apart; linked rings are farther apart than 0.3 L.
+  const boost::json::array tightest = shown.at("tightest").as_array();
+  ASSERT_EQ(tightest.size(), 2U);
+  EXPECT_NE(tightest[0].at("elements"), tightest[1].at("elements"));
+  for (const boost::json::value& pair : tightest) {
+    const std::int64_t ring = pair.at("elements").at(0).to_number<std::int64_t>();
+    EXPECT_EQ(pair.at("elements"), (boost::json::array{ring, ring}));
+    EXPECT_EQ(pair.at("image"), (boost::json::array{1, 0}));
+    EXPECT_NEAR(pair.at("distance").to_number<double>(), 0.6, 1e-12);
+    EXPECT_FALSE(pair.at("linked").as_bool());
+    EXPECT_NE(text.out.find(fmt::format("    {0}.0 - {0}.0 of image [1, 0]: 0.6", ring)), std::string::npos)
+        << text.out;
+  }
+  shown.as_object().erase("tightest");
+  EXPECT_EQ(shown, read_results(folder / "out").at("plan"));
 }
 
 TEST(CommandLine, PlansOfTasksSayWhatTheyTake)

@@ -2,8 +2,7 @@
 
 #include "document/json_text.hpp"
 #include "document/json_writer.hpp"
-
-#include <hauberk/host/sha256.hpp>
+#include "run/sha256.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/object.hpp>

@@ -161,6 +161,29 @@ try {
   await page.waitForFunction((last) => document.getElementById("design").value === last, String(history.length - 1));
   assert.match(await label(), /^designed, at rest$/);
 
+  // Bounds point to what is allowed, targets are crosses.
+  const bounded = write("bounded", {
+    name: "bounded", task: "design", length_unit: "mm", cell: { weave: { name: "european_4in1" } },
+    load_case: { plugin: "in_plane_periodic", senses: ["stretch"] }, solver: { starts: 1, neighbours: 0 },
+    design: { optimizer: { plugin: "sqp", max_iterations: 1 }, quantity: "stretch", tolerance: 0.9, starts: 1,
+      variables: [{ parameters: "ring.r0", lower: 0.3, upper: 2 }],
+      targets: [{ direction_deg: 0, value: 0.1, aim: "no_further" },
+        { direction_deg: 60, value: 0.05, aim: "no_nearer" }, { direction_deg: 120, value: 0.12 }] },
+  });
+  run("export", bounded, "-o", join(bounded, "page.html"));
+  await page.goto(`file://${join(bounded, "page.html")}`);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.frames) > 0);
+  assert.equal(await page.locator("#plot .target").count(), 6);
+  const bounds = await page.evaluate(() => [...document.querySelectorAll("#plot .target[d$=Z]")].map((one) => {
+    const corners = one.getAttribute("d").match(/-?[\d.]+(e-\d+)?/g).map(Number);
+    const away = [0, 2, 4].map((k) => Math.hypot(corners[k] - 100, corners[k + 1] - 100));
+    return [one.textContent, away[2] > away[0]];
+  }));
+  assert.deepEqual(bounds.map((one) => one[0].replace(/[^a-z ]/g, "").trim()),
+    ["no further than", "no further than", "no nearer than", "no nearer than"]);
+  assert.deepEqual(bounds.map((one) => one[1]), [false, false, true, true]);
+  assert.match(await page.getAttribute("#plot svg", "aria-label"), /targets as crosses, bounds as triangles/);
+
   // A report of several, of which each is shown.
   const reported = join(folder, "reported");
   assert.match(run("report", sheet, made, rolled, "-o", reported), /report\.html$/m);

@@ -5,9 +5,8 @@
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
 #include "run/provenance.hpp"
+#include "run/sha256.hpp"
 #include "say.hpp"
-
-#include <hauberk/host/sha256.hpp>
 
 #include <fmt/format.h>
 

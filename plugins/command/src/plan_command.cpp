@@ -1,7 +1,6 @@
 #include "dispatch.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
-#include "run/plan_text.hpp"
 #include "say.hpp"
 #include "tasks/job.hpp"
 
@@ -16,7 +15,7 @@ Description plan_description()
           .line = "what will be modelled, and why; the rest state",
           .synopsis = "plan EXPERIMENT.json [options]",
           .summary = "Says what will be modelled and why, and describes the rest state. Computes no limit.",
-          .more = "With `--json` it is the `plan` of results.json.",
+          .more = "With `--json` it is the `plan` of results.json with the tightest pairs at rest.",
           .arguments = {experiment_argument()},
           .options = joined({json_option()}, experiment_options())};
 }
@@ -26,11 +25,12 @@ int plan_command(const std::vector<std::string>& words)
   Options options(plan_description());
   options.parse(words);
   const Job job = open_job(options);
+  ShownPlan shown = show_plan(job);
   if (options.has("json"))
-    say_json(write_json(boost::json::value(plan_document(job))));
+    say_json(write_json(boost::json::value(std::move(shown.document))));
   else
-    say("{}\nWork, without what limits learn from each other\n  {}\n",
-        plan_text(*job.prepared, job.plan, job.task->plan()), text_of(job.task->work(job.plan)));
+    say("{}\nWork, without what limits learn from each other\n  {}\n", shown.text,
+        text_of(job.task->work(job.plan)));
   return exit_done;
 }
 

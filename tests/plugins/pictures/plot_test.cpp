@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -23,6 +26,45 @@ TEST(PolarPlot, DesignShowsBeforeAfterAndTargets)
   EXPECT_EQ(occurrences(svg, "tensor &amp; clearance 0"), 1);
   EXPECT_EQ(occurrences(svg, "<svg "), 1);
   EXPECT_EQ(occurrences(svg, "</svg>"), 1);
+}
+
+/// Distances from the diagram's centre of the corners of a bound's triangle, the tip last.
+std::array<double, 3> corner_distances(const std::string& svg, std::size_t number)
+{
+  std::size_t at = 0;
+  for (std::size_t k = 0; k <= number; ++k) at = svg.find("<polygon points=\"", at) + 17;
+  std::array<double, 6> c{};
+  EXPECT_EQ(
+      std::sscanf(svg.c_str() + at, "%lf,%lf %lf,%lf %lf,%lf", &c[0], &c[1], &c[2], &c[3], &c[4], &c[5]), 6);
+  // The outermost ring is around the centre.
+  double x = 0.0, y = 0.0;
+  EXPECT_EQ(std::sscanf(svg.c_str() + svg.find("<circle"), "<circle cx=\"%lf\" cy=\"%lf\"", &x, &y), 2);
+  std::array<double, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k) out[k] = std::hypot(c[2 * k] - x, c[2 * k + 1] - y);
+  return out;
+}
+
+TEST(PolarPlot, BoundsAreTrianglesThatPointToWhatIsAllowed)
+{
+  RunResult run = test::sample_design();
+  std::vector<DesignTargetResult>& targets = run.design->targets;
+  const double value = targets[0].target;
+  for (DesignTargetResult& target : targets) target.target = value;
+  const std::string plain = polar_svg(run, {});
+  EXPECT_EQ(occurrences(plain, "<polygon"), 0);
+  targets[1].aim = Aim::no_further;
+  targets[4].aim = Aim::no_nearer;
+  const std::string svg = polar_svg(run, {});
+  EXPECT_EQ(occurrences(svg, R"(r="5.00" fill="#c00000")"), 9) << "four targets twice, and the legend";
+  EXPECT_EQ(occurrences(svg, "<polygon"), 6) << "two bounds twice, and the legend";
+  EXPECT_EQ(occurrences(svg, "bounds: no further"), 1);
+  EXPECT_EQ(occurrences(svg, "bounds: no nearer"), 1);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto [base, other, tip] = corner_distances(svg, k);
+    EXPECT_NEAR(base, other, 0.02) << k;
+    EXPECT_NEAR(std::abs(tip - base), 8.0, 0.3) << k;
+    EXPECT_EQ(tip > base, k >= 2) << k;
+  }
 }
 
 TEST(PolarPlot, ClosedCurvesOnlyWithoutHoles)

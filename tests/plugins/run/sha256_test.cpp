@@ -1,9 +1,17 @@
-#include "support.hpp"
+/// Digests of texts and files.
 
-#include <hauberk/host/sha256.hpp>
+#include "run/sha256.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 namespace hauberk::test {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string of(const std::string& text)
 {
@@ -35,10 +43,16 @@ TEST(Sha256, PiecesDoNotMatter)
 
 TEST(Sha256, OfFiles)
 {
-  const TemporaryFolder folder;
-  EXPECT_EQ(sha256_of_file(folder.file("a", "abc")), of("abc"));
-  EXPECT_EQ(sha256_of_file(folder.file("b", std::string(200000, 'b'))), of(std::string(200000, 'b')));
+  const fs::path folder = fs::path(testing::TempDir()) / "hauberk-sha256";
+  fs::create_directories(folder);
+  const auto digest_with = [&folder](const std::string& text) {
+    std::ofstream(folder / "a", std::ios::binary) << text;
+    return sha256_of_file(folder / "a");
+  };
+  for (const std::string& text : {std::string(), std::string("abc"), std::string(200000, 'b')})
+    EXPECT_EQ(digest_with(text), of(text));
   EXPECT_EQ(sha256_of_file(folder / "none"), "");
+  fs::remove_all(folder);
 }
 
 }  // namespace

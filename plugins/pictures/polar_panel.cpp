@@ -139,14 +139,18 @@ class Diagram {
     return {centre_.x + r * u.x, centre_.y + r * u.y};
   }
 
-  /// A triangle whose base is across the direction at p.
+  /// A bar across the direction at p, and an arrowhead on it.
   static void draw_bound(Svg& svg, Point2 p, Point2 allowed, const std::string& colour)
   {
-    constexpr double half = 5.5, height = 8.0;
-    const std::array<Point2, 3> corners{Point2{p.x - half * allowed.y, p.y + half * allowed.x},
-                                        Point2{p.x + half * allowed.y, p.y - half * allowed.x},
+    constexpr double bar = 7.0, half = 3.5, height = 11.0;
+    const auto across = [&p, &allowed](double by) {
+      return Point2{p.x - by * allowed.y, p.y + by * allowed.x};
+    };
+    const std::array<Point2, 3> corners{across(half), across(-half),
                                         Point2{p.x + height * allowed.x, p.y + height * allowed.y}};
+    svg.line(across(bar), across(-bar), {"#fff", 4.0, ""});
     svg.polygon(corners, colour, {"#fff", 1.2, ""});
+    svg.line(across(bar), across(-bar), {colour, 2.2, ""});
   }
 
   /// Joins neighbours around the circle, in runs without interruption.

@@ -16,7 +16,7 @@ struct Bar {
 
 /// Values (>= 0) against direction in degrees; only finite ones.
 struct Curve {
-  /// `no_further` and `no_nearer` are bounds: triangles that stand on the value and point to what is allowed.
+  /// `no_further` and `no_nearer` are bounds: bars across the direction with an arrowhead to what is allowed.
   enum class Marker { none, dot, square, target, cross, no_further, no_nearer };
   std::string label;
   Stroke stroke;

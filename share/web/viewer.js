@@ -181,13 +181,13 @@ function curve(limits, at, further, stroke) {
   return `<path d="${path}" fill="none" stroke="${stroke}"${further ? "" : " stroke-dasharray=\"4 3\""}/>`;
 }
 
-// A bound: a triangle that stands on its value, across the direction, and points to what is allowed.
+// A bound: a bar at its value, across the direction, with an arrowhead to what is allowed.
 function bound(target, x, y) {
   const outward = target.aim === "no_nearer" ? 1 : -1;
   const length = Math.hypot(x - 100, y - 100) || 1;
   const [u, v] = [outward * (x - 100) / length, outward * (y - 100) / length];
-  return `<path class="target" d="M${x - 4 * v},${y + 4 * u}L${x + 4 * v},${y - 4 * u}L${x + 6 * u},${
-    y + 6 * v}Z" fill="#444"><title>${target.aim.replace("_", " ")} than ${percent(target.value)}</title></path>`;
+  return `<path class="target" d="M${x - 2 * v},${y + 2 * u}L${x + 2 * v},${y - 2 * u}L${x + 7 * u},${y + 7 * v}Z M${
+    x - 4 * v},${y + 4 * u}L${x + 4 * v},${y - 4 * u}Z" fill="#444" stroke="#444"><title>${target.aim.replace("_", " ")} than ${percent(target.value)}</title></path>`;
 }
 
 // Limits of the fabric against direction; of a design also those of its other fabrics, pale, and its targets.
@@ -230,7 +230,7 @@ function makePlot() {
   byId("plot").innerHTML = `<svg viewBox="0 0 200 200" role="img" aria-label="Limits against direction: ${
     safe(result.words[0])} as a line, ${safe(result.words[1])} dashed${
     result.targets.some((one) => one.aim === "reach") ? ", targets as crosses" : ""}${
-    result.targets.some((one) => one.aim !== "reach") ? ", bounds as triangles that point to what is allowed" : ""}">${
+    result.targets.some((one) => one.aim !== "reach") ? ", bounds as bars with an arrowhead to what is allowed" : ""}">${
     drawing}</svg>`;
   for (const mark of document.querySelectorAll("#plot .mark"))
     mark.addEventListener("click", () => choose(Number(mark.dataset.state)));

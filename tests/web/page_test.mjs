@@ -182,7 +182,7 @@ try {
   assert.deepEqual(bounds.map((one) => one[0].replace(/[^a-z ]/g, "").trim()),
     ["no further than", "no further than", "no nearer than", "no nearer than"]);
   assert.deepEqual(bounds.map((one) => one[1]), [false, false, true, true]);
-  assert.match(await page.getAttribute("#plot svg", "aria-label"), /targets as crosses, bounds as triangles/);
+  assert.match(await page.getAttribute("#plot svg", "aria-label"), /targets as crosses, bounds as bars/);
 
   // A report of several, of which each is shown.
   const reported = join(folder, "reported");

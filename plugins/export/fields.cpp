@@ -1,7 +1,6 @@
 #include "export/fields.hpp"
 
 #include "geometry/body.hpp"
-#include "geometry/closed_curve.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -11,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -194,10 +194,10 @@ Field::Field(const Primitive& primitive) : primitive_(primitive)
         "itself, or give the element as one mesh");
   radius_ = make_body(primitive, 0, 0, 1.0).bound;
   if (primitive.curve.empty()) return;
-  const ClosedCurve curve(primitive.curve, 1.0);
+  curve_.emplace(primitive.curve, 1.0);
   for (int k = 0; k < core_points; ++k) {
     const double u = 2.0 * std::numbers::pi * k / core_points;
-    core_.push_back(curve.at(Angle(u)).x);
+    core_.push_back(curve_->at(Angle(u)).x);
   }
 }
 
@@ -215,14 +215,19 @@ double Field::operator()(const Vec3& x) const
 double Field::around_curve(const Vec3& x) const
 {
   std::size_t nearest = 0;
-  for (std::size_t k = 1; k < core_.size(); ++k)
-    if ((core_[k] - x).squaredNorm() < (core_[nearest] - x).squaredNorm()) nearest = k;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < core_.size(); ++k) {
+    const double square = (core_[k] - x).squaredNorm();
+    if (square < least) {
+      least = square;
+      nearest = k;
+    }
+  }
   // The foot on the curve, by Newton's method from the nearest of many points.
-  const ClosedCurve curve(primitive_.curve, 1.0);
   double u = 2.0 * std::numbers::pi * static_cast<double>(nearest) / core_points;
-  double best = (core_[nearest] - x).norm();
+  double best = std::sqrt(least);
   for (int step = 0; step < 4; ++step) {
-    const CurvePoint at = curve.at(Angle(u));
+    const CurvePoint at = curve_->at(Angle(u));
     const double slope = at.xu.dot(at.x - x), bend = at.xu.squaredNorm() + at.xuu.dot(at.x - x);
     best = std::min(best, (at.x - x).norm());
     if (!(bend > 0.0)) break;

@@ -2,6 +2,10 @@
 /// Fields of primitives, and the surfaces where the least of several is zero.
 
 #include "export/mesh.hpp"
+#include "geometry/closed_curve.hpp"
+
+#include <optional>
+#include <vector>
 
 namespace hauberk::exporting {
 
@@ -19,8 +23,9 @@ class Field {
   double around_curve(const Vec3& x) const;
 
   Primitive primitive_;
-  std::vector<Vec3> core_;  ///< of a curve tube: points of its core, evenly in the coordinate
-  double radius_ = 0.0;     ///< of a ball about the primitive's position that holds it
+  std::optional<ClosedCurve> curve_;  ///< core of a curve tube
+  std::vector<Vec3> core_;            ///< points of it, evenly in the coordinate
+  double radius_ = 0.0;               ///< of a ball about the primitive's position that holds it
 };
 
 /// The surface of the union of primitives; see element_mesh.

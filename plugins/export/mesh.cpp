@@ -4,7 +4,7 @@
 #include "geometry/body.hpp"
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
-#include "geometry/separation.hpp"
+#include "geometry/joined.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace hauberk::exporting {
 namespace {
@@ -90,30 +89,17 @@ void add_facets(Mesh& mesh, const Primitive& p, double chord)
   append(mesh, from_facets(Facets(curve, p.r0(), n)), p.rotation, p.position);
 }
 
-/// Groups of primitives that overlap, each with its first one first.
+/// Groups of primitives that hang together.
 std::vector<std::vector<Primitive>> overlapping_groups(std::span<const Primitive> primitives)
 {
-  const std::size_t n = primitives.size();
-  std::vector<std::size_t> group(n);
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  const auto root = [&](std::size_t k) {
-    while (group[k] != k) k = group[k];
-    return k;
-  };
   std::vector<Body> bodies;
-  for (std::size_t k = 0; k < n; ++k) bodies.push_back(make_body(primitives[k], 0, static_cast<int>(k), 1.0));
-  const Pose none;
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = a + 1; b < n; ++b) {
-      if (ball_gap(bodies[a], none, bodies[b], none, 0.0) > 0.0) continue;
-      const bool meshes = primitives[a].surface || primitives[b].surface;
-      const bool apart = !meshes && separation(bodies[a], none, bodies[b], none, 0.0, 0.0).lower > 0.0;
-      if (!apart) group[root(b)] = root(a);
-    }
+  for (std::size_t k = 0; k < primitives.size(); ++k)
+    bodies.push_back(make_body(primitives[k], 0, static_cast<int>(k), 1.0));
+  std::vector<std::vector<Primitive>> groups;
+  for (const std::vector<int>& group : joined_bodies(bodies)) {
+    auto& of = groups.emplace_back();
+    for (const int k : group) of.push_back(primitives[static_cast<std::size_t>(k)]);
   }
-  std::vector<std::vector<Primitive>> groups(n);
-  for (std::size_t k = 0; k < n; ++k) groups[root(k)].push_back(primitives[k]);
-  std::erase_if(groups, [](const auto& g) { return g.empty(); });
   return groups;
 }
 

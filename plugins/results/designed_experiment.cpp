@@ -9,7 +9,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace hauberk {
 namespace {
@@ -38,21 +42,47 @@ json::value own_entry(const json::object& elements, const ElementType& type, con
   return entry;
 }
 
+/// What equal elements have in common: type and parameters.
+using Kind = std::pair<int, std::vector<double>>;
+
+Kind kind_of(const PlacedElement& element) { return {element.type, element.parameters}; }
+
+/// The type's name where all of its elements are equal, else with the index of the kind's first element.
+std::map<Kind, std::string> names_of_kinds(const SceneSpec& scene)
+{
+  std::map<Kind, std::size_t> first;
+  std::map<int, int> kinds;  // of each type
+  for (std::size_t k = 0; k < scene.elements.size(); ++k)
+    if (first.emplace(kind_of(scene.elements[k]), k).second) ++kinds[scene.elements[k].type];
+  // Names that need no index are taken first, so that they stay.
+  std::map<Kind, std::string> out;
+  std::set<std::string> taken;
+  for (const bool indexed : {false, true}) {
+    for (const auto& [kind, k] : first) {
+      if (indexed != (kinds.at(kind.first) > 1)) continue;
+      std::string name = scene.types.at(static_cast<std::size_t>(kind.first)).name;
+      if (indexed) name += "_" + std::to_string(k);
+      while (!taken.insert(name).second) name += "_";
+      out.emplace(kind, std::move(name));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 json::object designed_experiment(const std::string& experiment_json, const SceneSpec& scene)
 {
   json::object out = parse_json(experiment_json, "resolved experiment").as_object();
   const json::object old_elements = out.at("elements").as_object();
-  std::set<std::string> names;
+  const std::map<Kind, std::string> names = names_of_kinds(scene);
   json::object elements;
   json::array place;
-  for (std::size_t k = 0; k < scene.elements.size(); ++k) {
-    const PlacedElement& element = scene.elements[k];
-    const ElementType& type = scene.types.at(static_cast<std::size_t>(element.type));
-    std::string name = type.name + "_" + std::to_string(k);
-    while (!names.insert(name).second) name += "_";
-    elements[name] = own_entry(old_elements, type, element);
+  for (const PlacedElement& element : scene.elements) {
+    const std::string& name = names.at(kind_of(element));
+    if (!elements.contains(name))
+      elements[name] =
+          own_entry(old_elements, scene.types.at(static_cast<std::size_t>(element.type)), element);
     json::object entry;
     entry["element"] = name;
     entry["position"] = detail::vector_json(element.rest.position);

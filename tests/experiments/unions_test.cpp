@@ -87,6 +87,34 @@ TEST(Unions, AreTheSameAsOneShapeWithTheirPrimitives)
   EXPECT_NEAR(number_at(turned, "/limits/0/value"), number_at(one, "/limits/0/value"), 1e-12);
 }
 
+/// Parts that nothing joins move as one, which nothing that is made does: whoever asks is told.
+TEST(Unions, PartsThatNothingJoinsAreTold)
+{
+  const TemporaryFolder folder;
+  const std::string text =
+      with(union_text(), R"("position": [0, 0, 4], "axis": [1, 0, 0])",
+           R"("position": [0, 0, 4], "axis": [1, 0, 0] }, { "name": "far", "position": [0, 0, 40])");
+  const std::string apart = folder.write(
+      "a.json", with(text, R"("parameters": {)",
+                     R"("parameters": { "eye.far.R": 2, "eye.far.r0": 0.3, "eye.far.r1": 0.3,)"));
+  const std::string warning = "the element 'link' is of 2 bodies that nothing joins (";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check", apart}, {"run", apart, "-o", folder / "out", "--quiet"}}) {
+    const Outcome o = run_program(words);
+    EXPECT_NE(o.err.find("hauberk: warning: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(warning), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("'eye.far'"), std::string::npos) << o.err;
+  }
+  const json::value told = parse_json(run_program({"check", apart, "--json"}).out, "check");
+  EXPECT_TRUE(told.at("ok").as_bool());
+  EXPECT_EQ(told.at("warnings").as_array().size(), 1U);
+  const Outcome exported = run_program({"export", apart, "-o", folder / "a.stl"});
+  EXPECT_NE(exported.out.find("of 2 bodies each that nothing joins"), std::string::npos) << exported.out;
+  const Outcome whole = run_program({"check", folder.write("u.json", union_text())});
+  EXPECT_EQ(whole.code, 0);
+  EXPECT_EQ(whole.err, "");
+}
+
 TEST(Unions, AreDesignedAsOneShapeIs)
 {
   const auto design = [](std::string text, const std::string& ring) {

@@ -1,6 +1,7 @@
 #include "dispatch.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
+#include "run/loose_parts.hpp"
 #include "say.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,9 @@
 #include <exception>
 #include <future>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace hauberk::command {
 namespace {
@@ -30,6 +33,7 @@ constexpr const char* left_out =
 /// What a thorough check finds, and how far it is.
 struct Check {
   std::optional<std::string> summary;
+  std::vector<std::string> warnings;
   std::exception_ptr problem;
 };
 
@@ -40,6 +44,7 @@ Check thorough_check(const Options& options, std::atomic<bool>& is_read)
     read_alone(options);
     is_read = true;
     const Job job = open_job(options);
+    out.warnings = loose_parts(job.prepared->scene);
     out.summary = job.task->check_line(job.plan);
   } catch (...) {
     out.problem = std::current_exception();
@@ -53,7 +58,8 @@ int tell_json(const Options& options, const Check& check)
                    {"ok", true},
                    {"summary", nullptr},
                    {"left_out", nullptr},
-                   {"problems", json::array()}};
+                   {"problems", json::array()},
+                   {"warnings", json::array(check.warnings.begin(), check.warnings.end())}};
   if (check.summary) out["summary"] = *check.summary;
   if (!check.summary && !check.problem) out["left_out"] = left_out;
   try {
@@ -73,6 +79,8 @@ int tell(const Options& options, const Check& check)
 {
   if (options.has("json")) return tell_json(options, check);
   if (check.problem) std::rethrow_exception(check.problem);
+  for (const std::string& warning : check.warnings)
+    say_error("hauberk: warning: {}: {}\n", options.positional(), warning);
   if (check.summary)
     say("{}: no problems; {}\n", options.positional(), *check.summary);
   else
@@ -92,7 +100,7 @@ Description check_description()
       .summary = "Says everything that is wrong with an experiment.",
       .more =
           "It answers within two seconds, and says what it left out where the rest state or variants take "
-          "longer.",
+          "longer. Elements of several bodies that nothing joins are warned of.",
       .arguments = {experiment_argument()},
       .options =
           joined({json_option(), {.name = "thorough", .help = "look at everything, however long it takes"}},

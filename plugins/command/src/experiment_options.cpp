@@ -1,5 +1,6 @@
 #include "experiment_options.hpp"
 
+#include "run/loose_parts.hpp"
 #include "run/weave_library.hpp"
 #include "say.hpp"
 #include "tasks/table.hpp"
@@ -41,6 +42,11 @@ void warn_of_plugins(const Prepared& prepared)
     for (std::size_t k = 1; k < files.size(); ++k)
       say_error("hauberk: warning: {}\n", shadow_text(plugin.id, files[0], files[k]));
   }
+}
+
+void warn_of_loose_parts(const Prepared& prepared)
+{
+  for (const std::string& warning : loose_parts(prepared.scene)) say_error("hauberk: warning: {}\n", warning);
 }
 
 void read_alone(const Options& options)

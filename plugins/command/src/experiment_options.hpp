@@ -18,6 +18,8 @@ std::string shadow_text(const std::string& id, const std::filesystem::path& used
 /// Says on stderr where somebody else may write plugins, and which files of those that the experiment uses
 /// are shadowed.
 void warn_of_plugins(const Prepared& prepared);
+/// Says which elements are no one body.
+void warn_of_loose_parts(const Prepared& prepared);
 
 /// Reads the experiment that `options` name, and nothing that is made of it. Throws ReportedProblems.
 void read_alone(const Options& options);

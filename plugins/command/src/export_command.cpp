@@ -6,6 +6,7 @@
 #include "experiment_options.hpp"
 #include "export/formats.hpp"
 #include "export/picture.hpp"
+#include "geometry/joined.hpp"
 #include "page_files.hpp"
 #include "run/weave_library.hpp"
 #include "say.hpp"
@@ -168,6 +169,24 @@ void require_gap(const Assembly& assembly, const std::optional<Nearest>& nearest
       std::max(0.0, nearest->distance), assembly.unit));
 }
 
+/// A line for every shape of which not all primitives hang together.
+std::vector<std::string> loose_parts(const Assembly& assembly)
+{
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < assembly.primitives.size(); ++k) {
+    std::vector<Body> bodies;
+    for (const Primitive& p : assembly.primitives[k])
+      bodies.push_back(make_body(p, 0, static_cast<int>(bodies.size()), 1.0));
+    const std::size_t parts = joined_bodies(bodies).size();
+    const auto copy = std::ranges::find_if(
+        assembly.copies, [k](const Assembly::Copy& one) { return static_cast<std::size_t>(one.mesh) == k; });
+    if (parts > 1 && copy != assembly.copies.end())
+      out.push_back(
+          fmt::format("{} and its like are of {} bodies each that nothing joins\n", copy->name, parts));
+  }
+  return out;
+}
+
 /// What a person who prints it wants to know.
 std::string summary(const Assembly& assembly, const std::optional<Nearest>& nearest)
 {
@@ -186,6 +205,7 @@ std::string summary(const Assembly& assembly, const std::optional<Nearest>& near
                                  assembly.name, assembly.copies.size(), triangles, total, unit);
   text += fmt::format("thinnest wire {:.6g} {} across, lowest point z = {:.6g} {}\n", 2.0 * thin, unit,
                       lowest, unit);
+  for (const std::string& line : loose_parts(assembly)) text += line;
   if (!nearest) return text + "no two elements are near each other\n";
   text += fmt::format("smallest gap {}{:.6g} {}: {} and {}\n", nearest->known ? "" : "at least ",
                       std::max(0.0, nearest->distance), unit, nearest->names[0], nearest->names[1]);

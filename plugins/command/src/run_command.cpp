@@ -139,6 +139,7 @@ int run_command(const std::vector<std::string>& words)
     return open_job(options);
   }();
   warn_of_plugins(*job.prepared);
+  warn_of_loose_parts(*job.prepared);
   if (options.has("html")) request.further = page_of_run(job, installed_page_parts());
   if (!options.has("yes"))
     refuse_beyond(budget_of(options),

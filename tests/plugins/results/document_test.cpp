@@ -159,6 +159,29 @@ TEST(DesignedExperiment, DescribesTheFinalSceneAlone)
   EXPECT_NEAR(out.at_pointer("/cell/place/1/rotation/axis/0").as_double(), 1.0, 1e-15);
 }
 
+/// Equal elements have one entry; the name of a type that another type's elements would get stays its own.
+TEST(DesignedExperiment, EqualElementsHaveOneEntry)
+{
+  SceneSpec scene = test::sample_run().scene;
+  scene.types.push_back(scene.types[0]);
+  scene.types[1].name = "link_0";
+  PlacedElement other = scene.elements[0];
+  other.type = 1;
+  PlacedElement wide = scene.elements[0];
+  wide.parameters[0] *= 1.5;
+  scene.elements = {scene.elements[0], other, scene.elements[0], wide, other};
+  json::object sample = parse_json(test::sample_experiment(), "sample").as_object();
+  sample["elements"].as_object()["link_0"] = sample["elements"].at("link");
+  const json::value out = designed_experiment(write_json(sample), scene);
+  std::vector<std::string> placed;
+  for (const json::value& one : out.at_pointer("/cell/place").as_array())
+    placed.emplace_back(one.at("element").as_string());
+  EXPECT_EQ(placed, (std::vector<std::string>{"link_0_", "link_0", "link_0_", "link_3", "link_0"}));
+  EXPECT_EQ(out.at("elements").as_object().size(), 3U);
+  EXPECT_EQ(out.at_pointer("/elements/link_3/parameters/ring.R").as_double(), wide.parameters[0]);
+  EXPECT_EQ(out.at_pointer("/elements/link_0_/parameters/ring.R").as_double(), other.parameters[0]);
+}
+
 TEST(DesignedExperiment, APatchIsOneCellWithEveryElement)
 {
   SceneSpec scene = test::sample_run().scene;

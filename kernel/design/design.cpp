@@ -266,6 +266,7 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
   frozen.length = characteristic_length(scene);
   Schedule coarse = design.schedule;
   coarse.last = std::max(coarse.last, design.coarse_last);
+  coarse.ends_at_noise = true;
   StartSearch out;
   out.problem = std::make_unique<DesignProblem>(
       DesignScene{frozen, load, clearance, limits, design, threads, keep_going, report},

@@ -1,6 +1,7 @@
 #include "design/design_point.hpp"
 
 #include "design/body_between.hpp"
+#include "equilibrium/adjoint.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "equilibrium/rest.hpp"
 #include "geometry/separation.hpp"
@@ -30,6 +31,10 @@ constexpr double longest_motion = 0.5;
 constexpr int most_openings = 12;
 constexpr int most_tries = 24;
 constexpr double shortest_part = 1.0 / 256.0;
+/// Shorter parts along the motion of a minimum are not worth it; and the change of shapes, of the smallest
+/// gap, from which that motion is told.
+constexpr double shortest_along_minimum = 0.25;
+constexpr double small_change = 3e-3;
 
 /// Two bodies on a straight way on which their shapes change, too.
 struct ChangingPair {
@@ -248,8 +253,63 @@ std::optional<Model> intermediate(const DesignPoint& from, const DesignPoint& to
   }
 }
 
+namespace {
+
+/// How far a state goes on the way between two designs, and where it is then.
+struct Followed {
+  double share;
+  State state;
+  Model model;
+};
+
+/// The motion of a warm start's minimum, for all of the way to another design; null where it is not known.
+std::optional<Vector> motion_of_minimum(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
+                                        const std::vector<DesignVariable>& variables,
+                                        const MinimumOf& minimum, long& evaluations)
+{
+  double speed = 0.0;
+  for (std::size_t k = 0; k < from.model.bodies.size(); ++k)
+    speed = std::max(speed, shape_speed(from.model.bodies[k], to.model.bodies[k]));
+  const double gap = smallest_gap(from.model, warm.state, warm.g_hat);
+  if (!(gap > 0.0) || !(speed > 0.0)) return std::nullopt;
+  const double share = std::min(1.0, small_change * std::min(gap, warm.g_hat) / speed);
+  const std::optional<Model> ahead = intermediate(from, to, variables, share);
+  if (!ahead) return std::nullopt;
+  const Matrix& held = minimum.load.held;
+  if (held.cols() == 0)
+    return response_of_minimum(from.model, *ahead, share, warm.state, minimum.load.pull, minimum.stage,
+                               evaluations);
+  const HeldModel here(from.model, held), there(*ahead, held);
+  const State state = here.restricted(warm.state);
+  const std::optional<Vector> dq = response_of_minimum(
+      here.model(), there.model(), share, state, here.pull(minimum.load.pull), minimum.stage, evaluations);
+  if (!dq) return std::nullopt;
+  return difference(from.model, warm.state, here.full(advanced(here.model(), state, *dq, 1.0)));
+}
+
+/// The first part of a way, along the motion of the minimum; null where no part of it that is worth its while
+/// leads to a state.
+std::optional<Followed> along_minimum(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
+                                      const std::vector<DesignVariable>& variables, const MinimumOf& minimum,
+                                      long& evaluations)
+{
+  const std::optional<Vector> motion = motion_of_minimum(from, warm, to, variables, minimum, evaluations);
+  if (!motion) return std::nullopt;
+  for (double part = 1.0; part >= shortest_along_minimum; part *= 0.5) {
+    std::optional<Model> next = intermediate(from, to, variables, part);
+    if (!next) continue;
+    std::optional<State> reached = opened(from.model, warm.state, free_part(from.model, part * *motion),
+                                          *next, open_enough * warm.g_hat, minimum.load.held);
+    if (reached) return Followed{part, std::move(*reached), std::move(*next)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
-                              const std::vector<DesignVariable>& variables, const Matrix& held)
+                              const std::vector<DesignVariable>& variables, const Matrix& held,
+                              const MinimumOf* minimum, long* evaluations)
 {
   if (from.x == to.x) return warm.state;
   const Vector change = change_of_variables(from, to);
@@ -258,8 +318,18 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
   State state = warm.state;
   const double range = contact_range * warm.g_hat;
   double done = 0.0;
+  if (minimum != nullptr) {
+    long counted = 0;
+    std::optional<Followed> first = along_minimum(from, warm, to, variables, *minimum, counted);
+    if (evaluations != nullptr) *evaluations += counted;
+    if (first) {
+      done = first->share;
+      state = std::move(first->state);
+      at.model = std::move(first->model);
+    }
+  }
   int tries = 0;
-  for (double part = 1.0; done < 1.0;) {
+  for (double part = 1.0 - done; done < 1.0;) {
     // One linear response serves all lengths of this part.
     const Matrix response =
         gap_response(at, find_gaps(at.model, state, range, true), variables, true, follow_weight, held);

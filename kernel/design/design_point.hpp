@@ -3,6 +3,8 @@
 
 #include "design/design.hpp"
 #include "equilibrium/gaps.hpp"
+#include "equilibrium/newton.hpp"
+#include "model/held_model.hpp"
 
 namespace hauberk {
 
@@ -59,13 +61,22 @@ std::optional<Model> intermediate(const DesignPoint& from, const DesignPoint& to
 /// to.x - from.x.
 Vector change_of_variables(const DesignPoint& from, const DesignPoint& to);
 
-/// Warm start of design `to` from a stage of design `from`: the state moved by the least-squares response of
-/// all unknowns, strain included, that keeps the gaps in contact. Null where that is not a state of the same
-/// fabric: some gap is closed, a link is lost, or the change is so large that cores could have crossed
-/// unseen (a tube's radius). Large changes are followed in parts. What is between is not a motion of either
-/// design, so it need not be free of overlaps. Conditions on the strain that `held` has are kept.
+/// What a warm start is a minimum of.
+struct MinimumOf {
+  Stage stage;
+  MacroLoad load;
+};
+
+/// Warm start of design `to` from a stage of design `from`: the state moved as its minimum moves, to first
+/// order (response_of_minimum), as far as that leads to a state of the same fabric; from there on, or without
+/// `minimum`, by the least-squares response of all unknowns, strain included, that keeps the gaps in contact.
+/// Null where that is not a state of the same fabric: some gap is closed, a link is lost, or the change is so
+/// large that cores could have crossed unseen (a tube's radius). Large changes are followed in parts. What is
+/// between is not a motion of either design, so it need not be free of overlaps. Conditions on the strain
+/// that `held` has are kept. Counts closest points of `minimum` in `evaluations`.
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
-                              const std::vector<DesignVariable>& variables, const Matrix& held = {});
+                              const std::vector<DesignVariable>& variables, const Matrix& held = {},
+                              const MinimumOf* minimum = nullptr, long* evaluations = nullptr);
 
 /// d gap / d variables at fixed poses.
 Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,

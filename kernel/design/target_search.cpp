@@ -1,6 +1,7 @@
 #include "design/target_search.hpp"
 
 #include "equilibrium/adjoint.hpp"
+#include "equilibrium/barrier_path.hpp"
 #include "limits/lessons.hpp"
 
 #include <hauberk/error.hpp>
@@ -113,13 +114,30 @@ bool TargetSearch::lock_from_rest(const DesignPoint& p, const MacroLoad& load,
   return true;
 }
 
+MinimumOf TargetSearch::minimum_of(const DesignPoint& p, const WarmStart& warm, const MacroLoad& load) const
+{
+  const ContactChoice contact = scene_->limits.contact;
+  const bool last = warm.g_hat <= schedule_.last;
+  double size = load_size(p.model, load.pull);
+  if (load.held.cols() > 0) {
+    const HeldModel held(p.model, load.held);
+    size = load_size(held.model(), held.pull(load.pull));
+  }
+  return {
+      barrier_stage(p.model, size, contact, schedule_, planned_stage(contact, schedule_, warm.g_hat, last)),
+      load};
+}
+
 bool TargetSearch::lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                                      const std::vector<WarmStart>& warm, LockedTarget& out) const
 {
   const std::vector<DesignVariable>& variables = scene_->design.variables;
   for (std::size_t j = warm.size(); j-- > 1;) {
     if (warm[j].g_hat < schedule_.last) continue;
-    const std::optional<State> start = followed(from, warm[j], p, variables, load.held);
+    std::optional<MinimumOf> minimum;
+    if (scene_->limits.contact != ContactChoice::constrained) minimum = minimum_of(from, warm[j], load);
+    const std::optional<State> start =
+        followed(from, warm[j], p, variables, load.held, minimum ? &*minimum : nullptr, &out.evaluations);
     if (!start) continue;
     Schedule schedule = schedule_;
     schedule.first = warm[j].g_hat;

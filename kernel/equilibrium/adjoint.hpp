@@ -3,6 +3,8 @@
 
 #include "equilibrium/newton.hpp"
 
+#include <optional>
+
 namespace hauberk {
 
 /// d Q / d parameters, and how well Q is determined.
@@ -31,5 +33,17 @@ struct AdjointGradient {
 /// stage. Throws ComputationError where it touches. Thread safe; deterministic.
 AdjointGradient adjoint_gradient(const Model& model, const State& state, const Vector& load,
                                  const Stage& stage, const Vector& quantity);
+
+/// dy/dt of the minimum y(t) of a stage while a model becomes another at t = 1, at the beginning: with g =
+/// dE/dy, H dy/dt = -dg/dt, where dg/dt is a difference between the model and `ahead`, which is `share` of
+/// the way.
+///
+/// Directions softer than a thousandth of the load (L = 1) are damped: there the straight line says little of
+/// where the minimum goes. `ahead` should change no surface by more than some thousandths of the smallest
+/// gap. Null where one of the two states touches. Counts closest points in `evaluations`. Thread safe;
+/// deterministic.
+std::optional<Vector> response_of_minimum(const Model& model, const Model& ahead, double share,
+                                          const State& state, const Vector& load, const Stage& stage,
+                                          long& evaluations);
 
 }  // namespace hauberk

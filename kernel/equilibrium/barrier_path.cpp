@@ -324,8 +324,11 @@ Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Sch
   s.target = schedule.target;
   s.mu = schedule.stiffness * g_hat * size;
   s.keep_path = schedule.keep_path;
-  s.balance = last;
   s.tolerance = last ? schedule.last_tolerance : schedule.tolerance;
+  const bool rough = f == Formulation::arc && quadrature == Quadrature::rough;
+  const bool ends_at_noise = last && rough && schedule.ends_at_noise;
+  if (ends_at_noise) s.tolerance_of_noise = schedule.tolerance;
+  s.balance = last && !ends_at_noise;
   s.most_iterations = schedule.most_iterations;
   if (choice == ContactChoice::automatic && f == Formulation::nearest)
     s.least_curvature = least_regular_curvature(g_hat);

@@ -231,8 +231,9 @@ class Newton {
                                                   : 0.3 * std::max(t.alpha, 1e-3) * t.length;
       return {};
     }
-    // Nothing more can be gained above rounding: a minimum unless the curvature says otherwise.
-    if (t.tiny && t.energy.admissible && (!step.shifted || !saddle_step(now_, radius_, step)))
+    // Nothing more can be gained above rounding, or noise: a minimum unless the curvature says otherwise.
+    const bool noisy = t.alpha > 0.0 && step.predicted < stage_.tolerance_of_noise * stage_.mu;
+    if ((t.tiny || noisy) && t.energy.admissible && (!step.shifted || !saddle_step(now_, radius_, step)))
       return End{StageStatus::minimum, ""};
     ++rejected_;
     radius_ = 0.25 * std::min(radius_, std::max(t.alpha, 1e-3) * t.length);

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace hauberk::test {
 namespace {
@@ -148,6 +149,54 @@ TEST(Adjoint, WhatTheEquilibriumDoesNotFixIsSaid)
       adjoint_gradient(at.model, at.locked.state, at.load, at.locked.stage, Vector::Zero(at.model.dofs()));
   EXPECT_EQ(none.parameters, Matrix::Zero(3, 2));
   EXPECT_EQ(none.residual, 0.0);
+}
+
+/// A minimum that is predicted from its response misses the one that is solved for by the square of the
+/// change.
+TEST(ResponseOfMinimum, IsItsDerivative)
+{
+  const Sheet sheet(2);
+  const SceneSpec scene = uneven();
+  const Solved at = solve(scene, sheet, 1e-2);
+  const auto changed = [&scene](double by) {
+    SceneSpec s = scene;
+    s.elements[0].parameters[0] += by;
+    s.elements[1].parameters[1] -= 0.4 * by;
+    s.elements[1].parameters[2] -= 0.4 * by;
+    return s;
+  };
+  constexpr double whole = 1e-3, share = 1e-3;
+  const Model ahead = make_model(changed(share * whole), sheet, 0.0);
+  long evaluations = 0;
+  const std::optional<Vector> response =
+      response_of_minimum(at.model, ahead, share, at.locked.state, at.load, at.locked.stage, evaluations);
+  ASSERT_TRUE(response.has_value());
+  EXPECT_GT(evaluations, 0);
+  std::array<double, 3> missed{};
+  double moved = 0.0;
+  for (std::size_t k = 0; k < missed.size(); ++k) {
+    const double part = 1.0 / static_cast<double>(1U << k);
+    const Solved there = solve(changed(part * whole), sheet, 1e-2, &at.locked);
+    const Vector way = difference(at.model, at.locked.state, there.locked.state);
+    missed[k] = (way - part * *response).head(3).norm();
+    moved = way.head(3).norm();
+  }
+  EXPECT_LT(missed[2], 0.05 * moved);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(std::log2(missed[k] / missed[k + 1]), 2.0, 0.3) << missed[k];
+}
+
+/// Where a surface of the changed model touches there is no response.
+TEST(ResponseOfMinimum, IsNoneWhereGapsClose)
+{
+  const Sheet sheet(2);
+  const Solved at = solve(uneven(), sheet, 1e-2);
+  SceneSpec thick = uneven();
+  thick.elements[0].parameters[1] = thick.elements[0].parameters[2] = 1.2;
+  long evaluations = 0;
+  EXPECT_FALSE(response_of_minimum(at.model, make_model(thick, sheet, 0.0), 1.0, at.locked.state, at.load,
+                                   at.locked.stage, evaluations)
+                   .has_value());
 }
 
 }  // namespace

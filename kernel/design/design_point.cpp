@@ -208,6 +208,14 @@ SceneSpec with_variables(const SceneSpec& scene, const std::vector<DesignVariabl
   return s;
 }
 
+double largest_change_of_shape(const Model& a, const Model& b)
+{
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.bodies.size(); ++k)
+    largest = std::max(largest, shape_speed(a.bodies[k], b.bodies[k]));
+  return largest;
+}
+
 Vector change_of_variables(const DesignPoint& from, const DesignPoint& to)
 {
   const auto n = static_cast<Eigen::Index>(from.x.size());
@@ -267,9 +275,7 @@ std::optional<Vector> motion_of_minimum(const DesignPoint& from, const WarmStart
                                         const std::vector<DesignVariable>& variables,
                                         const MinimumOf& minimum, long& evaluations)
 {
-  double speed = 0.0;
-  for (std::size_t k = 0; k < from.model.bodies.size(); ++k)
-    speed = std::max(speed, shape_speed(from.model.bodies[k], to.model.bodies[k]));
+  const double speed = largest_change_of_shape(from.model, to.model);
   const double gap = smallest_gap(from.model, warm.state, warm.g_hat);
   if (!(gap > 0.0) || !(speed > 0.0)) return std::nullopt;
   const double share = std::min(1.0, small_change * std::min(gap, warm.g_hat) / speed);
@@ -354,9 +360,7 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
 double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy,
                            const KeepGoing& keep_going)
 {
-  double shape = 0.0;
-  for (std::size_t k = 0; k < a.bodies.size(); ++k)
-    shape = std::max(shape, shape_speed(a.bodies[k], b.bodies[k]));
+  const double shape = largest_change_of_shape(a, b);
   const double most = 2.0 * (largest_motion(a, dy) + shape);
   if (most == 0.0) return 1.0;
   Model reaching = a;

@@ -58,6 +58,9 @@ Matrix rest_response(const DesignPoint& point, const std::vector<DesignVariable>
 std::optional<Model> intermediate(const DesignPoint& from, const DesignPoint& to,
                                   const std::vector<DesignVariable>& variables, double share);
 
+/// Bound of how far a surface moves in its element's frame between two designs, L.
+double largest_change_of_shape(const Model& a, const Model& b);
+
 /// to.x - from.x.
 Vector change_of_variables(const DesignPoint& from, const DesignPoint& to);
 

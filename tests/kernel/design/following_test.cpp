@@ -48,6 +48,26 @@ TEST(DesignProblem, LockedStatesAreFollowedToNearbyDesigns)
   EXPECT_FALSE(followed(at, tight, neighbour(1.4), design.variables).has_value());
 }
 
+/// Tight stages are followed where the change of shapes fits their gaps, wider ones where it does not: a
+/// trial costs no more than what it saves, whichever way it goes.
+TEST(DesignProblem, FollowingIsCheaperThanRest)
+{
+  DesignSpec design = spec();
+  design.schedule = Schedule();
+  design.schedule.last = 1e-4;
+  AtStart start(design);
+  const long from_rest = start.problem.evaluations();
+  for (const double h : {1e-4, 1e-3, 1e-2, 0.03, 0.1}) {
+    std::vector<double> x = start.x;
+    x[0] += h;
+    x[2] -= h;
+    x[3] += 0.5 * h;
+    const long before = start.problem.evaluations();
+    ASSERT_TRUE(start.problem.evaluate(x, true).ok) << h;
+    EXPECT_LT(start.problem.evaluations() - before, from_rest) << h;
+  }
+}
+
 TEST(DesignProblem, WhatIsHeldIsKeptWhereGapsAreOpened)
 {
   const AtStart start;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace hauberk {
 namespace {
@@ -19,14 +20,6 @@ constexpr double step_of_gap = 3e-3;
 /// quadrature: contact forces have the load's size, and bend with curvatures of order 1.
 constexpr double rounding_of_curvature = 1e-13;
 constexpr double quadrature = 1e-7;
-
-Matrix dense_hessian(const Model& model, const TotalEnergy& e)
-{
-  if (!model.sparse()) return e.hessian;
-  Matrix hessian = Matrix(e.sparse_hessian).selfadjointView<Eigen::Lower>();
-  if (model.held.cols() > 0) hold(model, hessian);
-  return hessian;
-}
 
 /// Least-squares solution of H a = b in the step norm, and |H a - b| / |b| in its dual.
 Vector solve(const Matrix& H, const Vector& b, const Vector& metric, double load, double& residual)
@@ -69,8 +62,12 @@ AdjointGradient adjoint_gradient(const Model& model, const State& state, const V
     out.parameters = Matrix::Zero(explicit_at(state).rows(), model.element_count());
     return out;
   }
-  const Vector a =
-      solve(dense_hessian(model, e), free_part(model, quantity), model.metric, load.norm(), out.residual);
+  Matrix hessian = e.hessian;
+  if (model.sparse()) {
+    hessian = Matrix(e.sparse_hessian).selfadjointView<Eigen::Lower>();
+    if (model.held.cols() > 0) hold(model, hessian);
+  }
+  const Vector a = solve(hessian, free_part(model, quantity), model.metric, load.norm(), out.residual);
   // What elements move by themselves, and by the macroscopic unknowns, whose metric is that displacement's.
   const int nm = model.macro_count;
   const double motion = largest_motion(model, a) +
@@ -94,11 +91,10 @@ std::optional<Vector> response_of_minimum(const Model& model, const Model& ahead
   evaluations += here.contact.evaluations + there.contact.evaluations;
   if (!here.admissible || !there.admissible) return std::nullopt;
   constexpr double soft = 1e-3;  // of the load
-  Matrix hessian = dense_hessian(model, here);
-  hessian.diagonal() += soft * load.norm() * model.metric;
-  double residual = 0.0;
-  return solve(hessian, free_part(model, (here.gradient - there.gradient) / share), model.metric, load.norm(),
-               residual);
+  EliminationOrder order;
+  const std::unique_ptr<Curvature> curvature = curvature_of(model, here, order);
+  if (!curvature->factor(soft * load_size(model, load))) return std::nullopt;
+  return curvature->solve(free_part(model, (here.gradient - there.gradient) / share));
 }
 
 }  // namespace hauberk

@@ -20,8 +20,8 @@ struct PlotLabels {
 /// Draws the limits against direction, 0 to 360 degrees (directions count modulo 180), as an SVG file that
 /// needs no fonts or other files and stays readable in black and white. One panel for eta, one for the
 /// magnitudes of both senses; each only when there is something to show. For a design: before, after, and
-/// targets as dots, bounds as bars with an arrowhead. Directions more than 45 degrees apart are not joined by a line, nor are points without a
-/// value. Thread safe; the same results give the same bytes.
+/// targets as dots, bounds as bars with an arrowhead. Directions more than 45 degrees apart are not joined by
+/// a line, nor are points without a value. Thread safe; the same results give the same bytes.
 std::string polar_svg(const RunResult& run, const PlotLabels& labels);
 
 }  // namespace hauberk

@@ -311,6 +311,39 @@ std::optional<Followed> along_minimum(const DesignPoint& from, const WarmStart& 
   return std::nullopt;
 }
 
+/// The rest of a way, in parts that keep the gaps; null where some part cannot be opened.
+std::optional<State> keeping_gaps(Followed reached, const DesignPoint& from, const DesignPoint& to,
+                                  const std::vector<DesignVariable>& variables, double g_hat,
+                                  const Matrix& held)
+{
+  const Vector change = change_of_variables(from, to);
+  DesignPoint at;
+  at.model = std::move(reached.model);
+  State state = std::move(reached.state);
+  double done = reached.share;
+  int tries = 0;
+  for (double part = 1.0 - done; done < 1.0;) {
+    // One linear response serves all lengths of this part.
+    const Matrix response = gap_response(at, find_gaps(at.model, state, contact_range * g_hat, true),
+                                         variables, true, follow_weight, held);
+    std::optional<State> opened_state;
+    std::optional<Model> next;
+    for (; !opened_state; part *= 0.5) {
+      if (part < shortest_part || ++tries > most_tries) return std::nullopt;
+      const double end = std::min(1.0, done + part);
+      next = intermediate(from, to, variables, end);
+      if (!next) continue;
+      const Vector dy = free_part(at.model, response * ((end - done) * change));
+      opened_state = opened(at.model, state, dy, *next, open_enough * g_hat, held);
+      if (opened_state) done = end;
+    }
+    part *= 4.0;  // the loop has halved it: twice the part that succeeded
+    state = std::move(*opened_state);
+    at.model = std::move(*next);
+  }
+  return state;
+}
+
 }  // namespace
 
 std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, const DesignPoint& to,
@@ -318,43 +351,16 @@ std::optional<State> followed(const DesignPoint& from, const WarmStart& warm, co
                               const MinimumOf* minimum, long* evaluations)
 {
   if (from.x == to.x) return warm.state;
-  const Vector change = change_of_variables(from, to);
-  DesignPoint at;
-  at.model = from.model;
-  State state = warm.state;
-  const double range = contact_range * warm.g_hat;
-  double done = 0.0;
   if (minimum != nullptr) {
     long counted = 0;
     std::optional<Followed> first = along_minimum(from, warm, to, variables, *minimum, counted);
     if (evaluations != nullptr) *evaluations += counted;
     if (first) {
-      done = first->share;
-      state = std::move(first->state);
-      at.model = std::move(first->model);
+      std::optional<State> state = keeping_gaps(std::move(*first), from, to, variables, warm.g_hat, held);
+      if (state) return state;
     }
   }
-  int tries = 0;
-  for (double part = 1.0 - done; done < 1.0;) {
-    // One linear response serves all lengths of this part.
-    const Matrix response =
-        gap_response(at, find_gaps(at.model, state, range, true), variables, true, follow_weight, held);
-    std::optional<State> reached;
-    std::optional<Model> next;
-    for (; !reached; part *= 0.5) {
-      if (part < shortest_part || ++tries > most_tries) return std::nullopt;
-      const double end = std::min(1.0, done + part);
-      next = intermediate(from, to, variables, end);
-      if (!next) continue;
-      const Vector dy = free_part(at.model, response * ((end - done) * change));
-      reached = opened(at.model, state, dy, *next, open_enough * warm.g_hat, held);
-      if (reached) done = end;
-    }
-    part *= 4.0;  // the loop has halved it: twice the part that succeeded
-    state = std::move(*reached);
-    at.model = std::move(*next);
-  }
-  return state;
+  return keeping_gaps({0.0, warm.state, from.model}, from, to, variables, warm.g_hat, held);
 }
 
 double safe_parameter_step(const Model& a, const Model& b, const State& from, const Vector& dy,

@@ -68,7 +68,8 @@ class TargetSearch {
   /// from rest stalled, or come less far than these and p is to keep them.
   bool lock_from_rest(const DesignPoint& p, const MacroLoad& load, const std::vector<WarmStart>& warm,
                       const std::optional<State>& known, LockedTarget& out) const;
-  /// What a warm start of a design minimises.
+  /// What a warm start of a design minimises as its stage is planned; where contacts merge or ribbons jump,
+  /// it may have been another formulation that ended there, and a prediction by this one is worth less.
   MinimumOf minimum_of(const DesignPoint& p, const WarmStart& warm, const MacroLoad& load) const;
   /// The continuation of a state of another design from its tightest stage that can be followed.
   bool lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,

@@ -40,7 +40,7 @@ AdjointGradient adjoint_gradient(const Model& model, const State& state, const V
 ///
 /// Directions softer than a thousandth of the load (L = 1) are damped: there the straight line says little of
 /// where the minimum goes. `ahead` should change no surface by more than some thousandths of the smallest
-/// gap. Null where one of the two states touches, or the curvature is not that of a minimum. Counts closest
+/// gap. Null where one of the two states touches, or the curvature is more negative than that. Counts closest
 /// points in `evaluations`. Thread safe; deterministic.
 std::optional<Vector> response_of_minimum(const Model& model, const Model& ahead, double share,
                                           const State& state, const Vector& load, const Stage& stage,

@@ -232,7 +232,10 @@ class Newton {
       return {};
     }
     // Nothing more can be gained above rounding, or noise: a minimum unless the curvature says otherwise.
-    const bool noisy = t.alpha > 0.0 && step.predicted < stage_.tolerance_of_noise * stage_.mu;
+    const double noise_of_stage = stage_.tolerance_of_noise * stage_.mu;
+    const bool is_whole = !step.shifted || step_norm(m_, step.dy) < 0.5 * radius_;  // no radius shortened it
+    const bool noisy =
+        is_whole && t.alpha > 0.0 && step.predicted < noise_of_stage && std::abs(t.actual) < noise_of_stage;
     if ((t.tiny || noisy) && t.energy.admissible && (!step.shifted || !saddle_step(now_, radius_, step)))
       return End{StageStatus::minimum, ""};
     ++rejected_;

@@ -27,8 +27,8 @@ struct Stage {
   double least_curvature = -std::numeric_limits<double>::infinity();
   bool balance = false;     ///< last stage: go on where forces do not balance though the energy is flat
   double tolerance = 1e-3;  ///< stop when the Newton step can lower E by less than tolerance * mu
-  /// Stop also where a step that can lower E by less than this times mu does not: what is left is the noise
-  /// of a rough quadrature.
+  /// Stop also where a step that no radius shortens can lower E by less than this times mu, and does not, nor
+  /// changes it by more: what is left is the noise of a rough quadrature.
   double tolerance_of_noise = 0.0;
   bool keep_path = false;     ///< StageResult::path is wanted
   int most_iterations = 200;  ///< in which the energy does not fall by mu; 50 times as many in all

@@ -8,8 +8,9 @@
 
 namespace hauberk {
 
-/// A line for every element type of which primitives hang together with none of the others: they move as one
-/// all the same, which nothing that is made does. The line names the type, and a primitive of each body.
+/// A line for every element type whose primitives are several bodies that nothing joins: they move as one all
+/// the same, which nothing that is made does. The line names the type, and a primitive of each of the first
+/// four bodies.
 std::vector<std::string> loose_parts(const SceneSpec& scene);
 
 }  // namespace hauberk

@@ -38,14 +38,17 @@ function(hauberk_add_plugin id)
                CXX_VISIBILITY_PRESET hidden
                VISIBILITY_INLINES_HIDDEN ON
                LIBRARY_OUTPUT_DIRECTORY "${arg_OUTPUT_DIRECTORY}"
-               INSTALL_RPATH "$ORIGIN/../..")
+               INSTALL_RPATH "$ORIGIN/../.."
+               # CMake pads a run path that it is to change at installation with colons, and the loader takes what is
+               # empty between them for the current directory.
+               INSTALL_RPATH_USE_LINK_PATH ON
+               BUILD_WITH_INSTALL_RPATH ON)
   if(NOT HAUBERK_SANITIZE)
     # A missing symbol should fail here, not when a user loads the plugin. (Sanitizer runtimes are resolved
     # from the program.)
     target_link_options(${id} PRIVATE -Wl,-z,defs)
   endif()
   if(in_tree)
-    set_target_properties(${id} PROPERTIES BUILD_WITH_INSTALL_RPATH ON)  # HauberkBuild.cmake says why
     set_property(GLOBAL APPEND PROPERTY HAUBERK_PLUGIN_TARGETS ${id})
     install(TARGETS ${id} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/hauberk/plugins")
   endif()

@@ -13,6 +13,7 @@ set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(HAUBERK_PLUGIN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/hauberk/plugins")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # libraries of other prefixes
 # What is installed is linked as it will be, where the layouts are one: CMake pads a path that it is to change at
 # installation with colons, and the loader takes what is empty between them for the current directory.
 if(CMAKE_INSTALL_LIBDIR STREQUAL "lib")

@@ -187,7 +187,7 @@ function bound(target, x, y) {
   const length = Math.hypot(x - 100, y - 100) || 1;
   const [u, v] = [outward * (x - 100) / length, outward * (y - 100) / length];
   return `<path class="target" d="M${x - 2 * v},${y + 2 * u}L${x + 2 * v},${y - 2 * u}L${x + 7 * u},${y + 7 * v}Z M${
-    x - 4 * v},${y + 4 * u}L${x + 4 * v},${y - 4 * u}Z" fill="#444" stroke="#444"><title>${target.aim.replace("_", " ")} than ${percent(target.value)}</title></path>`;
+    x - 4 * v},${y + 4 * u}L${x + 4 * v},${y - 4 * u}Z" fill="#444" stroke="#444"><title>${safe(target.aim.replace("_", " "))} than ${percent(target.value)}</title></path>`;
 }
 
 // Limits of the fabric against direction; of a design also those of its other fabrics, pale, and its targets.

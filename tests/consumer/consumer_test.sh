@@ -36,6 +36,7 @@ project() {  # TEMPLATE NAME
 
 check() {  # NAME; its own test has run all checks of the kit
   local folder=$work/$1
+  quietly python3 "$(dirname "${BASH_SOURCE[0]}")/../run_paths.py" "$folder/build/plugins/$1.so"
   quietly "$prefix/bin/hauberk" plugins conform "$folder/build/plugins/$1.so" --filter '^(descriptor|fields|instances)$'
   grep -q ' 0 failed' "$work/log.txt" || fail "$1: no summary"
   quietly "$prefix/bin/hauberk" plugins conform "$folder/build/plugins/$1.so" --filter '^descriptor$' --json

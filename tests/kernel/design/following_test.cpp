@@ -1,5 +1,6 @@
 /// States of a design that are followed to another: locked ones, and the one at rest.
 
+#include "equilibrium/barrier_path.hpp"
 #include "model/held_model.hpp"
 #include "model/links.hpp"
 #include "uneven_chainmail.hpp"
@@ -64,7 +65,8 @@ TEST(DesignProblem, FollowingIsCheaperThanRest)
     x[3] += 0.5 * h;
     const long before = start.problem.evaluations();
     ASSERT_TRUE(start.problem.evaluate(x, true).ok) << h;
-    EXPECT_LT(start.problem.evaluations() - before, from_rest) << h;
+    // Rest is searched from twice: half of it is what a trial costs of which no state can be followed.
+    EXPECT_LT(start.problem.evaluations() - before, h < 5e-3 ? from_rest / 8 : 2 * from_rest / 5) << h;
   }
 }
 
@@ -87,6 +89,21 @@ TEST(DesignProblem, WhatIsHeldIsKeptWhereGapsAreOpened)
   ASSERT_TRUE(state.has_value());
   EXPECT_GT((state->macro - macro).norm(), 1e-3);
   EXPECT_LT(missed(held, state->macro), 1e-15);
+
+  // Along the motion of a minimum, too: where a load along the state's own strain holds the others.
+  const MacroLoad load(macro, held);
+  const HeldModel kept(at.model, held);
+  const Schedule& schedule = start.design.schedule;
+  const PlannedStage plan = planned_stage(ContactChoice::automatic, schedule, tight.g_hat, true);
+  const MinimumOf minimum{barrier_stage(at.model, load_size(kept.model(), kept.pull(macro)),
+                                        ContactChoice::automatic, schedule, plan),
+                          load};
+  long evaluations = 0;
+  const auto moved = followed(at, tight, to, start.design.variables, held, &minimum, &evaluations);
+  ASSERT_TRUE(moved.has_value());
+  EXPECT_GT(evaluations, 0);
+  EXPECT_LT(missed(held, moved->macro), 1e-14);
+  EXPECT_GT((moved->macro - state->macro).norm(), 1e-9) << "the same prediction";
 }
 
 TEST(DesignProblem, RestIsFollowedAroundWhatTheStraightWayCollidesWith)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -43,7 +44,7 @@ TEST(Sha256, PiecesDoNotMatter)
 
 TEST(Sha256, OfFiles)
 {
-  const fs::path folder = fs::path(testing::TempDir()) / "hauberk-sha256";
+  const fs::path folder = fs::path(testing::TempDir()) / ("hauberk-sha256-" + std::to_string(getpid()));
   fs::create_directories(folder);
   const auto digest_with = [&folder](const std::string& text) {
     std::ofstream(folder / "a", std::ios::binary) << text;

@@ -115,7 +115,6 @@ void write(const Stage& s, RecordWriter& out)
   out.number(s.least_curvature);
   out.number(static_cast<int>(s.balance));
   out.number(s.tolerance);
-  out.number(s.tolerance_of_noise);
   out.number(static_cast<int>(s.keep_path));
   out.number(s.most_iterations);
 }
@@ -138,7 +137,6 @@ Stage read_stage(RecordReader& in)
   s.least_curvature = in.number<double>();
   s.balance = read_flag(in);
   s.tolerance = in.number<double>();
-  s.tolerance_of_noise = in.number<double>();
   s.keep_path = read_flag(in);
   s.most_iterations = in.number<int>();
   return s;

@@ -35,7 +35,7 @@ PLAN = {
     "plugins/experiment": ["kernel", "plugins/host", "plugins/document"],
     "plugins/results": ["kernel", "plugins/document"],
     "plugins/pictures": ["kernel", "plugins/document"],
-    "plugins/export": ["kernel", "plugins/document"],
+    "plugins/export": ["kernel", "plugins/document", "plugins/results"],
     "plugins/inspect": ["kernel", "shapes"],
     "plugins/report": ["kernel", "plugins/document", "plugins/results", "plugins/pictures"],
     "plugins/verify": ["kernel/api"],  # independent: it reads results by itself; the interface of primitives alone

@@ -35,8 +35,8 @@ struct Schedule {
   double stiffness = 0.03;  ///< sets gaps at equilibrium to about a tenth of g_hat
   double tolerance = 1e-3;  ///< of a stage, relative to its mu
   double last_tolerance = 1e-8;
-  /// A last stage of rough quadrature ends where a step that promises less than `tolerance` gains nothing:
-  /// its forces then balance to some per cent at worst, which is enough for a design that is still to change.
+  /// A last stage of rough quadrature ends where a whole step that promises less than `tolerance` gains
+  /// nothing. Its forces may miss the load by some per cent: enough for a design that is still to change.
   bool ends_at_noise = false;
   /// Of the last stage, if it is not wider than `change`; stages that are are rough.
   Quadrature last_quadrature = Quadrature::fine;

@@ -18,8 +18,11 @@ bool are_apart(const Body& A, const Body& B)
 
 }  // namespace
 
-std::vector<std::vector<int>> joined_bodies(std::span<const Body> bodies)
+std::vector<std::vector<int>> joined_primitives(std::span<const Primitive> primitives)
 {
+  std::vector<Body> bodies;
+  for (const Primitive& primitive : primitives)
+    bodies.push_back(make_body(primitive, 0, static_cast<int>(bodies.size()), 1.0));
   std::vector<std::size_t> group(bodies.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (std::size_t b = 1; b < bodies.size(); ++b) {

@@ -1,16 +1,16 @@
 #pragma once
-/// Which bodies of one element hang together.
+/// Which primitives of one element hang together.
 
-#include "geometry/body.hpp"
+#include <hauberk/shape.hpp>
 
 #include <span>
 #include <vector>
 
 namespace hauberk {
 
-/// Groups of bodies of one element that overlap or touch, directly or by others of their group: indices,
+/// Groups of primitives of one element that overlap or touch, directly or by others of their group: indices,
 /// ascending within a group, groups in the order of their first. Of triangle meshes the balls that hold them
 /// count, as only their facets know more. Thread safe.
-std::vector<std::vector<int>> joined_bodies(std::span<const Body> bodies);
+std::vector<std::vector<int>> joined_primitives(std::span<const Primitive> primitives);
 
 }  // namespace hauberk

@@ -1,7 +1,6 @@
 #include "export/mesh.hpp"
 
 #include "export/fields.hpp"
-#include "geometry/body.hpp"
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/joined.hpp"
@@ -92,11 +91,8 @@ void add_facets(Mesh& mesh, const Primitive& p, double chord)
 /// Groups of primitives that hang together.
 std::vector<std::vector<Primitive>> overlapping_groups(std::span<const Primitive> primitives)
 {
-  std::vector<Body> bodies;
-  for (std::size_t k = 0; k < primitives.size(); ++k)
-    bodies.push_back(make_body(primitives[k], 0, static_cast<int>(k), 1.0));
   std::vector<std::vector<Primitive>> groups;
-  for (const std::vector<int>& group : joined_bodies(bodies)) {
+  for (const std::vector<int>& group : joined_primitives(primitives)) {
     auto& of = groups.emplace_back();
     for (const int k : group) of.push_back(primitives[static_cast<std::size_t>(k)]);
   }

@@ -1,10 +1,10 @@
 #include "export/page.hpp"
 
-#include "design/target.hpp"
 #include "document/json_place.hpp"
 #include "document/plain_text.hpp"
 #include "document/read_file.hpp"
 #include "export/formats.hpp"
+#include "results/aim_json.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -26,15 +26,6 @@ namespace {
 
 namespace json = boost::json;
 using detail::JsonPlace;
-
-/// Absent: a value to reach.
-Aim aim_of(const JsonPlace& target)
-{
-  const auto name = target.find("aim");
-  if (!name) return Aim::reach;
-  if (const auto aim = aim_named(name->text())) return *aim;
-  name->fail("expected reach, no_further or no_nearer");
-}
 
 /// RFC 4648.
 template <class Number>
@@ -276,7 +267,7 @@ void enter_design(const JsonPlace& design, const json::value& results, const std
     if (direction)
       targets.push_back(json::object{{"direction", direction->number()},
                                      {"value", target.at("target").number()},
-                                     {"aim", to_string(aim_of(target))}});
+                                     {"aim", to_string(read_aim(target))}});
   }
 }
 

@@ -1,5 +1,6 @@
 #include "document/json_place.hpp"
 #include "report/report.hpp"
+#include "results/aim_json.hpp"
 #include "results/document.hpp"
 
 #include <fmt/format.h>
@@ -104,15 +105,6 @@ std::optional<PublishedDesign> read_published(const JsonPlace& design)
   for (const std::vector<double>& row : rows_of(*published, "measured", 3))
     out.measured.push_back({row[0], row[1], row[2]});
   return out;
-}
-
-/// Absent: a value to reach.
-Aim read_aim(const JsonPlace& target)
-{
-  const auto name = target.find("aim");
-  if (!name) return Aim::reach;
-  if (const auto aim = aim_named(name->text())) return *aim;
-  name->fail("expected reach, no_further or no_nearer");
 }
 
 ReportDesign read_design(const JsonPlace& design, const JsonPlace& asked)

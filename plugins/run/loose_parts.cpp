@@ -20,10 +20,7 @@ constexpr std::size_t most_named = 4;
 std::string loose_parts_of(const ElementType& type, const std::vector<double>& parameters)
 {
   const std::vector<Primitive> primitives = type.shape->primitives(parameters);
-  std::vector<Body> bodies;
-  for (std::size_t k = 0; k < primitives.size(); ++k)
-    bodies.push_back(make_body(primitives[k], 0, static_cast<int>(k), 1.0));
-  const std::vector<std::vector<int>> groups = joined_bodies(bodies);
+  const std::vector<std::vector<int>> groups = joined_primitives(primitives);
   if (groups.size() < 2) return {};
   std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min(groups.size(), most_named); ++k)

@@ -174,10 +174,7 @@ std::vector<std::string> loose_parts(const Assembly& assembly)
 {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < assembly.primitives.size(); ++k) {
-    std::vector<Body> bodies;
-    for (const Primitive& p : assembly.primitives[k])
-      bodies.push_back(make_body(p, 0, static_cast<int>(bodies.size()), 1.0));
-    const std::size_t parts = joined_bodies(bodies).size();
+    const std::size_t parts = joined_primitives(assembly.primitives[k]).size();
     const auto copy = std::ranges::find_if(
         assembly.copies, [k](const Assembly::Copy& one) { return static_cast<std::size_t>(one.mesh) == k; });
     if (parts > 1 && copy != assembly.copies.end())

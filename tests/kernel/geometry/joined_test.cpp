@@ -1,4 +1,4 @@
-/// Bodies of one element that hang together.
+/// Primitives of one element that hang together.
 
 #include "geometry/joined.hpp"
 
@@ -10,26 +10,26 @@ namespace {
 using Groups = std::vector<std::vector<int>>;
 
 /// Rings of radius 5 and wire 0.7, around z or around y.
-Body ring(double x, double z, bool upright = false)
+Primitive ring(double x, double z, bool upright = false)
 {
   Primitive p;
   p.kind = PrimitiveKind::circle_tube;
   p.size = {5.0, 0.7, 0.7};
   p.position = Vec3(x, 0.0, z);
   if (upright) p.rotation = Eigen::AngleAxisd(0.5 * EIGEN_PI, Vec3::UnitX()).toRotationMatrix();
-  return make_body(p, 0, 0, 1.0);
+  return p;
 }
 
-TEST(Joined, BodiesHangTogetherDirectlyOrByOthers)
+TEST(Joined, PrimitivesHangTogetherDirectlyOrByOthers)
 {
-  EXPECT_EQ(joined_bodies({}), Groups());
+  EXPECT_EQ(joined_primitives({}), Groups());
   // Circles whose centres are 9 apart cross, those 18 apart do not.
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(18, 0)}), (Groups{{0}, {1}}));
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(18, 0), ring(9, 0)}), (Groups{{0, 1, 2}}));
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(40, 0), ring(9, 0), ring(49, 0)}),
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(18, 0)}), (Groups{{0}, {1}}));
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(18, 0), ring(9, 0)}), (Groups{{0, 1, 2}}));
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(40, 0), ring(9, 0), ring(49, 0)}),
             (Groups{{0, 2}, {1, 3}}));
   // Two groups that the last one joins.
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(9, 0), ring(27, 0), ring(36, 0), ring(18, 0)}),
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(9, 0), ring(27, 0), ring(36, 0), ring(18, 0)}),
             (Groups{{0, 1, 2, 3, 4}}));
 }
 
@@ -37,10 +37,10 @@ TEST(Joined, BodiesHangTogetherDirectlyOrByOthers)
 /// two.
 TEST(Joined, LinksAndNeighboursAreApart)
 {
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(0, 1.401)}), (Groups{{0}, {1}}));
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(0, 1.399)}), (Groups{{0, 1}}));
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(5, 0, true)}), (Groups{{0}, {1}}));
-  EXPECT_EQ(joined_bodies(std::vector{ring(0, 0), ring(10, 0, true)}), (Groups{{0, 1}}));
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(0, 1.401)}), (Groups{{0}, {1}}));
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(0, 1.399)}), (Groups{{0, 1}}));
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(5, 0, true)}), (Groups{{0}, {1}}));
+  EXPECT_EQ(joined_primitives(std::vector{ring(0, 0), ring(10, 0, true)}), (Groups{{0, 1}}));
 }
 
 }  // namespace

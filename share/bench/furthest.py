@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """How often limits that are found with default settings are short of the furthest state that is known.
 
-    share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress] [--defaults] [--known FILE]
+    share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress] [--defaults | --stronger KIND,KIND]
+                            [--threads N] [--known FILE]
 
 Families of periodic cells (weaves at several ratios of ring to wire, sheets of other elements), z fixed, z fixed with a
 clearance of 0.1 mm, and z free; axial limits at five directions, all of them in one run and each alone. The furthest
 known state is that of these, of stronger searches (64 starts, 4 tilted loads with 8 starts, limits every 15 degrees),
 of scenes that a scene contains (that with a clearance in that without, z fixed in z free, a cell in its multiples) and of
 all runs whose values the file of known ones has (furthest.json beside this script), where what is further is entered.
---defaults leaves the stronger searches out. A limit is short where it misses the furthest by more than a thousandth.
-Prints a line per limit that is short, one per family with the seconds of every kind of run, and the tables. Runs that
+--defaults leaves the stronger searches out, --stronger all but those named. A limit is short where it misses the furthest by more than a thousandth.
+Prints a line per limit that is short, one per family with the seconds of processor time of every kind of run, and the tables. Runs that
 FOLDER holds are not repeated.
 
 Limits with default settings are held against each other, too: one is further than another's whose states it has (that
@@ -20,9 +21,9 @@ against lone ones. A pair is violated where what is contained is further by more
 import argparse
 import json
 import pathlib
+import resource
 import shutil
 import subprocess
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DIRECTIONS = [0, 20, 45, 75, 90]
@@ -65,9 +66,16 @@ def one_cell(name):
     return name[:-4] if name.endswith(("2x2", "3x3")) else None
 
 
+def processor_seconds():
+    """Of all programs that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 class Study:
-    def __init__(self, program, folder, senses, stronger, known):
+    def __init__(self, program, folder, senses, stronger, threads, known):
         self.program, self.folder, self.senses, self.stronger = program, pathlib.Path(folder), senses, stronger
+        self.options = [] if threads is None else ["--threads", str(threads)]
         self.folder.mkdir(parents=True, exist_ok=True)
         self.file = known
         self.known = json.loads(known.read_text()) if known.exists() else {}
@@ -87,7 +95,7 @@ class Study:
         self.file.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
     def run(self, name, experiment, load, solver, directions):
-        """Values towards their sense and words by direction and sense; and seconds."""
+        """Values towards their sense and words by direction and sense; and seconds of processor time."""
         name = name.replace(" ", "_")
         out, took = self.folder / name, self.folder / f"{name}.seconds"
         if not took.exists():
@@ -95,12 +103,12 @@ class Study:
             load = {"plugin": "in_plane_periodic", "senses": self.senses, **load, "directions_deg": directions}
             file = self.folder / f"{name}.json"
             file.write_text(json.dumps({**experiment, "load_case": load, "solver": solver}))
-            begin = time.monotonic()
-            done = subprocess.run([self.program, "run", str(file), "-o", str(out), "--quiet", "--yes"],
+            begin = processor_seconds()
+            done = subprocess.run([self.program, "run", str(file), "-o", str(out), "--quiet", "--yes", *self.options],
                                   capture_output=True, text=True)
             if done.returncode not in (0, 1):
                 raise RuntimeError(f"{file}: exit code {done.returncode}: {done.stderr}")
-            took.write_text(str(time.monotonic() - begin))
+            took.write_text(str(processor_seconds() - begin))
         limits = json.loads((out / "results.json").read_text())["limits"]
         return {(l["direction_deg"], l["sense"]): (l["value"] * (1 if l["sense"] == "stretch" else -1), l["confidence"]["word"])
                 for l in limits if l["status"] == "locked"}, float(took.read_text())
@@ -135,7 +143,7 @@ class Study:
                 found["alone"].update(values)
                 seconds["alone"] += took
             self.relate(name, variant, {kind: found[kind] for kind in ("fan", "alone")})
-            for kind, (directions, settings) in (STRONGER.items() if self.stronger else ()):
+            for kind, (directions, settings) in self.stronger.items():
                 found[kind], seconds[kind] = self.run(f"{where} {kind}", experiment, load, {**solver, **settings}, directions)
             for limit in sorted(found["fan"] | found["alone"]):
                 furthest, by = max((values[limit][0], kind) for kind, values in found.items() if limit in values)
@@ -160,10 +168,18 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--only", default="", help="families whose names contain one of these")
     parser.add_argument("--senses", default="stretch,compress")
-    parser.add_argument("--defaults", action="store_true", help="no stronger searches")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--defaults", action="store_true", help="no stronger searches")
+    which.add_argument("--stronger", default=",".join(STRONGER), help="which stronger searches (default: %(default)s)")
+    parser.add_argument("--threads", type=int, help="of every run (default: the program's)")
     parser.add_argument("--known", type=pathlib.Path, default=pathlib.Path(__file__).with_suffix(".json"))
     options = parser.parse_args()
-    study, table = Study(options.program, options.folder, options.senses.split(","), not options.defaults, options.known), {}
+    stronger = [] if options.defaults else options.stronger.split(",")
+    if unknown := set(stronger) - set(STRONGER):
+        parser.error(f"--stronger: there is no {', '.join(sorted(unknown))}; there are {', '.join(STRONGER)}")
+    study = Study(options.program, options.folder, options.senses.split(","), {k: STRONGER[k] for k in stronger}, options.threads,
+                  options.known)
+    table = {}
     for name, experiment in families().items():
         if any(part in name for part in options.only.split(",")):
             study.family(name, experiment, table)

@@ -273,7 +273,7 @@ StartSearch search_from(const SceneSpec& scene, const LoadCase& load, double cle
       static_cast<std::uint64_t>(start));
   out.initial_scene = with_relaxed_rest(out.problem->current());
   out.problem->set_memory(memory);
-  out.problem->set_schedule(coarse);
+  out.problem->set_schedule(coarse, Look::quick);
   const std::vector<double> x0 = out.problem->feasible_towards(random_move(design, start));
   out.outcome = search(*out.problem, design, optimizer, x0, start, 0, observer);
   return out;
@@ -323,7 +323,7 @@ Designed run_design(const SceneSpec& scene, const LoadCase& load, double clearan
   out.result.iterations = best.found.iterations;
   if (!interrupted) {
     const long before = best_problem->evaluations();
-    best_problem->set_schedule(design.schedule);
+    best_problem->set_schedule(design.schedule, Look::quick_then_whole);
     const SearchOutcome fine =
         search_to_the_end(*best_problem, design, optimizer, best.found.x, out.result.start, observer);
     out.result.evaluations += best_problem->evaluations() - before;

@@ -75,9 +75,17 @@ struct ReportedStates {
   std::vector<std::optional<State>> states;  ///< furthest ones, of each of `target_limits`
   long evaluations = 0;                      ///< of closest points, of all searches
 };
-/// Computes the limits of a design, given with its relaxed rest, as they are reported: whoever asks for it
-/// again at the end of a search can have kept them. Called by one thread at a time.
-using LimitsReport = std::function<ReportedStates(const SceneSpec& design)>;
+/// With how many searches the states of a design are looked for where its own search may end with it.
+enum class Look {
+  none,             ///< those of every iterate
+  quick,            ///< a few from rest for each limit: a coarse search only has to end near a design
+  whole,            ///< all that reported limits have
+  quick_then_whole  ///< the same, unless the quick look leads to other values than the targets
+};
+/// Computes the limits of a design, given with its relaxed rest: as they are reported (Look::whole; whoever
+/// asks for it again at the end of a search can have kept them), or from fewer searches (Look::quick). Called
+/// by one thread at a time.
+using LimitsReport = std::function<ReportedStates(const SceneSpec& design, Look look)>;
 
 class EvaluationMemory;
 

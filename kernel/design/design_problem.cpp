@@ -188,9 +188,10 @@ double DesignProblem::largest_safe_step(std::span<const double> x, std::span<con
   return 0.0;
 }
 
-void DesignProblem::set_schedule(const Schedule& schedule)
+void DesignProblem::set_schedule(const Schedule& schedule, Look look_at_the_goal)
 {
   journal_.set_schedule(schedule);
+  look_at_the_goal_ = look_at_the_goal;
   current_ = last_ = std::make_shared<DesignPoint>(*current_);
   current_->evaluated = false;
   current_->why.clear();
@@ -237,7 +238,7 @@ void DesignProblem::accept(std::span<const double> x)
                                                                         : "could not evaluate: " + p->why));
   // What ends a search has to be what its limits are recomputed as.
   const bool at_the_goal = meets_targets(scene_->design, p->values);
-  p->thorough = at_the_goal;
+  p->look = at_the_goal ? look_at_the_goal_ : Look::none;
   p->keeps_further = found_further_ && !at_the_goal;
   take(p, p->unchecked >= most_unchecked || at_the_goal);
 }
@@ -264,7 +265,7 @@ bool DesignProblem::settle()
 bool DesignProblem::confirm()
 {
   if (current_ == last_thorough_) return false;
-  current_->thorough = true;
+  current_->look = Look::whole;
   current_->keeps_further = false;
   take(current_, true);
   last_thorough_ = current_;

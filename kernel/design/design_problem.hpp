@@ -45,8 +45,9 @@ class DesignProblem final : public OptimizationProblem {
   /// See DesignJournal.
   void set_memory(EvaluationMemory* memory) { journal_.set_memory(memory); }
 
-  /// Changes the stages; the current design keeps its rest state and warm starts and is evaluated anew.
-  void set_schedule(const Schedule& schedule);
+  /// Changes the stages, and how a design is looked at that meets its targets; the current design keeps its
+  /// rest state and warm starts and is evaluated anew.
+  void set_schedule(const Schedule& schedule, Look look_at_the_goal);
 
   /// Looks for the states of the current design from rest. If it comes out worse than an accepted one whose
   /// states had been looked for so, and which satisfies the constraints, goes back to the best of these; true
@@ -95,6 +96,7 @@ class DesignProblem final : public OptimizationProblem {
   /// The last one that went through `confirm`, and the best of them; null before there is one.
   std::shared_ptr<DesignPoint> last_thorough_, best_thorough_;
   bool found_further_ = false;  ///< by `confirm`, once
+  Look look_at_the_goal_ = Look::whole;
 };
 
 }  // namespace hauberk

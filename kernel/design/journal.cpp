@@ -10,7 +10,7 @@ namespace hauberk {
 bool DesignJournal::recall(DesignPoint& p, long& cost) const
 {
   if (memory_ == nullptr || !memory_->recall(p, cost)) return false;
-  const bool fits = !p.evaluated || (p.values.size() == targets_ &&
+  const bool fits = !p.evaluated || (p.values.size() == scene_->design.targets.size() &&
                                      p.gradient.size() == static_cast<Eigen::Index>(p.x.size()));
   const bool known = std::all_of(p.changed.begin(), p.changed.end(), [this](int task) {
     return task >= 0 && static_cast<std::size_t>(task) < search_.task_count();
@@ -72,9 +72,21 @@ void DesignJournal::check(DesignPoint& p, const DesignPoint& iterate)
 
 long DesignJournal::search_again(DesignPoint& p) const
 {
-  DesignPoint again = p;
-  const long cost = search_.solve(again, p, search_.threads());
-  if (again.evaluated) p = std::move(again);
+  const Look look = p.look;
+  long cost = 0;
+  const auto solve = [&](Look with) {
+    DesignPoint again = p;
+    again.look = with;
+    cost += search_.solve(again, p, search_.threads());
+    if (again.evaluated) p = std::move(again);
+  };
+  if (look == Look::quick_then_whole) {
+    solve(Look::quick);
+    if (meets_targets(scene_->design, p.values)) solve(Look::whole);
+  } else {
+    solve(look);
+  }
+  p.look = look;
   return cost;
 }
 

@@ -13,8 +13,7 @@ namespace hauberk {
 /// Not thread safe.
 class DesignJournal {
  public:
-  explicit DesignJournal(std::shared_ptr<const DesignScene> scene)
-      : targets_(scene->design.targets.size()), search_(std::move(scene))
+  explicit DesignJournal(std::shared_ptr<const DesignScene> scene) : scene_(std::move(scene)), search_(scene_)
   {
   }
 
@@ -43,7 +42,7 @@ class DesignJournal {
   void find_states(DesignPoint& p, const DesignPoint& iterate);
   long search_again(DesignPoint& p) const;
 
-  std::size_t targets_;
+  std::shared_ptr<const DesignScene> scene_;
   TargetSearch search_;
   EvaluationMemory* memory_ = nullptr;
   long evaluations_ = 0;

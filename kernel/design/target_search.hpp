@@ -27,7 +27,8 @@ class TargetSearch {
   unsigned threads() const { return thread_count(scene_->threads); }
   std::size_t task_count() const { return tasks_.size(); }
 
-  /// Solves for p from the states of `from`, which may be p itself: then states are looked for from rest.
+  /// Solves for p from the states of `from`, which may be p itself: then states are looked for from rest, and
+  /// by p.look, which is none of two.
   /// Uses up to `threads` threads. Returns how many closest points were evaluated. What cannot be computed is
   /// told in `p.why`.
   long solve(DesignPoint& p, const DesignPoint& from, unsigned threads) const;
@@ -74,7 +75,7 @@ class TargetSearch {
   /// The continuation of a state of another design from its tightest stage that can be followed.
   bool lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                          const std::vector<WarmStart>& warm, LockedTarget& out) const;
-  /// Where the limits of a design lock when they are reported (DesignScene::report), per task.
+  /// Where the limits of a design lock, per task, by the searches of its look (DesignScene::report).
   std::vector<std::optional<State>> reported_states(const DesignPoint& p, long& evaluations) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
   /// another that is further along its direction and keeps what it holds, until there is none.

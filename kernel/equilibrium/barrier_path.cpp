@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -48,7 +49,8 @@ class Path {
         choice_(choice),
         schedule_(schedule),
         keep_going_(keep_going),
-        size_(load_size(m, load))
+        size_(load_size(m, load)),
+        most_evaluations_(schedule.most_evaluations)
   {
     flat_tubes_ = std::any_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_ellipse(); });
     out_.state = start;
@@ -177,6 +179,8 @@ class Path {
   {
     const bool rounding_matters = rounding_of_x > 0.1 * unbalanced * smallest_gap_of_stage * schedule_.last;
     if (!rounding_matters || !(out_.stages.back().residual > unbalanced)) return;
+    // It is locked; that its forces balance, too, is worth what it takes.
+    most_evaluations_ = std::numeric_limits<long>::max();
     const Locked narrowest = out_;
     Locked best = out_;
     for (const double wider : std::span(wider_ends).first(ends_for_balance)) {
@@ -267,7 +271,7 @@ class Path {
     extrapolate(s, plan);
     const State from = schedule_.keep_path ? s : State();
     Stage stage = make_stage(plan);
-    stage.most_evaluations = schedule_.most_evaluations - out_.evaluations;
+    stage.most_evaluations = most_evaluations_ - out_.evaluations;
     StageResult r = solve_stage(m_, s, load_, stage, keep_going_, &bounds_);
     out_.iterations += r.iterations;
     out_.evaluations += r.evaluations;
@@ -300,6 +304,7 @@ class Path {
   const Schedule& schedule_;
   const KeepGoing& keep_going_;
   double size_;
+  long most_evaluations_;  ///< in all
   GapBounds bounds_;
   bool arc_to_the_end_ = false;
   bool flat_tubes_ = false;  ///< there are some, which ribbons are of

@@ -1,9 +1,9 @@
 #include "limits/limit_report.hpp"
 
 #include "equilibrium/gaps.hpp"
+#include "limits/force_balance.hpp"
 #include "limits/kinks.hpp"
 #include "model/links.hpp"
-#include "numerics/decompositions.hpp"
 
 #include <fmt/format.h>
 
@@ -58,14 +58,6 @@ double allowed_imbalance(const LimitResult& r, double length)
   }
   return balanced + std::min(most_rounding, rounding_of_gap / least) +
          (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
-}
-
-/// The part of forces on all unknowns that neither the model's equalities nor conditions take up.
-Vector unheld(const Model& m, const Matrix& held, const Vector& forces)
-{
-  Vector out = free_part(m, forces);
-  out.head(m.macro_count) = within(held, out.head(m.macro_count));
-  return out;
 }
 
 /// Largest component of the energy's gradient, by the load that is not subtracted yet.
@@ -212,39 +204,6 @@ LimitResult limit_header(const Model& m, const LimitTask& task)
   return r;
 }
 
-ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load,
-                           const std::vector<ContactEnergy::Point>& points, double mu)
-{
-  // load + sum f dg/dy = 0: a gap opens when B's point moves along the normal and A's against it.
-  Vector rest = Vector::Zero(m.dofs());
-  rest.head(m.macro_count) = load.pull;
-  const int nm = m.macro_count, nc = m.coordinate_count;
-  const auto push = [&](int element, const Image& image, const Vec3& point, const Vec3& force) {
-    PositionMap map;
-    const std::size_t k = element;
-    m.load->position(s.macro_values(), {s.e.data() + element * nc, static_cast<std::size_t>(nc)},
-                     m.rest[k].position, m.translation(image), map);
-    rest.head(nm) += map.J.leftCols(nm).transpose() * force;
-    rest.segment(m.offset(element), nc) += map.J.middleCols(nm, nc).transpose() * force;
-    rest.segment<3>(m.offset(element) + nc) += (point - map.x).cross(force);
-  };
-  for (const ContactEnergy::Point& p : points) {
-    const double f = mu * p.contact.force;
-    if (p.wall >= 0) {
-      for (const auto& t : m.walls[p.wall].terms) {
-        rest[m.offset(t.element) + t.coordinate] += f * t.coefficient;
-      }
-      continue;
-    }
-    push(m.bodies[p.a].element, {0, 0}, p.contact.on_p, -f * p.contact.normal);
-    push(m.bodies[p.b].element, p.image, p.contact.on_f, f * p.contact.normal);
-  }
-  ForceBalance out;
-  if (load.held.cols() > 0) out.reactions = least_squares(load.held, rest.head(m.macro_count));
-  out.imbalance = unheld(m, load.held, rest).cwiseAbs().maxCoeff();
-  return out;
-}
-
 namespace {
 
 /// What an answer is, and what is said about it.
@@ -284,6 +243,9 @@ struct HeldState {
   double full = 0.0;     ///< norm of the full load, which imbalances are parts of
   double driving = 0.0;  ///< part of it that drives the state
   double scale = 0.0;    ///< of the value, file units
+  /// By which part of the load forces missed it before they were changed within their rounding; null: they
+  /// were not.
+  std::optional<double> rounding;
 
   HeldState(const Model& model, const LimitTask& of, const Locked& locked, const KeepGoing& keep)
       : m(model),
@@ -301,6 +263,29 @@ struct HeldState {
 
   double sign() const { return task.sense == Sense::positive ? 1.0 : -1.0; }
 };
+
+/// Forces at points that miss the load by what rounding of gaps leaves of them are changed to such that do
+/// not.
+void balance_forces(HeldState& h)
+{
+  const Formulation f = h.l.stage.contact.formulation;
+  if (h.l.pressed || (f != Formulation::nearest && f != Formulation::arc)) return;
+  const double mu = h.l.stage.mu;
+  const auto imbalance = [&] {
+    return force_balance(h.m, h.l.state, h.load, h.contacts.points, mu).imbalance / h.full;
+  };
+  const double before = imbalance();
+  if (!(before > unbalanced)) return;
+  const std::optional<Vector> parts = rounding_of_forces(h.m, h.l.state, h.load, h.contacts.points, mu);
+  if (!parts) return;
+  ContactEnergy changed = h.contacts;
+  change_forces(changed, h.m, h.l.state, *parts);
+  std::swap(changed, h.contacts);
+  if (imbalance() < unbalanced)
+    h.rounding = before;
+  else
+    h.contacts = std::move(changed);
+}
 
 void fill_forces(LimitResult& r, const HeldState& h, const Vec3& shift)
 {
@@ -379,6 +364,12 @@ Verdict verdict_of(const LimitResult& r, const HeldState& h, const LimitSettings
             fmt::format("contact forces miss the load by {:.1e} of it: an error of that order is possible",
                         *r.force_balance)};
   }
+  if (h.rounding) {
+    search.message += fmt::format(
+        "{}gaps are so small that rounding left forces that miss the load by {:.1e} of it; those given are "
+        "the nearest that balance",
+        search.message.empty() ? "" : "; ", *h.rounding);
+  }
   return search;
 }
 
@@ -416,7 +407,8 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   const Vec3 shift = fill_state(r, m, l.state);
   r.certificate = certificate_of(m, l, *r.min_gap);
   try {
-    const HeldState h(m, task, l, keep_going);
+    HeldState h(m, task, l, keep_going);
+    balance_forces(h);
     fill_forces(r, h, shift);
     fill_sensitivities(r, h, spec);
     enter_verdict(r, verdict_of(r, h, settings));

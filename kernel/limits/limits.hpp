@@ -193,12 +193,4 @@ std::optional<std::size_t> compute_searches(const Model& model, const SceneSpec&
 /// Both senses of equal directions joined: e_s, e_c, and for strains eta = (e_s - e_c)/(1 + e_c).
 std::vector<ProfilePoint> profiles(const std::vector<LimitResult>& limits, const LoadCase& load);
 
-/// How listed contacts alone balance a load: load + sum of forces times gap derivatives = held * reactions.
-struct ForceBalance {
-  Vector reactions;        ///< of the conditions held: by how much the load's value rises per unit of each
-  double imbalance = 0.0;  ///< largest component of what is left, over all unknowns
-};
-ForceBalance force_balance(const Model& model, const State& state, const MacroLoad& load,
-                           const std::vector<ContactEnergy::Point>& points, double mu);
-
 }  // namespace hauberk

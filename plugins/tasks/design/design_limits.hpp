@@ -40,9 +40,9 @@ class DesignLimits {
   void compute_part(const RunContext& context, const std::string& label, const ReportedScene& of,
                     const Share& share) const;
 
-  /// For the search: limits of designs that it may end with, computed once for each and kept; what is asked
-  /// for again costs the same evaluations, so that a run that goes on where it was stopped counts as many.
-  /// Refers to this and the context.
+  /// For the search: limits of designs that it may end with. Whole ones are computed once for each and kept;
+  /// what is asked for again costs the same evaluations, so that a run that goes on where it was stopped
+  /// counts as many. Refers to this and the context.
   LimitsReport report(const RunContext& context);
   /// The limits of all tasks that a report has found for this scene; null: it was not asked for it.
   const std::vector<LimitResult>* reported(const ReportedScene& of) const;

@@ -1,0 +1,37 @@
+#pragma once
+/// How the forces of listed contacts balance a load.
+
+#include "equilibrium/contact_energy.hpp"
+#include "model/held_model.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace hauberk {
+
+/// load + sum of forces times gap derivatives = held * reactions.
+struct ForceBalance {
+  Vector reactions;        ///< of the conditions held: by how much the load's value rises per unit of each
+  double imbalance = 0.0;  ///< largest component of what is left, over all unknowns
+};
+/// `mu` times the points' forces, of a state with that load.
+ForceBalance force_balance(const Model& model, const State& state, const MacroLoad& load,
+                           const std::vector<ContactEnergy::Point>& points, double mu);
+
+/// The part of forces on all unknowns that neither the model's equalities nor conditions take up.
+Vector unheld(const Model& model, const Matrix& held, const Vector& forces);
+
+/// A barrier's force is as exact as its gap: rounding of coordinates by the gap. Where forces are many times
+/// the load (elements that wedge each other) what rounding leaves of them is a part of the load that tells.
+/// The part by which each force is to be changed so that all balance, the least of these parts in proportion
+/// to how exact each is: forces >= 0 at closed gaps that balance the load prove a limit, whatever barrier
+/// they came from. Null: some force would have to change by more than a tenth, a point has no gap, or there
+/// are too many unknowns for dense matrices (Model::sparse).
+std::optional<Vector> rounding_of_forces(const Model& model, const State& state, const MacroLoad& load,
+                                         const std::vector<ContactEnergy::Point>& points, double mu);
+
+/// Changes the contacts' forces by these parts, and with them the energy's derivatives in clearance and
+/// parameters. Its gradient and Hessian stay those of the energy.
+void change_forces(ContactEnergy& contacts, const Model& model, const State& state, const Vector& parts);
+
+}  // namespace hauberk

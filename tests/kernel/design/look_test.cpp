@@ -1,0 +1,89 @@
+/// How often the states of a design are looked for from rest that meets its targets.
+
+#include "equilibrium/rest.hpp"
+#include "limits/limits.hpp"
+#include "uneven_chainmail.hpp"
+
+#include <vector>
+
+namespace hauberk::test {
+namespace {
+
+constexpr int start_that_folds_further = 3;
+
+/// Two rings, pushed together along x: they lock at 0.0246, and from one start in twelve at 0.0687. The
+/// target is the former; a report finds the latter by the looks that are told to.
+struct Folding {
+  Sheet load{2};
+  std::vector<Look> asked;
+  Look finds = Look::none;
+
+  static DesignSpec design()
+  {
+    DesignSpec d = spec();
+    d.quantity = DesignQuantity::negative;
+    d.targets = {{45.0, -0.543, 1.0}};
+    d.tolerance = 0.05;
+    d.schedule.last = 1e-3;
+    return d;
+  }
+
+  static SceneSpec scene()
+  {
+    SceneSpec s = uneven_chainmail();
+    for (PlacedElement& ring : s.elements) ring.parameters[1] = ring.parameters[2] = 0.7;
+    return s;
+  }
+
+  ReportedStates report(const SceneSpec& relaxed, Look look)
+  {
+    asked.push_back(look);
+    ReportedStates out{relaxed, make_model(relaxed, load, 0.0), {std::nullopt}, 1};
+    if (look != finds) return out;
+    LimitSettings settings;
+    settings.schedule = design().schedule;
+    const LimitTask task = target_limits(design()).tasks[0];
+    out.states[0] =
+        limit_from_start(out.model, task, settings, start_that_folds_further, [] { return true; }).state;
+    return out;
+  }
+
+  /// The value with which the design as it is given is accepted.
+  double accepted_value(Look at_the_goal)
+  {
+    DesignProblem problem({scene(), load, 0.0, LimitSettings{}, design(), 1, [] { return true; },
+                           [this](const SceneSpec& relaxed, Look look) { return report(relaxed, look); }});
+    problem.set_schedule(design().schedule, at_the_goal);
+    const std::vector<double> x = problem.scene_variables();
+    EXPECT_TRUE(problem.evaluate(x, true).ok);
+    EXPECT_TRUE(meets_targets(design(), problem.current().values));
+    problem.accept(x);
+    return problem.current().values[0];
+  }
+};
+
+TEST(Look, IsQuickInACoarseSearch)
+{
+  Folding f;
+  EXPECT_NEAR(f.accepted_value(Look::quick), -0.543, 1e-2);
+  EXPECT_EQ(f.asked, std::vector<Look>{Look::quick});
+}
+
+TEST(Look, IsWholeWhereAQuickOneLeadsNowhereElse)
+{
+  Folding f;
+  f.finds = Look::whole;
+  EXPECT_NEAR(f.accepted_value(Look::quick_then_whole), -0.670, 1e-2);
+  EXPECT_EQ(f.asked, (std::vector<Look>{Look::quick, Look::whole}));
+}
+
+TEST(Look, EndsWhereAQuickOneLeadsElsewhere)
+{
+  Folding f;
+  f.finds = Look::quick;
+  EXPECT_NEAR(f.accepted_value(Look::quick_then_whole), -0.670, 1e-2);
+  EXPECT_EQ(f.asked, std::vector<Look>{Look::quick});
+}
+
+}  // namespace
+}  // namespace hauberk::test

@@ -75,11 +75,11 @@ struct ReportedStates {
   std::vector<std::optional<State>> states;  ///< furthest ones, of each of `target_limits`
   long evaluations = 0;                      ///< of closest points, of all searches
 };
-/// With how many searches the states of a design are looked for where its own search may end with it.
+/// How thoroughly the states of a design that meets its targets are looked for from rest.
 enum class Look {
-  none,             ///< those of every iterate
-  quick,            ///< a few from rest for each limit: a coarse search only has to end near a design
-  whole,            ///< all that reported limits have
+  usual,            ///< as those of other iterates
+  quick,            ///< by a few searches of each limit: a coarse search only has to end near a design
+  whole,            ///< by all that reported limits have
   quick_then_whole  ///< the same, unless the quick look leads to other values than the targets
 };
 /// Computes the limits of a design, given with its relaxed rest: as they are reported (Look::whole; whoever

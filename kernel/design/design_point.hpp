@@ -34,7 +34,7 @@ struct DesignPoint {
   bool continued = false;       ///< some state of it continues one of the iterate before
   int unchecked = 0;            ///< steps since all states were looked for from rest
   bool checked = false;         ///< they were, after this one was accepted
-  Look look = Look::none;       ///< and with how many more searches
+  Look look = Look::usual;      ///< how thoroughly
   bool keeps_further = false;   ///< a check keeps followed states that are further than where rest led
   std::string why;              ///< why it could not be evaluated
 };

@@ -195,6 +195,8 @@ void DesignProblem::set_schedule(const Schedule& schedule, Look look_at_the_goal
   current_ = last_ = std::make_shared<DesignPoint>(*current_);
   current_->evaluated = false;
   current_->why.clear();
+  current_->look = Look::usual;
+  current_->checked = false;
   current_->states_missing = current_->states_kept = false;
   tried_.clear();  // their values are of the other stages
   accepted_.clear();
@@ -236,9 +238,9 @@ void DesignProblem::accept(std::span<const double> x)
     throw PluginError("the optimizer accepted a design that it " + (p->why.empty()
                                                                         ? "did not evaluate from its iterate"
                                                                         : "could not evaluate: " + p->why));
-  // What ends a search has to be what its limits are recomputed as.
+  // What ends a design has to be what its limits are recomputed as.
   const bool at_the_goal = meets_targets(scene_->design, p->values);
-  p->look = at_the_goal ? look_at_the_goal_ : Look::none;
+  p->look = at_the_goal ? look_at_the_goal_ : Look::usual;
   p->keeps_further = found_further_ && !at_the_goal;
   take(p, p->unchecked >= most_unchecked || at_the_goal);
 }

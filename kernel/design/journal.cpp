@@ -78,13 +78,25 @@ long DesignJournal::search_again(DesignPoint& p) const
     DesignPoint again = p;
     again.look = with;
     cost += search_.solve(again, p, search_.threads());
-    if (again.evaluated) p = std::move(again);
+    const bool evaluated = again.evaluated;
+    if (evaluated) p = std::move(again);
+    return evaluated;
   };
-  if (look == Look::quick_then_whole) {
-    solve(Look::quick);
-    if (meets_targets(scene_->design, p.values)) solve(Look::whole);
-  } else {
+  if (look != Look::quick_then_whole) {
     solve(look);
+    return cost;
+  }
+  std::vector<int> changed;
+  bool leads_elsewhere = false;
+  if (solve(Look::quick)) {
+    changed = p.changed;
+    leads_elsewhere = !meets_targets(scene_->design, p.values);
+  }
+  if (!leads_elsewhere && solve(Look::whole)) {
+    changed.insert(changed.end(), p.changed.begin(), p.changed.end());
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    p.changed = std::move(changed);
   }
   p.look = look;
   return cost;

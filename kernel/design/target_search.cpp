@@ -275,7 +275,7 @@ long TargetSearch::solve(DesignPoint& p, const DesignPoint& from, unsigned threa
   const auto has_problem = [](const LockedTarget& t) { return !t.problem.empty(); };
   long evaluations = 0;
   std::vector<std::optional<State>> known(n);
-  if (p.look != Look::none && p.x == from.x && scene_->report) known = reported_states(p, evaluations);
+  if (p.look != Look::usual && p.x == from.x && scene_->report) known = reported_states(p, evaluations);
   each([&](std::size_t k) { targets[k] = lock_target(p, from, loads[k], warm[k], known[k]); });
   p.continued = p.x != from.x && std::any_of(targets.begin(), targets.end(),
                                              [](const LockedTarget& t) { return t.followed && !t.changed; });

@@ -28,7 +28,7 @@ class TargetSearch {
   std::size_t task_count() const { return tasks_.size(); }
 
   /// Solves for p from the states of `from`, which may be p itself: then states are looked for from rest, and
-  /// by p.look, which is none of two.
+  /// as p.look says, which is not Look::quick_then_whole.
   /// Uses up to `threads` threads. Returns how many closest points were evaluated. What cannot be computed is
   /// told in `p.why`.
   long solve(DesignPoint& p, const DesignPoint& from, unsigned threads) const;

@@ -304,7 +304,7 @@ class Path {
   const Schedule& schedule_;
   const KeepGoing& keep_going_;
   double size_;
-  long most_evaluations_;  ///< in all
+  long most_evaluations_;  ///< in all, but for what balances forces
   GapBounds bounds_;
   bool arc_to_the_end_ = false;
   bool flat_tubes_ = false;  ///< there are some, which ribbons are of

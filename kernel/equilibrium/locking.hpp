@@ -48,7 +48,8 @@ struct Schedule {
   bool keep_path = false;  ///< Locked::path is wanted
   unsigned threads = 1;    ///< for the pairs of one large scene; never changes a result
   /// Of closest points (Locked::evaluations): with more of them a path of barriers is `stalled`. Counted, so
-  /// that it ends at the same state on every machine.
+  /// that it ends at the same state on every machine. What balances the forces of a last stage that has ended
+  /// may be more.
   long most_evaluations = std::numeric_limits<long>::max();
 };
 

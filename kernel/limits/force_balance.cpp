@@ -5,15 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hauberk {
 namespace {
 
-/// The part of itself by which a force may be changed at most.
-constexpr double most_changed = 0.1;
-/// What forces may go on to miss the load by, as part of it, for a change of the least exact one by its
-/// whole.
+/// Rounding of coordinates, L; how many times that a gap may be off, by all that goes into it; and the part
+/// of itself by which a force may be changed at most.
+constexpr double rounding_of_x = 1e-15, most_roundings = 100.0, most_changed = 0.1;
+/// In units of the load: what forces may go on to miss it by weighs as much as a change of the tightest one
+/// by its whole.
 constexpr double negligible = 1e-6;
+/// Relative difference of two derivatives of one gap.
+constexpr double same_gap = 1e-6;
 
 /// Adds f dg/dy of a contact: a gap opens when B's point moves along the normal and A's against it.
 void add_force(const Model& m, const State& s, const ContactEnergy::Point& p, double f, Vector& sum)
@@ -47,19 +51,14 @@ Vector left_over(const Model& m, const State& s, const MacroLoad& load,
   return left;
 }
 
-/// The gap of these bodies whose derivative is nearest to that of a contact; null: there is none.
+/// The gap of these bodies that has the derivative of a contact; null: there is none.
 const Gap* gap_of(const std::vector<Gap>& gaps, const ContactEnergy::Point& p, const Vector& derivative)
 {
-  const Gap* nearest = nullptr;
-  double least = 0.0;
-  for (const Gap& g : gaps) {
-    if (g.a != p.a || g.b != p.b || g.image != p.image) continue;
-    const double off = (g.dy - derivative).squaredNorm();
-    if (nearest != nullptr && off >= least) continue;
-    nearest = &g;
-    least = off;
-  }
-  return nearest;
+  const auto found = std::find_if(gaps.begin(), gaps.end(), [&](const Gap& g) {
+    return g.a == p.a && g.b == p.b && g.image == p.image &&
+           (g.dy - derivative).norm() <= same_gap * derivative.norm();
+  });
+  return found == gaps.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -81,18 +80,18 @@ ForceBalance force_balance(const Model& m, const State& s, const MacroLoad& load
   return out;
 }
 
-std::optional<Vector> rounding_of_forces(const Model& m, const State& s, const MacroLoad& load,
-                                         const std::vector<ContactEnergy::Point>& points, double mu)
+std::optional<Vector> balancing_parts(const Model& m, const State& s, const MacroLoad& load,
+                                      const std::vector<ContactEnergy::Point>& points, double mu)
 {
   if (m.sparse() || points.empty()) return std::nullopt;
   const auto count = static_cast<Eigen::Index>(points.size());
-  Vector inexact(count);
+  Vector rounding(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const double gap = points[static_cast<std::size_t>(k)].contact.gap;
     if (!(gap > 0.0)) return std::nullopt;
-    inexact[k] = 1.0 / gap;
+    rounding[k] = rounding_of_x / gap;
   }
-  inexact /= inexact.maxCoeff();
+  const Vector inexact = rounding / rounding.maxCoeff();
   // Parts are inexact_k x_k with the least |left + F x|^2 / negligible^2 + |x|^2: combinations of forces that
   // nearly cancel are no way out.
   const Eigen::Index unknowns = m.dofs();
@@ -107,28 +106,38 @@ std::optional<Vector> rounding_of_forces(const Model& m, const State& s, const M
   Vector wanted = Vector::Zero(unknowns + count);
   wanted.head(unknowns) = -unheld(m, load.held, left_over(m, s, load, points, mu));
   const Vector parts = inexact.cwiseProduct(least_squares(forces, wanted));
-  return parts.cwiseAbs().maxCoeff() <= most_changed ? std::optional(parts) : std::nullopt;
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (!(std::abs(parts[k]) <= std::min(most_changed, most_roundings * rounding[k]))) return std::nullopt;
+  return parts;
 }
 
-void change_forces(ContactEnergy& contacts, const Model& m, const State& s, const Vector& parts)
+bool change_forces(ContactEnergy& contacts, const Model& m, const State& s, Formulation formulation,
+                   const Vector& parts)
 {
-  double range = 0.0;
-  for (const ContactEnergy::Point& p : contacts.points) range = std::max(range, 2.0 * p.contact.gap);
-  const std::vector<Gap> gaps = find_gaps(m, s, range, true);
+  ContactEnergy changed = contacts;
+  std::vector<Gap> gaps;
+  const bool single = formulation == Formulation::nearest;
+  if (single) {
+    double range = 0.0;
+    for (const ContactEnergy::Point& p : contacts.points) range = std::max(range, 2.0 * p.contact.gap);
+    gaps = find_gaps(m, s, range, true);
+  }
   for (std::size_t k = 0; k < contacts.points.size(); ++k) {
-    ContactEnergy::Point& p = contacts.points[k];
+    ContactEnergy::Point& p = changed.points[k];
     const double more = parts[static_cast<Eigen::Index>(k)] * p.contact.force;
     p.contact.force += more;
-    if (p.wall >= 0) continue;
-    // dE/dp = - sum f dg/dp, where dg/d clearance = -1.
-    contacts.d_clearance += more;
+    if (p.wall >= 0 || !single) continue;
     Vector derivative = Vector::Zero(m.dofs());
     add_force(m, s, p, 1.0, derivative);
     const Gap* const gap = gap_of(gaps, p, derivative);
-    if (gap == nullptr) continue;
-    contacts.parameters.col(m.bodies[p.a].element).head(gap->da.size()) -= more * gap->da;
-    contacts.parameters.col(m.bodies[p.b].element).head(gap->db.size()) -= more * gap->db;
+    if (gap == nullptr) return false;
+    // dE/dp = - sum f dg/dp, where dg/d clearance = -1.
+    changed.d_clearance += more;
+    changed.parameters.col(m.bodies[p.a].element).head(gap->da.size()) -= more * gap->da;
+    changed.parameters.col(m.bodies[p.b].element).head(gap->db.size()) -= more * gap->db;
   }
+  contacts = std::move(changed);
+  return true;
 }
 
 }  // namespace hauberk

@@ -21,17 +21,21 @@ ForceBalance force_balance(const Model& model, const State& state, const MacroLo
 /// The part of forces on all unknowns that neither the model's equalities nor conditions take up.
 Vector unheld(const Model& model, const Matrix& held, const Vector& forces);
 
-/// A barrier's force is as exact as its gap: rounding of coordinates by the gap. Where forces are many times
-/// the load (elements that wedge each other) what rounding leaves of them is a part of the load that tells.
-/// The part by which each force is to be changed so that all balance, the least of these parts in proportion
-/// to how exact each is: forces >= 0 at closed gaps that balance the load prove a limit, whatever barrier
-/// they came from. Null: some force would have to change by more than a tenth, a point has no gap, or there
-/// are too many unknowns for dense matrices (Model::sparse).
-std::optional<Vector> rounding_of_forces(const Model& model, const State& state, const MacroLoad& load,
-                                         const std::vector<ContactEnergy::Point>& points, double mu);
+/// A barrier's force is as exact as its gap: it is off by some multiple of 1e-15 L over the gap, the rounding
+/// of coordinates. Where elements wedge each other forces are many times the load, and what rounding leaves
+/// of them is a part of the load that tells. The part by which each force is to be changed so that all
+/// balance: the least change, where each counts in units of its own rounding (forces at smaller gaps change
+/// more). Forces
+/// >= 0 at closed gaps that balance the load prove a limit, whatever barrier they came from. Null: some force
+/// would have to change by more than rounding explains, or by a tenth; a point has no gap; or there are too
+/// many unknowns for dense matrices (Model::sparse).
+std::optional<Vector> balancing_parts(const Model& model, const State& state, const MacroLoad& load,
+                                      const std::vector<ContactEnergy::Point>& points, double mu);
 
-/// Changes the contacts' forces by these parts, and with them the energy's derivatives in clearance and
-/// parameters. Its gradient and Hessian stay those of the energy.
-void change_forces(ContactEnergy& contacts, const Model& model, const State& state, const Vector& parts);
+/// Changes the contacts' forces by these parts. Those of `nearest`, which are of single gaps, take the
+/// energy's derivatives in clearance and parameters along; false, and nothing is changed, where a point is at
+/// no gap of the state. Gradient and Hessian stay those of the energy.
+bool change_forces(ContactEnergy& contacts, const Model& model, const State& state, Formulation formulation,
+                   const Vector& parts);
 
 }  // namespace hauberk

@@ -243,9 +243,9 @@ struct HeldState {
   double full = 0.0;     ///< norm of the full load, which imbalances are parts of
   double driving = 0.0;  ///< part of it that drives the state
   double scale = 0.0;    ///< of the value, file units
-  /// By which part of the load forces missed it before they were changed within their rounding; null: they
-  /// were not.
-  std::optional<double> rounding;
+  /// By which part of the full load forces missed it before they were changed within their rounding; null:
+  /// they were not.
+  std::optional<double> missed_before;
 
   HeldState(const Model& model, const LimitTask& of, const Locked& locked, const KeepGoing& keep)
       : m(model),
@@ -264,27 +264,28 @@ struct HeldState {
   double sign() const { return task.sense == Sense::positive ? 1.0 : -1.0; }
 };
 
-/// Forces at points that miss the load by what rounding of gaps leaves of them are changed to such that do
-/// not.
+/// Forces of a locked state that miss the load by what rounding of gaps leaves of them are changed to such
+/// that do not. Resultants of `arc` that balance no better than where they are listed are another matter:
+/// there the energy's gradient tells.
 void balance_forces(HeldState& h)
 {
   const Formulation f = h.l.stage.contact.formulation;
-  if (h.l.pressed || (f != Formulation::nearest && f != Formulation::arc)) return;
-  const double mu = h.l.stage.mu;
+  if (h.l.status != LockStatus::locked || h.l.pressed || (f != Formulation::nearest && f != Formulation::arc))
+    return;
+  const double mu = h.l.stage.mu, most = unbalanced * h.driving * h.full;
   const auto imbalance = [&] {
-    return force_balance(h.m, h.l.state, h.load, h.contacts.points, mu).imbalance / h.full;
+    return force_balance(h.m, h.l.state, h.load, h.contacts.points, mu).imbalance;
   };
   const double before = imbalance();
-  if (!(before > unbalanced)) return;
-  const std::optional<Vector> parts = rounding_of_forces(h.m, h.l.state, h.load, h.contacts.points, mu);
+  if (!(before > most) || !(energy_imbalance(h.m, h.load, h.contacts, mu) > most)) return;
+  const std::optional<Vector> parts = balancing_parts(h.m, h.l.state, h.load, h.contacts.points, mu);
   if (!parts) return;
-  ContactEnergy changed = h.contacts;
-  change_forces(changed, h.m, h.l.state, *parts);
-  std::swap(changed, h.contacts);
-  if (imbalance() < unbalanced)
-    h.rounding = before;
+  ContactEnergy as_found = h.contacts;
+  if (!change_forces(h.contacts, h.m, h.l.state, f, *parts)) return;
+  if (imbalance() < most)
+    h.missed_before = before / h.full;
   else
-    h.contacts = std::move(changed);
+    h.contacts = std::move(as_found);
 }
 
 void fill_forces(LimitResult& r, const HeldState& h, const Vec3& shift)
@@ -364,11 +365,11 @@ Verdict verdict_of(const LimitResult& r, const HeldState& h, const LimitSettings
             fmt::format("contact forces miss the load by {:.1e} of it: an error of that order is possible",
                         *r.force_balance)};
   }
-  if (h.rounding) {
+  if (h.missed_before) {
     search.message += fmt::format(
         "{}gaps are so small that rounding left forces that miss the load by {:.1e} of it; those given are "
         "the nearest that balance",
-        search.message.empty() ? "" : "; ", *h.rounding);
+        search.message.empty() ? "" : "; ", *h.missed_before);
   }
   return search;
 }

@@ -41,6 +41,8 @@ struct LimitSettings {
   /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn, and, if
   /// that is more than one, as many more under random loads; of larger cells inversely fewer.
   int fold_starts = 12;
+  /// Starts of any limit, at most, of which then none goes on from locked states; 0: no such bound.
+  int most_starts = 0;
   int tilts = 0;       ///< random loads beside the task's own, from whose states it learns
   double tilt = 20.0;  ///< degrees: by how much they differ from it
   std::uint64_t seed = 1;

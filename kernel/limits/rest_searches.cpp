@@ -51,7 +51,10 @@ void fold(RestSearches& searches, const Model& model, int starts)
 
 RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSettings& settings)
 {
-  const int starts = std::max(1, settings.starts);
+  const auto at_most = [&settings](int count) {
+    return settings.most_starts > 0 ? std::min(count, settings.most_starts) : count;
+  };
+  const int starts = at_most(std::max(1, settings.starts));
   RestSearches out{task, static_cast<std::size_t>(starts)};
   if (!settings.lessons) return out;
   if (is_taut(model, task) && begins_again(model, task, settings.contact) &&
@@ -61,8 +64,9 @@ RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSet
   }
   if (!may_fold(model, task)) return out;
   const int folds = fold_starts(model, settings);
-  fold(out, model, std::max(starts, folds));
-  if (folds > 1) out.further_starts = times_further * static_cast<std::size_t>(folds);
+  fold(out, model, at_most(std::max(starts, folds)));
+  if (folds > 1 && settings.most_starts == 0)
+    out.further_starts = times_further * static_cast<std::size_t>(folds);
   return out;
 }
 

@@ -97,7 +97,7 @@ class Study:
     def run(self, name, experiment, load, solver, directions):
         """Values towards their sense and words by direction and sense; and seconds of processor time."""
         name = name.replace(" ", "_")
-        out, took = self.folder / name, self.folder / f"{name}.seconds"
+        out, took = self.folder / name, self.folder / f"{name}.processor_seconds"
         if not took.exists():
             shutil.rmtree(out, ignore_errors=True)
             load = {"plugin": "in_plane_periodic", "senses": self.senses, **load, "directions_deg": directions}

@@ -16,8 +16,9 @@ import collections
 import itertools
 import json
 import pathlib
-import resource
 import subprocess
+
+from furthest import processor_seconds
 
 VIOLATED = 1e-6
 CLEARANCES, ROOMS, REPEATS = [0, 0.05, 0.1, 0.15, 0.2], [0, 0.5, "free"], [[1, 1], [2, 1], [2, 2]]
@@ -49,18 +50,19 @@ def contains(row, other):
 
 
 def run(program, folder, name, lessons, options):
-    """How far every row is compressed, in the order of the sweep, and seconds of processor time."""
-    file, out = folder / f"{name}.json", folder / name
+    """How far every row is compressed, in the order of the sweep (None: not locked), and seconds of processor time."""
+    file, out, took = folder / f"{name}.json", folder / name, folder / f"{name}.processor_seconds"
     file.write_text(json.dumps(sweep(lessons)))
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    begin = processor_seconds()
     done = subprocess.run([program, "run", str(file), "-o", str(out), "--quiet", "--yes", "--resume", *options],
                           capture_output=True, text=True)
     if done.returncode not in (0, 1):
         raise RuntimeError(f"{file}: exit code {done.returncode}: {done.stderr}")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = after.ru_utime + after.ru_stime - used.ru_utime - used.ru_stime
+    if not took.exists():
+        took.write_text(str(processor_seconds() - begin))
     rows = json.loads((out / "results.json").read_text())["sweep"]["rows"]
-    return [-row["result"]["limits"][0]["value"] for row in rows], seconds
+    limits = [row["result"]["limits"][0] for row in rows]
+    return [-limit["value"] if limit["status"] == "locked" else None for limit in limits], float(took.read_text())
 
 
 def main():
@@ -75,9 +77,10 @@ def main():
     for name, lessons in (("single", False), ("default", True)):
         values, seconds = run(given.program, given.folder, name, lessons,
                               ["--threads", given.threads] if given.threads else [])
+        print("".join(f"not locked, and left out: {row}\n" for row, value in zip(rows, values) if value is None), end="")
         pairs, violated = collections.Counter(), collections.Counter()
         for (row, value), (other, within) in itertools.permutations(zip(rows, values), 2):
-            if not contains(row, other):
+            if value is None or within is None or not contains(row, other):
                 continue
             differs = [what for what, a, b in zip(("clearance", "z", "cell"), row, other) if a != b]
             kind = differs[0] if len(differs) == 1 else "several"

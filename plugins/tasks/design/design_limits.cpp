@@ -19,15 +19,13 @@ bool same_design(const SceneSpec& a, const SceneSpec& b)
   });
 }
 
-/// Searches of a quick look: a compression has so many starts, as many random loads, and one without the
-/// widest stage; nothing keeps limits company, and none goes on. A state that a third of the searches come to
-/// is missed by one compression in twenty.
+/// Starts of a quick look: a compression has so many, as many random loads, and one search without the widest
+/// stage. A state that a third of them come to is missed by one compression in twenty.
 constexpr int quick_starts = 3;
 
 LimitSettings quick(LimitSettings settings)
 {
-  settings.starts = settings.lessons ? quick_starts : std::min(settings.starts, quick_starts);
-  settings.fold_starts = 1;
+  settings.most_starts = quick_starts;
   settings.tilts = 0;
   settings.neighbours = 0.0;
   settings.inherit = false;
@@ -100,7 +98,7 @@ LimitsReport DesignLimits::report(const RunContext& context)
 {
   return [this, &context](const SceneSpec& design, Look look) {
     ReportedScene of = with_open_gaps(design);
-    if (const Reported* known = find(of.scene)) return known->states;
+    if (const Reported* known = find(of.scene, look)) return known->states;
     if (look == Look::quick) of.settings = quick(std::move(of.settings));
     LimitsJob job = this->job(context, "limits of what the search may end with", of);
     job.tasks.resize(targets_);
@@ -115,21 +113,23 @@ LimitsReport DesignLimits::report(const RunContext& context)
     count(out.limits);
     out.states.scene = std::move(of.scene);
     out.states.model = std::move(of.model);
-    if (look != Look::quick && !interrupted()) reported_.push_back(out);
+    out.look = look;
+    if (!interrupted()) reported_.push_back(out);
     return out.states;
   };
 }
 
-const DesignLimits::Reported* DesignLimits::find(const SceneSpec& scene) const
+const DesignLimits::Reported* DesignLimits::find(const SceneSpec& scene, Look look) const
 {
-  const auto known = std::ranges::find_if(
-      reported_, [&scene](const Reported& reported) { return same_design(reported.states.scene, scene); });
+  const auto known = std::ranges::find_if(reported_, [&](const Reported& reported) {
+    return reported.look == look && same_design(reported.states.scene, scene);
+  });
   return known == reported_.end() ? nullptr : &*known;
 }
 
 const std::vector<LimitResult>* DesignLimits::reported(const ReportedScene& of) const
 {
-  const Reported* const known = targets_ == tasks_.size() ? find(of.scene) : nullptr;
+  const Reported* const known = targets_ == tasks_.size() ? find(of.scene, Look::whole) : nullptr;
   return known == nullptr ? nullptr : &known->limits;
 }
 

@@ -40,23 +40,24 @@ class DesignLimits {
   void compute_part(const RunContext& context, const std::string& label, const ReportedScene& of,
                     const Share& share) const;
 
-  /// For the search: limits of designs that it may end with. Whole ones are computed once for each and kept;
+  /// For the search: limits of designs that it may end with, computed once for each and each look, and kept;
   /// what is asked for again costs the same evaluations, so that a run that goes on where it was stopped
   /// counts as many. Refers to this and the context.
   LimitsReport report(const RunContext& context);
-  /// The limits of all tasks that a report has found for this scene; null: it was not asked for it.
+  /// The limits of all tasks that a whole look has found for this scene; null: it was not asked for it.
   const std::vector<LimitResult>* reported(const ReportedScene& of) const;
 
  private:
   LimitsJob job(const RunContext& context, const std::string& label, const ReportedScene& of) const;
 
   struct Reported {
+    Look look = Look::whole;
     ReportedStates states;
     std::vector<LimitResult> limits;
   };
 
   /// Null: there is none of this scene.
-  const Reported* find(const SceneSpec& scene) const;
+  const Reported* find(const SceneSpec& scene, Look look) const;
 
   const Prepared& prepared_;
   std::size_t targets_;

@@ -11,12 +11,12 @@ namespace {
 
 constexpr int start_that_folds_further = 3;
 
-/// Two rings, pushed together along x: they lock at 0.0246, and from one start in twelve at 0.0687. The
-/// target is the former; a report finds the latter by the looks that are told to.
+/// Two thin rings, pushed together at 45 degrees: from small perturbations of rest they lock at 0.543, from a
+/// large one at 0.670. The target is the former; a report finds the latter by the look that is told to.
 struct Folding {
   Sheet load{2};
   std::vector<Look> asked;
-  Look finds = Look::none;
+  Look finds = Look::usual;
 
   static DesignSpec design()
   {

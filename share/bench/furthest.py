@@ -2,16 +2,16 @@
 """How often limits that are found with default settings are short of the furthest state that is known.
 
     share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress] [--defaults | --stronger KIND,KIND]
-                            [--threads N] [--known FILE]
+                            [--variants NAME,NAME] [--threads N] [--known FILE]
 
 Families of periodic cells (weaves at several ratios of ring to wire, sheets of other elements), z fixed, z fixed with a
 clearance of 0.1 mm, and z free; axial limits at five directions, all of them in one run and each alone. The furthest
 known state is that of these, of stronger searches (64 starts, 4 tilted loads with 8 starts, limits every 15 degrees),
 of scenes that a scene contains (that with a clearance in that without, z fixed in z free, a cell in its multiples) and of
 all runs whose values the file of known ones has (furthest.json beside this script), where what is further is entered.
---defaults leaves the stronger searches out, --stronger all but those named. A limit is short where it misses the furthest by more than a thousandth.
-Prints a line per limit that is short, one per family with the seconds of processor time of every kind of run, and the tables. Runs that
-FOLDER holds are not repeated.
+--defaults leaves the stronger searches out, --stronger all but those named. A limit is short where it misses the
+furthest by more than a thousandth. Prints a line per limit that is short, one per family with the seconds of processor
+time of every kind of run, and the tables. Runs that FOLDER holds are not repeated.
 
 Limits with default settings are held against each other, too: one is further than another's whose states it has (that
 with a clearance of 0.1 mm in that without, z fixed in z free, a cell in its multiples), fans against fans and lone ones
@@ -73,8 +73,9 @@ def processor_seconds():
 
 
 class Study:
-    def __init__(self, program, folder, senses, stronger, threads, known):
+    def __init__(self, program, folder, senses, stronger, variants, threads, known):
         self.program, self.folder, self.senses, self.stronger = program, pathlib.Path(folder), senses, stronger
+        self.variants = variants
         self.options = [] if threads is None else ["--threads", str(threads)]
         self.folder.mkdir(parents=True, exist_ok=True)
         self.file = known
@@ -130,7 +131,7 @@ class Study:
 
     def family(self, name, experiment, table):
         contained = {}  # the furthest of the variant before, whose states are this one's too
-        for variant, (load, solver) in VARIANTS.items():
+        for variant, (load, solver) in self.variants.items():
             where = f"{name}, {variant}"
             for at, (value, _) in self.known.get(f"{one_cell(name)}, {variant}", {}).items():
                 limit = (float(at.split()[0]), at.split()[1])
@@ -171,14 +172,20 @@ def main():
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--defaults", action="store_true", help="no stronger searches")
     which.add_argument("--stronger", default=",".join(STRONGER), help="which stronger searches (default: %(default)s)")
+    parser.add_argument("--variants", default=",".join(VARIANTS), help="of every family (default: %(default)s)")
     parser.add_argument("--threads", type=int, help="of every run (default: the program's)")
     parser.add_argument("--known", type=pathlib.Path, default=pathlib.Path(__file__).with_suffix(".json"))
     options = parser.parse_args()
-    stronger = [] if options.defaults else options.stronger.split(",")
-    if unknown := set(stronger) - set(STRONGER):
-        parser.error(f"--stronger: there is no {', '.join(sorted(unknown))}; there are {', '.join(STRONGER)}")
-    study = Study(options.program, options.folder, options.senses.split(","), {k: STRONGER[k] for k in stronger}, options.threads,
-                  options.known)
+
+    def chosen(option, given, known):
+        names = [name for name in given.split(",") if name]
+        if unknown := set(names) - set(known):
+            parser.error(f"{option}: there is no {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+        return {name: known[name] for name in known if name in names}
+
+    study = Study(options.program, options.folder, options.senses.split(","),
+                  chosen("--stronger", "" if options.defaults else options.stronger, STRONGER),
+                  chosen("--variants", options.variants, VARIANTS), options.threads, options.known)
     table = {}
     for name, experiment in families().items():
         if any(part in name for part in options.only.split(",")):

@@ -25,10 +25,9 @@ Vector unheld(const Model& model, const Matrix& held, const Vector& forces);
 /// of coordinates. Where elements wedge each other forces are many times the load, and what rounding leaves
 /// of them is a part of the load that tells. The part by which each force is to be changed so that all
 /// balance: the least change, where each counts in units of its own rounding (forces at smaller gaps change
-/// more). Forces
-/// >= 0 at closed gaps that balance the load prove a limit, whatever barrier they came from. Null: some force
-/// would have to change by more than rounding explains, or by a tenth; a point has no gap; or there are too
-/// many unknowns for dense matrices (Model::sparse).
+/// more). Forces that are not negative, at closed gaps, and balance the load prove a limit, whatever barrier
+/// they came from. Null: some force would have to change by more than rounding explains, or by a tenth; a
+/// point has no gap; or there are too many unknowns for dense matrices (Model::sparse).
 std::optional<Vector> balancing_parts(const Model& model, const State& state, const MacroLoad& load,
                                       const std::vector<ContactEnergy::Point>& points, double mu);
 

@@ -10,9 +10,9 @@
 namespace hauberk {
 namespace {
 
-/// Rounding of coordinates, L; how many times that a gap may be off, by all that goes into it; and the part
-/// of itself by which a force may be changed at most.
-constexpr double rounding_of_x = 1e-15, most_roundings = 100.0, most_changed = 0.1;
+/// How many times the rounding of coordinates a gap may be off, by all that goes into it; and the part of
+/// itself by which a force may be changed at most.
+constexpr double most_roundings = 100.0, most_changed = 0.1;
 /// In units of the load: what forces may go on to miss it by weighs as much as a change of the tightest one
 /// by its whole.
 constexpr double negligible = 1e-6;

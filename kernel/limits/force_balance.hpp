@@ -9,6 +9,9 @@
 
 namespace hauberk {
 
+/// Rounding of coordinates, L: a barrier's force at a gap g is as exact as g, which this is a part of.
+inline constexpr double rounding_of_x = 1e-15;
+
 /// load + sum of forces times gap derivatives = held * reactions.
 struct ForceBalance {
   Vector reactions;        ///< of the conditions held: by how much the load's value rises per unit of each

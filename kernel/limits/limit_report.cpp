@@ -27,9 +27,7 @@ constexpr double same_state = 1e-5;
 /// leaves up to 3e-5; `arc` lists resultants, whose wrench is off by a multiple of gap / L.
 constexpr double balanced = 1e-4;
 constexpr double balanced_per_gap = 100.0;
-/// A barrier's force at a gap g is as exact as g: rounding of coordinates (L) over g. On hair-thin tubes
-/// `arc` leaves gaps of 1e-12 L. More than `most_rounding` is not put down to that.
-constexpr double rounding_of_gap = 1e-15;
+/// On hair-thin tubes `arc` leaves gaps of 1e-12 L. More than this part is not put down to their rounding.
 constexpr double most_rounding = 1e-3;
 /// Rest may overlap by this much and still count as touching; what is less than rest by more is no limit.
 constexpr double wrong_side = 1e-9;
@@ -56,7 +54,7 @@ double allowed_imbalance(const LimitResult& r, double length)
     gap = std::max(gap, c.gap / length);
     least = std::min(least, c.gap / length);
   }
-  return balanced + std::min(most_rounding, rounding_of_gap / least) +
+  return balanced + std::min(most_rounding, rounding_of_x / least) +
          (r.contact == "arc" ? balanced_per_gap * gap : 0.0);
 }
 

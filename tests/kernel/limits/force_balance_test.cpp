@@ -12,8 +12,6 @@
 namespace hauberk::test {
 namespace {
 
-constexpr double rounding_of_x = 1e-15;
-
 /// A sheet of 4-in-1 pulled until it locks, and its contacts.
 struct PulledSheet {
   Sheet load;

@@ -176,6 +176,8 @@ def main():
     parser.add_argument("--threads", type=int, help="of every run (default: the program's)")
     parser.add_argument("--known", type=pathlib.Path, default=pathlib.Path(__file__).with_suffix(".json"))
     options = parser.parse_args()
+    if not shutil.which(options.program):
+        parser.error(f"there is no program {options.program}")
 
     def chosen(option, given, known):
         names = [name for name in given.split(",") if name]

@@ -16,6 +16,7 @@ import collections
 import itertools
 import json
 import pathlib
+import shutil
 import subprocess
 
 from furthest import processor_seconds
@@ -71,6 +72,8 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--threads", help="of every run (default: the program's)")
     given = parser.parse_args()
+    if not shutil.which(given.program):
+        parser.error(f"there is no program {given.program}")
     given.folder.mkdir(parents=True, exist_ok=True)
     rows = list(itertools.product(CLEARANCES, ROOMS, REPEATS))
     print("| searches | what differs | pairs | violated |\n| --- | --- | --- | --- |")

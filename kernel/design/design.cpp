@@ -156,6 +156,20 @@ std::vector<std::optional<double>> target_values(const DesignSpec& design,
   return out;
 }
 
+bool exceeds_targets(const DesignSpec& design, const std::vector<LimitResult>& limits)
+{
+  if (!design.tolerance) return false;
+  const double along = design.quantity == DesignQuantity::negative ? -1.0 : 1.0;
+  const std::vector<std::optional<double>> values = target_values(design, limits);
+  for (std::size_t k = 0; k < design.targets.size(); ++k) {
+    const DesignTarget& t = design.targets[k];
+    if (values[k] && along * (*values[k] - t.value) > 0.0 &&
+        !is_within(share_of_search(t.aim, *design.tolerance), t.aim, t.value, *values[k]))
+      return true;
+  }
+  return false;
+}
+
 namespace {
 
 /// One search and what came of it.

@@ -74,17 +74,19 @@ struct ReportedStates {
   Model model;                               ///< of it
   std::vector<std::optional<State>> states;  ///< furthest ones, of each of `target_limits`
   long evaluations = 0;                      ///< of closest points, of all searches
+  bool in_part = false;                      ///< the look ended at a target that is exceeded
 };
 /// How thoroughly the states of a design that meets its targets are looked for from rest.
 enum class Look {
   usual,            ///< as those of other iterates
   quick,            ///< by a few searches of each limit: a coarse search only has to end near a design
   whole,            ///< by all that reported limits have
-  quick_then_whole  ///< the same, unless the quick look leads to other values than the targets
+  until_exceeded,   ///< the same, as long as no target is exceeded, which states further on would not mend
+  quick_then_whole  ///< quickly, and until_exceeded where that leads to no other values than the targets
 };
 /// Computes the limits of a design, given with its relaxed rest: as they are reported (Look::whole; whoever
-/// asks for it again at the end of a search can have kept them), or from fewer searches (Look::quick). Called
-/// by one thread at a time.
+/// asks for it again at the end of a search can have kept them), as far as a search has use for them
+/// (Look::until_exceeded), or from fewer searches (Look::quick). Called by one thread at a time.
 using LimitsReport = std::function<ReportedStates(const SceneSpec& design, Look look)>;
 
 class EvaluationMemory;
@@ -124,6 +126,11 @@ bool meets_targets(const DesignSpec& design, const std::vector<double>& values);
 /// Values of the designed quantity from limits in the order of `target_limits`; null where not locked.
 std::vector<std::optional<double>> target_values(const DesignSpec& design,
                                                  const std::vector<LimitResult>& limits);
+
+/// Whether some target is exceeded by more than the tolerance of a search: its limit is further than it may
+/// be, and states that are found beside those of `limits` are only further. Limits in the order of
+/// `target_limits`; one that is not locked exceeds nothing. False without a tolerance.
+bool exceeds_targets(const DesignSpec& design, const std::vector<LimitResult>& limits);
 
 /// Enters recomputed limits (before and after) into the result: targets, objectives, met or not.
 void finish_design(DesignResult& result, const DesignSpec& design, const std::vector<LimitResult>& initial,

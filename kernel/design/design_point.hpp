@@ -35,6 +35,7 @@ struct DesignPoint {
   int unchecked = 0;            ///< steps since all states were looked for from rest
   bool checked = false;         ///< they were, after this one was accepted
   Look look = Look::usual;      ///< how thoroughly
+  bool looked_in_part = false;  ///< the last look ended at a target that was exceeded
   bool keeps_further = false;   ///< a check keeps followed states that are further than where rest led
   std::string why;              ///< why it could not be evaluated
 };

@@ -3,6 +3,7 @@
 #include <hauberk/error.hpp>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace hauberk {
@@ -86,18 +87,16 @@ long DesignJournal::search_again(DesignPoint& p) const
     solve(look);
     return cost;
   }
-  std::vector<int> changed;
-  bool leads_elsewhere = false;
-  if (solve(Look::quick)) {
-    changed = p.changed;
-    leads_elsewhere = !meets_targets(scene_->design, p.values);
+  std::set<int> changed;
+  for (const Look with : {Look::quick, Look::until_exceeded, Look::whole}) {
+    // Values of a report and of the search differ by what their stages leave: one may exceed a target that
+    // the other meets.
+    if (with == Look::whole && !p.looked_in_part) break;
+    if (!solve(with)) continue;
+    changed.insert(p.changed.begin(), p.changed.end());
+    if (!meets_targets(scene_->design, p.values)) break;
   }
-  if (!leads_elsewhere && solve(Look::whole)) {
-    changed.insert(changed.end(), p.changed.begin(), p.changed.end());
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    p.changed = std::move(changed);
-  }
+  p.changed.assign(changed.begin(), changed.end());
   p.look = look;
   return cost;
 }

@@ -187,11 +187,12 @@ TargetSearch::LockedTarget TargetSearch::lock_target(const DesignPoint& p, const
   return out;
 }
 
-std::vector<std::optional<State>> TargetSearch::reported_states(const DesignPoint& p, long& evaluations) const
+std::vector<std::optional<State>> TargetSearch::reported_states(DesignPoint& p, long& evaluations) const
 {
   const ReportedStates reported = scene_->report(with_relaxed_rest(p), p.look);
   if (!scene_->keep_going()) throw Interrupted();
   evaluations += reported.evaluations;
+  p.looked_in_part = reported.in_part;
   return carried_to(p, reported);
 }
 
@@ -255,7 +256,7 @@ TargetSearch::Estimate TargetSearch::estimate(const DesignPoint& p, std::size_t 
 long TargetSearch::solve(DesignPoint& p, const DesignPoint& from, unsigned threads) const
 {
   const std::size_t n = tasks_.size();
-  p.evaluated = false;
+  p.evaluated = p.looked_in_part = false;
   std::vector<std::vector<WarmStart>> warm = from.warm;  // p may be `from` itself
   warm.resize(n);                                        // a starting design has none
   p.warm.assign(n, {});

@@ -65,9 +65,9 @@ class Computation {
     if (unfinished_ == 0 && !complete) {
       const Donors donors(model_, tasks_);
       FurtherSearches further(model_, searches_);
-      if (settings_.lessons) {
+      if (settings_.lessons && !is_enough()) {
         search_on(further, threads);
-        if (inherit(donors, threads)) learn(donors, further, threads);
+        if (!is_enough() && inherit(donors, threads)) learn(donors, further, threads);
       }
       if (going()) enter_relations(results_, model_, settings_, tasks_, donors);
       ended_ = going();
@@ -156,6 +156,8 @@ class Computation {
     }
     return out;
   }
+
+  bool is_enough() const { return observer_.is_enough && observer_.is_enough(so_far()); }
 
   void tell() const
   {
@@ -371,7 +373,7 @@ class Computation {
       return results_[donors.task(donor)].status == LimitStatus::locked ? reached_by(donors, donor, k)
                                                                         : std::nullopt;
     };
-    for (int round = 1;; ++round) {
+    for (int round = 1; !is_enough(); ++round) {
       std::vector<Lesson> lessons = rounds.next(own, given);
       const bool further = !lessons.empty();
       if (!further) {

@@ -32,6 +32,7 @@ LimitsObserver observer_of(const LimitsJob& job, Progress& progress)
   observer.memory = job.memory;
   observer.on_states = job.on_states;
   observer.on_unreported = job.on_unreported;
+  observer.is_enough = job.is_enough;
   return observer;
 }
 

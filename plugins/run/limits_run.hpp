@@ -28,6 +28,7 @@ struct LimitsJob {
   /// As LimitsObserver's.
   std::function<void(const std::vector<std::optional<State>>&)> on_states = {};
   std::function<void(const std::vector<LimitResult>&)> on_unreported = {};
+  std::function<bool(const std::vector<LimitResult>&)> is_enough = {};
 };
 
 /// The surface of an experiment's limits along components; null when it has none. `length` is L.

@@ -94,10 +94,10 @@ void DesignLimits::compute_part(const RunContext& context, const std::string& la
   run_searches(job, context.progress, share);
 }
 
-LimitsReport DesignLimits::report(const RunContext& context)
+LimitsReport DesignLimits::report(const RunContext& context, const DesignSpec& design)
 {
-  return [this, &context](const SceneSpec& design, Look look) {
-    ReportedScene of = with_open_gaps(design);
+  return [this, &context, &design](const SceneSpec& scene, Look look) {
+    ReportedScene of = with_open_gaps(scene);
     if (const Reported* known = find(of.scene, look)) return known->states;
     if (look == Look::quick) of.settings = quick(std::move(of.settings));
     LimitsJob job = this->job(context, "limits of what the search may end with", of);
@@ -108,12 +108,17 @@ LimitsReport DesignLimits::report(const RunContext& context)
     };
     job.on_states = [&out](const auto& states) { out.states.states = states; };
     job.on_unreported = count;
+    if (look == Look::until_exceeded) {
+      job.is_enough = [&design, &out](const std::vector<LimitResult>& found) {
+        return out.states.in_part = exceeds_targets(design, found);
+      };
+    }
     out.limits = run_limits(job, context.progress, [](const auto& /*so_far*/) {});
     context.progress.clear();
     count(out.limits);
     out.states.scene = std::move(of.scene);
     out.states.model = std::move(of.model);
-    out.look = look;
+    out.look = look == Look::until_exceeded && !out.states.in_part ? Look::whole : look;
     if (!interrupted()) reported_.push_back(out);
     return out.states;
   };
@@ -122,7 +127,9 @@ LimitsReport DesignLimits::report(const RunContext& context)
 const DesignLimits::Reported* DesignLimits::find(const SceneSpec& scene, Look look) const
 {
   const auto known = std::ranges::find_if(reported_, [&](const Reported& reported) {
-    return reported.look == look && same_design(reported.states.scene, scene);
+    const bool so_looked_at =
+        reported.look == look || (look == Look::until_exceeded && reported.look == Look::whole);
+    return so_looked_at && same_design(reported.states.scene, scene);
   });
   return known == reported_.end() ? nullptr : &*known;
 }

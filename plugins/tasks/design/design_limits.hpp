@@ -40,10 +40,10 @@ class DesignLimits {
   void compute_part(const RunContext& context, const std::string& label, const ReportedScene& of,
                     const Share& share) const;
 
-  /// For the search: limits of designs that it may end with, computed once for each and each look, and kept;
-  /// what is asked for again costs the same evaluations, so that a run that goes on where it was stopped
-  /// counts as many. Refers to this and the context.
-  LimitsReport report(const RunContext& context);
+  /// For the search of `design`: limits of designs that it may end with, computed once for each and each
+  /// look, and kept; what is asked for again costs the same evaluations, so that a run that goes on where it
+  /// was stopped counts as many. Refers to this, the context and `design`.
+  LimitsReport report(const RunContext& context, const DesignSpec& design);
   /// The limits of all tasks that a whole look has found for this scene; null: it was not asked for it.
   const std::vector<LimitResult>* reported(const ReportedScene& of) const;
 

@@ -250,7 +250,7 @@ class DesignTask final : public TaskRun {
       search_start(
           prepared_.scene, *experiment_.load_case, experiment_.solver.clearance, prepared_.settings, spec_,
           optimizer, context_->threads, start, observer, memory, [] { return !interrupted(); },
-          limits_.report(*context_));
+          limits_.report(*context_, spec_));
     } catch (const SearchInterrupted&) {
     } catch (const Interrupted&) {
     } catch (const InputError&) {
@@ -370,7 +370,7 @@ class DesignTask final : public TaskRun {
             run_.design->evaluations = log.closest_points();
             return observe(p);
           },
-          &log, [] { return !interrupted(); }, limits_.report(*context_));
+          &log, [] { return !interrupted(); }, limits_.report(*context_, spec_));
     } catch (const SearchInterrupted&) {
       return stopped(log);
     } catch (const Interrupted&) {

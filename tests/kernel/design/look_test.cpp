@@ -17,6 +17,7 @@ struct Folding {
   Sheet load{2};
   std::vector<Look> asked;
   Look finds = Look::usual;
+  bool exceeds = false;  ///< what is reported until a target is exceeded ends at once
 
   static DesignSpec design()
   {
@@ -38,7 +39,8 @@ struct Folding {
   ReportedStates report(const SceneSpec& relaxed, Look look)
   {
     asked.push_back(look);
-    ReportedStates out{relaxed, make_model(relaxed, load, 0.0), {std::nullopt}, 1};
+    ReportedStates out{relaxed, make_model(relaxed, load, 0.0), {std::nullopt}, 1, false};
+    out.in_part = exceeds && look == Look::until_exceeded;
     if (look != finds) return out;
     LimitSettings settings;
     settings.schedule = design().schedule;
@@ -72,9 +74,51 @@ TEST(Look, IsQuickInACoarseSearch)
 TEST(Look, IsWholeWhereAQuickOneLeadsNowhereElse)
 {
   Folding f;
+  f.finds = Look::until_exceeded;
+  EXPECT_NEAR(f.accepted_value(Look::quick_then_whole), -0.670, 1e-2);
+  EXPECT_EQ(f.asked, (std::vector<Look>{Look::quick, Look::until_exceeded}));
+}
+
+TEST(Look, GoesOnWhereItEndedThoughTheDesignMeetsItsTargets)
+{
+  Folding f;
+  f.exceeds = true;
   f.finds = Look::whole;
   EXPECT_NEAR(f.accepted_value(Look::quick_then_whole), -0.670, 1e-2);
-  EXPECT_EQ(f.asked, (std::vector<Look>{Look::quick, Look::whole}));
+  EXPECT_EQ(f.asked, (std::vector<Look>{Look::quick, Look::until_exceeded, Look::whole}));
+}
+
+/// A limit that a report has already is too far for its target, and one that it has not is none.
+TEST(Look, HasSeenEnoughWhereATargetIsExceeded)
+{
+  DesignSpec d = Folding::design();
+  d.targets = {{0.0, -0.2, 1.0}, {45.0, -0.5, 1.0}};
+  const auto pushed = [](double value) {
+    LimitResult r;
+    r.status = LimitStatus::locked;
+    r.value = value;
+    return r;
+  };
+  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.1), pushed(-0.1)})) << "both may still come to it";
+  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.2099), pushed(-0.4)}));
+  EXPECT_TRUE(exceeds_targets(d, {pushed(-0.1), pushed(-0.53)}));
+  LimitResult open = pushed(-0.53);
+  open.status = LimitStatus::stalled;
+  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.1), open}));
+  d.targets[1].aim = Aim::no_nearer;
+  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.1), pushed(-0.9)}));
+  d.targets[1].aim = Aim::no_further;
+  EXPECT_TRUE(exceeds_targets(d, {pushed(-0.1), pushed(-0.502)}));
+  d.targets[1].aim = Aim::reach;
+  d.tolerance.reset();
+  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.9), pushed(-0.9)}))
+      << "nothing meets a target without tolerance";
+
+  d.quantity = DesignQuantity::eta;
+  d.tolerance = 0.05;
+  d.targets = {{0.0, 0.2, 1.0}};
+  EXPECT_FALSE(exceeds_targets(d, {pushed(0.1), pushed(-0.05)}));
+  EXPECT_TRUE(exceeds_targets(d, {pushed(0.1), pushed(-0.1)}));
 }
 
 TEST(Look, EndsWhereAQuickOneLeadsElsewhere)

@@ -155,5 +155,39 @@ TEST(Refolding, IsPartOfALimit)
   }
 }
 
+/// Whoever wants to know whether a limit is further than something needs no search beyond the first that
+/// shows it; searches from rest are made in any case, so that this depends on nothing else.
+TEST(FurtherSearches, AreNotMadeWhereWhatWasFoundIsEnough)
+{
+  const ThinSheet s;
+  Names names;
+  LimitsObserver observer;
+  observer.memory = &names;
+  std::vector<double> seen;
+  std::optional<State> furthest;
+  observer.on_states = [&furthest](const auto& states) { furthest = states.at(0); };
+  observer.is_enough = [&seen](const std::vector<LimitResult>& found) {
+    seen.push_back(*found.at(0).value);
+    return true;
+  };
+  const LimitResult r = compute_limits(s.model, s.scene, {s.task}, s.settings, 1, observer)[0];
+  EXPECT_EQ(seen, std::vector<double>{*r.value});
+  ASSERT_TRUE(furthest);
+  EXPECT_NEAR(reached(s.model, s.task, *furthest), -*r.value, 1e-9);
+  EXPECT_EQ(r.confidence.searches, 25);
+  for (const auto& [name, locked] : names.found) EXPECT_EQ(name.find(" from "), std::string::npos) << name;
+
+  // Asked again before every kind of search that follows, it may say so later.
+  const std::size_t from_rest = names.found.size();
+  seen.clear();
+  observer.is_enough = [&seen](const std::vector<LimitResult>& found) {
+    seen.push_back(*found.at(0).value);
+    return seen.size() == 2;
+  };
+  const LimitResult further = compute_limits(s.model, s.scene, {s.task}, s.settings, 1, observer)[0];
+  EXPECT_EQ(seen, (std::vector<double>{*r.value, *further.value}));
+  EXPECT_EQ(names.found.size(), from_rest + 24);
+}
+
 }  // namespace
 }  // namespace hauberk::test

@@ -4,6 +4,8 @@
 #include "motion/advancement.hpp"
 #include "numerics/decompositions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -53,6 +55,39 @@ bool same_element(const Model& a, std::size_t i, const Model& b, std::size_t j)
   return std::ranges::equal(these, those, same_body);
 }
 
+/// Each once.
+std::vector<int> prime_factors(int number)
+{
+  std::vector<int> out;
+  for (int p = 2; number > 1; ++p) {
+    if (number % p != 0) continue;
+    out.push_back(p);
+    while (number % p == 0) number /= p;
+  }
+  return out;
+}
+
+/// The cell of a scene whose cell repeats it `times` along an axis, all copies being alike.
+SceneSpec part_of_cells(const SceneSpec& spec, std::size_t axis, int times)
+{
+  SceneSpec out = spec;
+  out.repeat[axis] /= times;
+  out.lattice[axis] /= times;
+  out.elements.clear();
+  const auto n = spec.elements.size() / static_cast<std::size_t>(cell_count(spec.repeat));
+  for (std::size_t k = 0; k < spec.elements.size(); ++k)
+    if (cell_at(static_cast<int>(k / n), spec.repeat)[axis] < out.repeat[axis])
+      out.elements.push_back(spec.elements[k]);
+  return out;
+}
+
+std::string name_of_cells(const std::array<int, 3>& repeat)
+{
+  if (cell_count(repeat) == 1) return "one cell";
+  const std::string in_plane = fmt::format("{} x {}", repeat[0], repeat[1]);
+  return repeat[2] == 1 ? in_plane + " cells" : fmt::format("{} x {} cells", in_plane, repeat[2]);
+}
+
 }  // namespace
 
 std::vector<Relative> relatives(const Model& m, const SceneSpec& spec)
@@ -63,10 +98,12 @@ std::vector<Relative> relatives(const Model& m, const SceneSpec& spec)
   for (StricterLoadCase& s : m.load->stricter())
     out.push_back({std::move(s.name), scene, std::shared_ptr<const LoadCase>(std::move(s.load))});
   if (m.load->periodic() && cell_count(spec.repeat) > 1 && cells_alike(spec, m.length)) {
-    scene.elements.resize(spec.elements.size() / static_cast<std::size_t>(cell_count(spec.repeat)));
-    for (std::size_t i = 0; i < scene.lattice.size(); ++i) scene.lattice[i] /= spec.repeat[i];
-    scene.repeat = {1, 1, 1};
-    out.push_back({"one cell", std::move(scene), nullptr});
+    for (std::size_t axis = 0; axis < scene.lattice.size(); ++axis) {
+      for (const int prime : prime_factors(spec.repeat[axis])) {
+        SceneSpec part = part_of_cells(scene, axis, prime);
+        out.push_back({name_of_cells(part.repeat), std::move(part), nullptr});
+      }
+    }
   }
   return out;
 }

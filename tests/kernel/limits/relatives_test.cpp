@@ -209,10 +209,45 @@ TEST(Relatives, ACellIsInItsMultiples)
   starts.starts = 32;
   const double cell = *compressed(loose(1, 1), load, 45.0, starts).value;
   starts.starts = 1;
-  ASSERT_GT(*compressed(loose(3, 2), load, 45.0, starts).value, cell + 1e-2) << "this scene tests nothing";
+  ASSERT_GT(*compressed(loose(3, 1), load, 45.0, starts).value, cell + 1e-2) << "this scene tests nothing";
   LimitSettings learning = few();
-  learning.fold_starts = 32;
-  EXPECT_LE(*compressed(loose(3, 2), load, 45.0, learning).value, cell + 1e-7);
+  learning.fold_starts = 8;
+  EXPECT_LE(*compressed(loose(3, 1), load, 45.0, learning).value, cell + 1e-7);
+}
+
+/// Cells that a repeated one consists of, a prime number of times along one axis: all others are in these.
+TEST(Relatives, ACellIsInItsMultiplesStepByStep)
+{
+  const InPlanePeriodic load = sheet(both);
+  const SceneSpec scene = loose(6, 2);
+  const Model outer = make_model(scene, load, 0.0);
+  std::vector<std::string> names;
+  for (const Relative& r : relatives(outer, scene)) {
+    names.push_back(r.name);
+    const Model inner = make_model(r.scene, load, 0.0);
+    EXPECT_TRUE(contains(outer, scene, inner, r.scene)) << r.name;
+    EXPECT_TRUE(Carrier(inner, r.scene, outer, scene).joined()) << r.name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"3 x 2 cells", "2 x 2 cells", "6 x 1 cells"}));
+  const SceneSpec two = loose(2, 1);
+  const std::vector<Relative> last = relatives(make_model(two, load, 0.0), two);
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_EQ(last[0].name, "one cell");
+}
+
+/// A fold of two cells that one cell has not is one of four.
+TEST(Relatives, TwoCellsAreInFour)
+{
+  const InPlanePeriodic load = sheet(shear);
+  LimitSettings starts = few();
+  starts.lessons = false;
+  starts.starts = 32;
+  const double one = *compressed(loose(1, 1), load, 20.0, starts).value;
+  const double two = *compressed(loose(2, 1), load, 20.0, starts).value;
+  ASSERT_LT(two, one - 1e-2) << "this scene tests nothing";
+  LimitSettings learning = few();
+  learning.fold_starts = 12;
+  EXPECT_LE(*compressed(loose(4, 1), load, 20.0, learning).value, two + 1e-7);
 }
 
 /// States that are given are begun from, whatever the sense; without lessons nothing is.

@@ -51,14 +51,30 @@ bool independent(const LimitResult& a, const LimitResult& b)
   return own && other && *own != *other;
 }
 
+/// One more search ends in a state that none has come to with about the probability (states seen once)/(all
+/// searches) (I. J. Good, The population frequencies of species, Biometrika 40, 1953). Above this the
+/// furthest state is one of an open number. A single such state may be any search's mishap.
+constexpr double settled_share = 0.1;
+constexpr int mishaps = 1;
+
+std::string word_of(const Confidence& c)
+{
+  if (!c.contradicted_by.empty()) return "contradicted";
+  if (c.ended_here < 2 && c.confirmed_by.empty()) return "single";
+  return c.seen_once > mishaps && c.seen_once > settled_share * c.searches ? "unsettled" : "confirmed";
+}
+
 }  // namespace
 
 void enter_searches(Confidence& out, const Model& m, const LimitTask& task, const LimitSettings& settings,
-                    const std::vector<FoundState>& found, std::size_t best, std::size_t distinct)
+                    const std::vector<FoundState>& found, std::size_t best,
+                    const std::vector<LockedState>& distinct)
 {
   out = {};
   out.searches = static_cast<int>(found.size());
-  out.distinct = static_cast<int>(distinct);
+  out.distinct = static_cast<int>(distinct.size());
+  out.seen_once = static_cast<int>(
+      std::ranges::count_if(distinct, [](const LockedState& state) { return state.count == 1; }));
   const double furthest = reached(m, task, found[best].locked.state);
   const double same = compared_to + further_than(settings);
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -81,7 +97,7 @@ void enter_searches(Confidence& out, const Model& m, const LimitTask& task, cons
   std::sort(out.confirmed_by.begin(), out.confirmed_by.end());
   out.confirmed_by.erase(std::unique(out.confirmed_by.begin(), out.confirmed_by.end()),
                          out.confirmed_by.end());
-  out.word = !out.contradicted_by.empty() ? "contradicted" : out.ended_here > 1 ? "confirmed" : "single";
+  out.word = word_of(out);
 }
 
 void enter_relations(std::vector<LimitResult>& results, const Model& m, const LimitSettings& settings,
@@ -123,9 +139,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
     auto& by = own.confidence.confirmed_by;
     std::sort(by.begin(), by.end());
     by.erase(std::unique(by.begin(), by.end()), by.end());
-    own.confidence.word = !own.confidence.contradicted_by.empty()        ? "contradicted"
-                          : own.confidence.ended_here > 1 || !by.empty() ? "confirmed"
-                                                                         : "single";
+    own.confidence.word = word_of(own.confidence);
   }
 }
 

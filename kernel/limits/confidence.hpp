@@ -8,9 +8,11 @@ namespace hauberk {
 /// Values that differ by more than their error estimates and this (scaled) are different.
 inline constexpr double compared_to = 1e-7;
 
-/// Fills the confidence of a limit whose state is that of `found[best]` from all that was found.
+/// Fills the confidence of a limit whose state is that of `found[best]` from all that was found, and the
+/// `distinct` states among it.
 void enter_searches(Confidence& out, const Model& model, const LimitTask& task, const LimitSettings& settings,
-                    const std::vector<FoundState>& found, std::size_t best, std::size_t distinct);
+                    const std::vector<FoundState>& found, std::size_t best,
+                    const std::vector<LockedState>& distinct);
 
 /// Compares limits that must agree, and enters into the confidence of each what confirms and what contradicts
 /// it:

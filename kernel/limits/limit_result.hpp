@@ -57,7 +57,8 @@ struct FailedSearch {
 /// How far a limit may be taken for the furthest: no search proves that it is, so what was done is told.
 ///
 /// Words: `confirmed`: independent searches ended here, or a relation that must hold between true limits
-/// does; `single`: one search ended here; `contradicted`: a relation that must hold does not, or a search
+/// does; `single`: one search ended here; `unsettled`: confirmed, but more than a tenth of the searches ended
+/// in states that no other came to, so that more of them would come to new ones; `contradicted`: a relation that must hold does not, or a search
 /// that failed came further; `none`: there is no locked state. In partial results also `alone`: the limit's
 /// own searches are done, others may still teach it; and `unfinished`: it was learning from others.
 struct Confidence {
@@ -65,6 +66,7 @@ struct Confidence {
   int searches = 0;    ///< all of them
   int ended_here = 0;  ///< of these, at the value that is reported
   int distinct = 0;    ///< locked states of the fabric that were found
+  int seen_once = 0;   ///< of these, those that one search alone came to
   std::vector<std::string> confirmed_by, contradicted_by;
   std::vector<FailedSearch> failed_searches;
 

@@ -105,7 +105,7 @@ LimitResult summarize(const Model& m, const SceneSpec& spec, const LimitTask& ta
   }
   if (sound_best) stand_for_equals(r.starts, m, task, found[best]);
   r.better_state = sound_best && best != 0;
-  if (sound_best) enter_searches(r.confidence, m, task, settings, found, best, r.starts.size());
+  if (sound_best) enter_searches(r.confidence, m, task, settings, found, best, r.starts);
   return r;
 }
 

@@ -65,8 +65,8 @@ std::vector<double> endless(const std::vector<LimitResult>& limits, Quantity qua
   return out;
 }
 
-/// Directions in which a limit that makes up `quantity` is contradicted, or is a compression that one search
-/// alone ended at.
+/// Directions in which a limit that makes up `quantity` is contradicted, or searches do not settle which state
+/// is the furthest.
 std::vector<double> doubtful(const std::vector<LimitResult>& limits, Quantity quantity,
                              const PlotLabels& labels)
 {
@@ -74,7 +74,8 @@ std::vector<double> doubtful(const std::vector<LimitResult>& limits, Quantity qu
   for (const LimitResult& limit : limits) {
     const bool part = quantity == &ProfilePoint::eta ||
                       limit.sense == (quantity == &ProfilePoint::e_s ? labels.positive : labels.negative);
-    const bool doubt = limit.confidence.word == "contradicted" || limit.confidence.word == "single";
+    const std::string& word = limit.confidence.word;
+    const bool doubt = word == "contradicted" || word == "single" || word == "unsettled";
     const double degrees = reduced(limit.direction.degrees());
     if (limit.direction.is_angle() && part && doubt &&
         std::find(out.begin(), out.end(), degrees) == out.end())

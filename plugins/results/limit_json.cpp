@@ -36,6 +36,7 @@ json::object confidence_json(const Confidence& confidence)
   out["searches"] = confidence.searches;
   out["ended_here"] = confidence.ended_here;
   out["distinct"] = confidence.distinct;
+  out["seen_once"] = confidence.seen_once;
   out["confirmed_by"] = json::value_from(confidence.confirmed_by);
   out["contradicted_by"] = json::value_from(confidence.contradicted_by);
   json::array& failed = out["failed_searches"].emplace_array();

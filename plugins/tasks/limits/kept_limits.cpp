@@ -18,6 +18,7 @@ Confidence read_confidence(const json::value& entry)
   c.searches = entry.at("searches").to_number<int>();
   c.ended_here = entry.at("ended_here").to_number<int>();
   c.distinct = entry.at("distinct").to_number<int>();
+  c.seen_once = entry.at("seen_once").to_number<int>();
   for (const json::value& by : entry.at("confirmed_by").as_array()) c.confirmed_by.push_back(text_of(by));
   for (const json::value& by : entry.at("contradicted_by").as_array())
     c.contradicted_by.push_back(text_of(by));

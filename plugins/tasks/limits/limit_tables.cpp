@@ -18,6 +18,7 @@ std::string mark(const LimitResult& l)
 {
   if (l.confidence.word == "contradicted") return "!";
   if (l.confidence.word == "single") return "?";
+  if (l.confidence.word == "unsettled") return "~";
   return l.better_state ? "*" : "";
 }
 
@@ -50,6 +51,8 @@ std::string limits_table(const Experiment& experiment, const RunResult& run)
   };
   if (marked("*")) text += "* further than where the first start from rest led\n";
   if (marked("?")) text += "? one search alone ended there; more starts tell more\n";
+  if (marked("~"))
+    text += "~ many searches ended where no other did; more starts may find a state that is further\n";
   if (marked("!")) {
     text += "! contradicted:\n";
     for (const LimitResult& l : run.limits) {

@@ -1,6 +1,8 @@
 /// Searches beyond the first, of limits whose searches from rest do not agree.
 
 #include "limits/further_searches.hpp"
+
+#include "limits/confidence.hpp"
 #include "limits/search_memory.hpp"
 #include "thin_sheet.hpp"
 
@@ -13,6 +15,36 @@
 
 namespace hauberk::test {
 namespace {
+
+/// The word for searches that all ended at one value, in so many states.
+std::string word_of(const std::vector<int>& counts)
+{
+  const ThinSheet s;
+  std::vector<FoundState> found;
+  std::vector<LockedState> states;
+  for (const int count : counts) {
+    LockedState state;
+    state.count = count;
+    states.push_back(state);
+    FoundState one;
+    one.locked.status = LockStatus::locked;
+    one.locked.state = rest_state(s.model);
+    found.insert(found.end(), static_cast<std::size_t>(count), one);
+  }
+  Confidence out;
+  enter_searches(out, s.model, s.task, s.settings, found, 0, states);
+  EXPECT_EQ(out.seen_once, std::count(counts.begin(), counts.end(), 1));
+  return out.word;
+}
+
+TEST(Confidence, IsUnsettledWhereManySearchesEndInStatesOfTheirOwn)
+{
+  EXPECT_EQ(word_of({22}), "confirmed");
+  EXPECT_EQ(word_of({20, 1, 1}), "confirmed");
+  EXPECT_EQ(word_of({17, 1, 1}), "unsettled") << "two of nineteen";
+  EXPECT_EQ(word_of({3, 1}), "confirmed") << "one search that went astray";
+  EXPECT_EQ(word_of({1}), "single");
+}
 
 /// A result of searches that ended so often in each of some states, the furthest first.
 LimitResult ended(const std::vector<int>& counts, int failed = 0)

@@ -53,15 +53,21 @@ bool independent(const LimitResult& a, const LimitResult& b)
 
 /// One more search ends in a state that none has come to with about the probability (states seen once)/(all
 /// searches) (I. J. Good, The population frequencies of species, Biometrika 40, 1953). Above this the
-/// furthest state is one of an open number. A single such state may be any search's mishap.
+/// furthest state is one of an open number. A single such state may be any search's mishap, and of few
+/// searches the estimate says nothing.
 constexpr double settled_share = 0.1;
-constexpr int mishaps = 1;
+constexpr int mishaps = 1, fewest_searches = 10;
+
+bool is_settled(const Confidence& c)
+{
+  return c.searches < fewest_searches || c.seen_once <= mishaps || c.seen_once <= settled_share * c.searches;
+}
 
 std::string word_of(const Confidence& c)
 {
   if (!c.contradicted_by.empty()) return "contradicted";
   if (c.ended_here < 2 && c.confirmed_by.empty()) return "single";
-  return c.seen_once > mishaps && c.seen_once > settled_share * c.searches ? "unsettled" : "confirmed";
+  return is_settled(c) ? "confirmed" : "unsettled";
 }
 
 }  // namespace

@@ -42,7 +42,9 @@ TEST(Confidence, IsUnsettledWhereManySearchesEndInStatesOfTheirOwn)
   EXPECT_EQ(word_of({22}), "confirmed");
   EXPECT_EQ(word_of({20, 1, 1}), "confirmed");
   EXPECT_EQ(word_of({17, 1, 1}), "unsettled") << "two of nineteen";
-  EXPECT_EQ(word_of({3, 1}), "confirmed") << "one search that went astray";
+  EXPECT_EQ(word_of({3, 1, 1, 1}), "confirmed") << "too few to tell";
+  EXPECT_EQ(word_of({8, 1}), "confirmed") << "one search that went astray";
+  EXPECT_EQ(word_of({8, 1, 1}), "unsettled");
   EXPECT_EQ(word_of({1}), "single");
 }
 

@@ -78,11 +78,13 @@ struct ReportedStates {
 };
 /// How thoroughly the states of a design that meets its targets are looked for from rest.
 enum class Look {
-  usual,            ///< as those of other iterates
-  quick,            ///< by a few searches of each limit: a coarse search only has to end near a design
-  whole,            ///< by all that reported limits have
-  until_exceeded,   ///< the same, as long as no target is exceeded, which states further on would not mend
-  quick_then_whole  ///< quickly, and until_exceeded where that leads to no other values than the targets
+  usual,           ///< as those of other iterates
+  quick,           ///< by a few searches of each limit: a coarse search only has to end near a design
+  whole,           ///< by all that reported limits have
+  until_exceeded,  ///< the same, as long as no target is exceeded, which states further on would not mend
+  /// quickly; where that leads to no other values than the targets, until_exceeded; whole where that ended
+  /// early and the targets are met all the same
+  quick_then_whole
 };
 /// Computes the limits of a design, given with its relaxed rest: as they are reported (Look::whole; whoever
 /// asks for it again at the end of a search can have kept them), as far as a search has use for them

@@ -88,15 +88,17 @@ long DesignJournal::search_again(DesignPoint& p) const
     return cost;
   }
   std::set<int> changed;
+  bool evaluated = false;
   for (const Look with : {Look::quick, Look::until_exceeded, Look::whole}) {
     // Values of a report and of the search differ by what their stages leave: one may exceed a target that
     // the other meets.
     if (with == Look::whole && !p.looked_in_part) break;
     if (!solve(with)) continue;
+    evaluated = true;
     changed.insert(p.changed.begin(), p.changed.end());
     if (!meets_targets(scene_->design, p.values)) break;
   }
-  p.changed.assign(changed.begin(), changed.end());
+  if (evaluated) p.changed.assign(changed.begin(), changed.end());
   p.look = look;
   return cost;
 }

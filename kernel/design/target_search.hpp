@@ -75,7 +75,8 @@ class TargetSearch {
   /// The continuation of a state of another design from its tightest stage that can be followed.
   bool lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,
                          const std::vector<WarmStart>& warm, LockedTarget& out) const;
-  /// Where the limits of a design lock, per task, by the searches of its look (DesignScene::report).
+  /// Where the limits of a design lock, per task, by the searches of its look (DesignScene::report);
+  /// p tells whether that ended early.
   std::vector<std::optional<State>> reported_states(DesignPoint& p, long& evaluations) const;
   /// Targets learn from each other as limits do (compute_limits): each is locked again from the state of
   /// another that is further along its direction and keeps what it holds, until there is none.

@@ -113,8 +113,8 @@ class Path {
     return choice_ == ContactChoice::automatic && plan.formulation == Formulation::nearest;
   }
 
-  /// A stage of `arc`: where there are flat tubes over ribbons, which is entered, unless that gives up or, as
-  /// the last stage, leaves forces that do not balance.
+  /// A stage of `arc`: where there are flat tubes over ribbons, which is entered, unless these were blocked
+  /// once, or that gives up, is blocked, or, as the last stage, leaves forces that do not balance.
   StageResult attempt_with_arc(const State& before, PlannedStage& arc)
   {
     if (!flat_tubes_ || blind_) return attempt(before, arc);
@@ -253,8 +253,8 @@ class Path {
     out_.evaluations = evaluations;
   }
 
-  /// True where the last stage is one of `arc` over surfaces and those before it were over ribbons: the two
-  /// come to a limit from other distances.
+  /// Whether the last stage may be one of `arc` over surfaces and those before it over ribbons, as with flat
+  /// tubes: the two come to a limit from other distances.
   bool ends_over_other_places() const
   {
     const std::size_t n = out_.stages.size();

@@ -51,16 +51,17 @@ bool independent(const LimitResult& a, const LimitResult& b)
   return own && other && *own != *other;
 }
 
-/// One more search ends in a state that none has come to with about the probability (states seen once)/(all
-/// searches) (I. J. Good, The population frequencies of species, Biometrika 40, 1953). Above this the
-/// furthest state is one of an open number. A single such state may be any search's mishap, and of few
-/// searches the estimate says nothing.
+/// One more search ends in a state that none has come to with about the probability (states seen
+/// once)/(searches that locked) (I. J. Good, The population frequencies of species, Biometrika 40, 1953).
+/// Above this the furthest state is one of an open number. A single such state may be any search's mishap,
+/// and of few searches the estimate says nothing.
 constexpr double settled_share = 0.1;
 constexpr int mishaps = 1, fewest_searches = 10;
 
 bool is_settled(const Confidence& c)
 {
-  return c.searches < fewest_searches || c.seen_once <= mishaps || c.seen_once <= settled_share * c.searches;
+  const auto locked = c.searches - static_cast<int>(c.failed_searches.size());
+  return locked < fewest_searches || c.seen_once <= mishaps || c.seen_once <= settled_share * locked;
 }
 
 std::string word_of(const Confidence& c)

@@ -14,9 +14,7 @@ bool searches_agree(const LimitResult& result)
 {
   const Confidence& c = result.confidence;
   if (result.status != LimitStatus::locked || !c.failed_searches.empty()) return false;
-  const bool alone = std::any_of(result.starts.begin(), result.starts.end(),
-                                 [](const LockedState& state) { return state.count == 1; });
-  return !alone && c.ended_here >= share_that_agrees * c.searches;
+  return c.seen_once == 0 && c.ended_here >= share_that_agrees * c.searches;
 }
 
 FurtherSearches::FurtherSearches(const Model& model, const TaskSearches& searches)

@@ -57,11 +57,11 @@ struct FailedSearch {
 /// How far a limit may be taken for the furthest: no search proves that it is, so what was done is told.
 ///
 /// Words: `confirmed`: independent searches ended here, or a relation that must hold between true limits
-/// does; `single`: one search ended here; `unsettled`: confirmed, but more than a tenth of ten searches or
-/// more ended in states that no other came to, so that more of them would come to new ones; `contradicted`: a
-/// relation that must hold does not, or a search that failed came further; `none`: there is no locked state.
-/// In partial results also `alone`: the limit's own searches are done, others may still teach it; and
-/// `unfinished`: it was learning from others.
+/// does; `single`: one search ended here; `unsettled`: confirmed, but of ten or more that locked
+/// several, and more than a tenth, did so in states that no other came to, so that more searches would come
+/// to new ones; `contradicted`: a relation that must hold does not, or a search that failed came further;
+/// `none`: there is no locked state. In partial results also `alone`: the limit's own searches are done,
+/// others may still teach it; and `unfinished`: it was learning from others.
 struct Confidence {
   std::string word = "none";
   int searches = 0;    ///< all of them

@@ -146,9 +146,9 @@ struct LimitsObserver {
   std::function<void(const std::vector<LimitResult>&)> on_limit;
   /// At the end: the furthest locked state of every task that was asked for; null where there is none.
   std::function<void(const std::vector<std::optional<State>>&)> on_states;
-  /// When all searches from rest are done, and before each kind of searches that begin from other states, and
-  /// each round of lessons: true where what was found decides what it was wanted for; then nothing more is
-  /// searched for. A function of the results alone, on which all that follows depends.
+  /// Where limits learn: after the first searches from rest, before scenes within, and before each round of
+  /// lessons. True where what was found decides what it was wanted for: then nothing more is searched for. A
+  /// function of the results alone, on which all that follows depends.
   std::function<bool(const std::vector<LimitResult>&)> is_enough;
   /// At the end: limits that were solved for their states alone and are not reported (company, scenes
   /// that this one contains).

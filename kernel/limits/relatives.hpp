@@ -13,14 +13,14 @@ namespace hauberk {
 
 /// A scene under a load case that another one contains.
 struct Relative {
-  std::string name;  ///< what it holds more: "z fixed", "one cell", "2 x 1 cells"
+  std::string name;  ///< what it holds more ("z fixed"), or of which cells it is ("2 x 1 cells")
   SceneSpec scene;
   std::shared_ptr<const LoadCase> load;  ///< null: the same
 };
 
 /// Those of a scene as it is simulated: the same elements under each stricter load case
-/// (LoadCase::stricter), and, where the cell is one repeated and all its copies are alike, the cells that this
-/// one repeats a prime number of times along one axis.
+/// (LoadCase::stricter), and, where the cell is one repeated and all its copies are alike, the cells that
+/// this one repeats a prime number of times along one axis.
 std::vector<Relative> relatives(const Model& model, const SceneSpec& spec);
 
 /// Whether every state of a scene is one of another one, up to where its rest is: the same elements at the

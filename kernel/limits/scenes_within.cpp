@@ -63,7 +63,7 @@ std::vector<std::size_t> ScenesWithin::enter(const Outer& outer, std::vector<Sce
     s.model = make_model(s.spec, s.load ? *s.load : *model_.load, model_.clearance * model_.length);
     s.settings = settings_;
     s.settings.given.clear();
-    if (s.spec.elements.size() == spec_.elements.size())  // one cell of many costs little
+    if (s.spec.elements.size() == spec_.elements.size())  // those with fewer cost less
       s.settings.fold_starts = std::max(1, s.settings.fold_starts / share_of_unreported);
     s.settings.inherit = false;  // it is given what scenes within it lock in
     s.settings.schedule.last = std::max(s.settings.schedule.last, last_of_unreported);

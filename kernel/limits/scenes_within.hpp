@@ -1,7 +1,7 @@
 #pragma once
 /// What limits inherit: each begins once more from where the same limit locks in every scene that its own
 /// contains (relatives.hpp). Those scenes have lessons and company as by themselves, and of the searches from
-/// rest a share (rest_searches.hpp).
+/// rest a share (rest_searches.hpp), those with fewer elements all of them.
 
 #include "limits/limits.hpp"
 

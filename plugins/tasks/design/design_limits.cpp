@@ -98,7 +98,7 @@ LimitsReport DesignLimits::report(const RunContext& context, const DesignSpec& d
 {
   return [this, &context, &design](const SceneSpec& scene, Look look) {
     ReportedScene of = with_open_gaps(scene);
-    if (const Reported* known = find(of.scene, look)) return known->states;
+    if (const Reported* known = find(of.scene, look, &design)) return known->states;
     if (look == Look::quick) of.settings = quick(std::move(of.settings));
     LimitsJob job = this->job(context, "limits of what the search may end with", of);
     job.tasks.resize(targets_);
@@ -124,11 +124,13 @@ LimitsReport DesignLimits::report(const RunContext& context, const DesignSpec& d
   };
 }
 
-const DesignLimits::Reported* DesignLimits::find(const SceneSpec& scene, Look look) const
+const DesignLimits::Reported* DesignLimits::find(const SceneSpec& scene, Look look,
+                                                 const DesignSpec* design) const
 {
   const auto known = std::ranges::find_if(reported_, [&](const Reported& reported) {
     const bool so_looked_at =
-        reported.look == look || (look == Look::until_exceeded && reported.look == Look::whole);
+        reported.look == look || (look == Look::until_exceeded && reported.look == Look::whole &&
+                                  !exceeds_targets(*design, reported.limits));
     return so_looked_at && same_design(reported.states.scene, scene);
   });
   return known == reported_.end() ? nullptr : &*known;

@@ -56,8 +56,9 @@ class DesignLimits {
     std::vector<LimitResult> limits;
   };
 
-  /// Null: there is none of this scene.
-  const Reported* find(const SceneSpec& scene, Look look) const;
+  /// Null: there is none of this scene. A whole look stands for one that ends where a target is exceeded if
+  /// none is, so that what is found does not depend on which of them was asked for first.
+  const Reported* find(const SceneSpec& scene, Look look, const DesignSpec* design = nullptr) const;
 
   const Prepared& prepared_;
   std::size_t targets_;

@@ -88,7 +88,7 @@ TEST(Look, GoesOnWhereItEndedThoughTheDesignMeetsItsTargets)
   EXPECT_EQ(f.asked, (std::vector<Look>{Look::quick, Look::until_exceeded, Look::whole}));
 }
 
-/// A limit that a report has already is too far for its target, and one that it has not is none.
+/// A limit that is too far for its target already; others, and those that are not locked, may still be met.
 TEST(Look, HasSeenEnoughWhereATargetIsExceeded)
 {
   DesignSpec d = Folding::design();
@@ -111,8 +111,7 @@ TEST(Look, HasSeenEnoughWhereATargetIsExceeded)
   EXPECT_TRUE(exceeds_targets(d, {pushed(-0.1), pushed(-0.502)}));
   d.targets[1].aim = Aim::reach;
   d.tolerance.reset();
-  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.9), pushed(-0.9)}))
-      << "nothing meets a target without tolerance";
+  EXPECT_FALSE(exceeds_targets(d, {pushed(-0.9), pushed(-0.9)})) << "without a tolerance nothing is exceeded";
 
   d.quantity = DesignQuantity::eta;
   d.tolerance = 0.05;

@@ -59,6 +59,7 @@ LimitResult ended(const std::vector<int>& counts, int failed = 0)
     state.count = count;
     out.starts.push_back(state);
     out.confidence.searches += count;
+    out.confidence.seen_once += count == 1 ? 1 : 0;
   }
   out.confidence.ended_here = counts.front();
   out.confidence.searches += failed;
@@ -190,7 +191,7 @@ TEST(Refolding, IsPartOfALimit)
 }
 
 /// Whoever wants to know whether a limit is further than something needs no search beyond the first that
-/// shows it; searches from rest are made in any case, so that this depends on nothing else.
+/// shows it; the first searches from rest are made in any case, so that this depends on nothing else.
 TEST(FurtherSearches, AreNotMadeWhereWhatWasFoundIsEnough)
 {
   const ThinSheet s;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hauberk {
@@ -35,7 +36,23 @@ class Approach {
     out_.state = start;
   }
 
+  /// Ribbons of flat tubes know one of two nearest places of a cross-section, and steps are cut at the other:
+  /// where they do not come there, surfaces may.
   Locked run()
+  {
+    const bool ribbons = stage_.contact.formulation == Formulation::arc &&
+                         stage_.contact.sides == Sides::ribbon &&
+                         std::ranges::any_of(m_.bodies, [](const Body& b) { return b.is_ellipse(); });
+    const State start = out_.state;
+    Locked found = draw();
+    if (!ribbons || found.status != LockStatus::stalled) return found;
+    stage_.contact.sides = Sides::one;
+    out_.state = start;
+    return draw();
+  }
+
+ private:
+  Locked draw()
   {
     for (double stiffness = first_tether; stiffness <= most_tether; stiffness *= stiffer) {
       if (step_in()) return finish(LockStatus::locked, "");
@@ -53,7 +70,6 @@ class Approach {
                                                    missed(load_.held, out_.state.macro)));
   }
 
- private:
   bool step_in()
   {
     Vector dy = Vector::Zero(m_.dofs());
@@ -71,7 +87,7 @@ class Approach {
   {
     out_.status = status;
     out_.message = std::move(message);
-    return std::move(out_);
+    return out_;
   }
 
   const Model& m_;

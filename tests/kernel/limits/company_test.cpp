@@ -105,6 +105,21 @@ TEST(Company, OthersHaveNone)
   EXPECT_EQ(sheet.searches({at(10.0, Sense::positive)}), Texts{"10 degrees, +, 1"});
 }
 
+/// A random load leads where the shear is not zero, from where a tether brings the fabric back; ribbons of
+/// these tubes do not see all that is in its way.
+TEST(RandomLoads, OfTallTubesComeBackToWhatIsHeld)
+{
+  const InPlanePeriodic load(StrainMeasure::tensor, Out{}, held_shear);
+  const Model model = make_model(tall_tubes(), load, 0.098);
+  LimitSettings settings;
+  settings.schedule.last = 1e-3;
+  for (int number = 12; number < 18; ++number) {
+    const Locked found =
+        limit_from_random_load(model, at(45.0, Sense::negative), settings, number, uninterrupted);
+    EXPECT_EQ(found.status, LockStatus::locked) << number << ": " << found.message;
+  }
+}
+
 /// A search ends at the first step past what it may have, wherever that is, and is no locked state.
 TEST(Allowance, EndsASearchAndIsKept)
 {

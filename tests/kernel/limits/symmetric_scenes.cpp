@@ -87,6 +87,27 @@ SceneSpec fourfold()
   return s;
 }
 
+SceneSpec tall_tubes()
+{
+  constexpr double eighth = 0.25 * std::numbers::pi;
+  const Vec3 x(eighth, 0, 0), y(0, eighth, 0);
+  SceneSpec s;
+  s.types.push_back({"cross", cross()});
+  const auto place = [&s](double R, double r0, double r1, const Vec3& at, const Vec3& turn) {
+    std::vector<double> p;
+    for (int ring = 0; ring < 3; ++ring) p.insert(p.end(), {R, r0, r1});
+    s.elements.push_back({0, p, {at, rotation_exp(turn)}});
+  };
+  place(5.24071763, 0.35, 0.823876029, Vec3(0.529295829, 0, 0), Vec3::Zero());
+  place(4.80942396, 0.35, 1.59338083, Vec3(7.87286064, 0, 0), x);
+  place(4.9752623, 0.35, 1.71930285, Vec3(0.655890028, 7.493, 0), y);
+  place(5.23688775, 0.35, 1.11518028, Vec3(14.7318551, 0, 0), Vec3::Zero());
+  place(5.19765349, 0.35, 0.8618115, Vec3(21.3155826, 0, 0), x);
+  place(4.83820563, 0.405876043, 1.33897609, Vec3(14.8385158, 7.493, 0), y);
+  s.lattice = {Vec3(29.972, 0, 0), Vec3(0, 14.986, 0)};
+  return s;
+}
+
 SceneSpec japanese(bool triangular)
 {
   constexpr double R = 4.9, quarter = 0.5 * std::numbers::pi;

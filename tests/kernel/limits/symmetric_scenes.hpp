@@ -12,6 +12,10 @@ SceneSpec repeated(const SceneSpec& cell, int m, int n);
 /// lattice (share/weaves/fourfold.json), R 5, r 0.815.
 SceneSpec fourfold();
 
+/// Six elements of three rings each that a design made, with tubes up to five times as tall as wide
+/// (tests/experiments/scenes/tall_tubes.json).
+SceneSpec tall_tubes();
+
 /// Flat rings on a square or triangular lattice, neighbours joined by upright ones (share/weaves), R 4.9, r
 /// 0.7.
 SceneSpec japanese(bool triangular);

@@ -65,8 +65,8 @@ std::vector<double> endless(const std::vector<LimitResult>& limits, Quantity qua
   return out;
 }
 
-/// Directions in which a limit that makes up `quantity` is contradicted, or searches do not settle which state
-/// is the furthest.
+/// Directions in which a limit that makes up `quantity` is contradicted, or searches do not settle which
+/// state is the furthest.
 std::vector<double> doubtful(const std::vector<LimitResult>& limits, Quantity quantity,
                              const PlotLabels& labels)
 {

@@ -52,7 +52,7 @@ class Path {
         size_(load_size(m, load)),
         most_evaluations_(schedule.most_evaluations)
   {
-    flat_tubes_ = std::any_of(m.bodies.begin(), m.bodies.end(), [](const Body& b) { return b.is_ellipse(); });
+    flat_tubes_ = has_flat_tubes(m);
     out_.state = start;
     if (schedule.keep_path) out_.path.push_back(start);
     arc_to_the_end_ = choice == ContactChoice::arc;
@@ -328,6 +328,11 @@ class Path {
 };
 
 }  // namespace
+
+bool has_flat_tubes(const Model& m)
+{
+  return std::ranges::any_of(m.bodies, [](const Body& b) { return b.is_ellipse(); });
+}
 
 Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Schedule& schedule,
                     const PlannedStage& plan)

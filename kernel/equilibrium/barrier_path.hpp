@@ -5,6 +5,9 @@
 
 namespace hauberk {
 
+/// Whether there are tubes that ribbons (Sides::ribbon) are of.
+bool has_flat_tubes(const Model& model);
+
 /// A planned stage of a schedule for a load of this size.
 Stage barrier_stage(const Model& model, double load_size, ContactChoice choice, const Schedule& schedule,
                     const PlannedStage& plan);

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace hauberk {
@@ -41,8 +40,7 @@ class Approach {
   Locked run()
   {
     const bool ribbons = stage_.contact.formulation == Formulation::arc &&
-                         stage_.contact.sides == Sides::ribbon &&
-                         std::ranges::any_of(m_.bodies, [](const Body& b) { return b.is_ellipse(); });
+                         stage_.contact.sides == Sides::ribbon && has_flat_tubes(m_);
     const State start = out_.state;
     Locked found = draw();
     if (!ribbons || found.status != LockStatus::stalled) return found;

@@ -43,6 +43,15 @@ LimitSettings few()
   return s;
 }
 
+/// Each by itself.
+LimitSettings many_starts()
+{
+  LimitSettings s = few();
+  s.lessons = false;
+  s.starts = 32;
+  return s;
+}
+
 LimitResult compressed(const SceneSpec& scene, const LoadCase& load, double angle,
                        const LimitSettings& settings)
 {
@@ -204,9 +213,7 @@ TEST(Relatives, StatesWithMoreHeldLeadOn)
 TEST(Relatives, ACellIsInItsMultiples)
 {
   const InPlanePeriodic load = sheet(shear);
-  LimitSettings starts = few();
-  starts.lessons = false;
-  starts.starts = 32;
+  LimitSettings starts = many_starts();
   const double cell = *compressed(loose(1, 1), load, 45.0, starts).value;
   starts.starts = 1;
   ASSERT_GT(*compressed(loose(3, 1), load, 45.0, starts).value, cell + 1e-2) << "this scene tests nothing";
@@ -239,9 +246,7 @@ TEST(Relatives, ACellIsInItsMultiplesStepByStep)
 TEST(Relatives, TwoCellsAreInFour)
 {
   const InPlanePeriodic load = sheet(shear);
-  LimitSettings starts = few();
-  starts.lessons = false;
-  starts.starts = 32;
+  LimitSettings starts = many_starts();
   const double one = *compressed(loose(1, 1), load, 20.0, starts).value;
   const double two = *compressed(loose(2, 1), load, 20.0, starts).value;
   ASSERT_LT(two, one - 1e-2) << "this scene tests nothing";
@@ -261,9 +266,7 @@ TEST(Relatives, GivenStatesAreBegunFrom)
   const SceneSpec scene = loose(1, 1);
   const Model m = make_model(scene, load, 0.0);
   const LimitTask task{Direction::at_degrees(45.0), Sense::negative};
-  LimitSettings starts = few();
-  starts.lessons = false;
-  starts.starts = 32;
+  LimitSettings starts = many_starts();
   std::vector<std::optional<State>> states;
   LimitsObserver observer;
   observer.on_states = [&states](const auto& found) { states = found; };

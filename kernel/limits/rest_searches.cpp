@@ -82,13 +82,13 @@ RestSearches beside(const Model& model, const LimitTask& task, const LimitSettin
 /// Of the evaluations from rest, what another search of a taut limit may have, and what any may.
 constexpr long allowed = 4, always_allowed = 500'000;
 
-/// Whether another of the tasks is within `apart` degrees.
-bool has_company(const LimitTask& task, const std::vector<LimitTask>& tasks, double apart)
+/// Whether another of the tasks is within |by| degrees on the side that `by` is on. Directions are lines.
+bool has_company(const LimitTask& task, const std::vector<LimitTask>& tasks, double by)
 {
   return std::any_of(tasks.begin(), tasks.end(), [&](const LimitTask& o) {
     if (!o.direction.is_angle() || o.sense != task.sense) return false;
-    const double to = std::abs(o.direction.degrees() - task.direction.degrees());
-    return to > 0.0 && to <= apart + 1e-9;
+    const double to = std::remainder(o.direction.degrees() - task.direction.degrees(), 180.0);
+    return to * by > 0.0 && std::abs(to) <= std::abs(by) + 1e-9;
   });
 }
 
@@ -129,8 +129,8 @@ std::vector<RestSearches> rest_searches(const Model& model, const std::vector<Li
     return one_axis || !task.direction.is_angle() || bounded_by_links(model, task) != Boundedness::attained;
   };
   const auto add_beside = [&](const LimitTask& task, double by, bool sparing) {
-    if (has_company(task, tasks, by)) return;
     for (const double angle : {-by, by}) {
+      if (has_company(task, tasks, angle)) continue;
       RestSearches searches =
           beside(model, {Direction::at_degrees(task.direction.degrees() + angle), task.sense}, settings);
       if (sparing) searches.sparing_from = 0;

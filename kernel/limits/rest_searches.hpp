@@ -39,11 +39,10 @@ long allowance(long evaluations);
 /// Those that are asked for, in their order, then their company, as far as limits learn from each other and
 /// `settings.neighbours` is not 0; only limits that links bound have company and are company.
 ///
-/// Beside: a limit at an angle that has no other of its sense within `settings.neighbours` has two at that
-/// angle to either side; compressions of periodic cells also two at half of it where they have none within
-/// that, and theirs have a quarter of the starts. Taut limits
-/// have them as far as they learn from them (learns_beside). Across: a taut limit that begins again has the
-/// other sense at right angles, and in small cells another start of its own.
+/// Beside: a limit at an angle has one at `settings.neighbours` degrees on each side on which no other of its
+/// sense is within that; compressions of periodic cells also one at half of it, likewise, and theirs have a
+/// quarter of the starts. Taut limits have them as far as they learn from them (learns_beside). Across: a taut
+/// limit that begins again has the other sense at right angles, and in small cells another start of its own.
 std::vector<RestSearches> rest_searches(const Model& model, const std::vector<LimitTask>& tasks,
                                         const LimitSettings& settings);
 

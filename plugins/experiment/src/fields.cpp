@@ -194,10 +194,10 @@ Field solver_field()
                at_least(
                    number(
                        "neighbours",
-                       "A limit at an angle without another of its sense within this many degrees learns from "
-                       "limits that far to either side, which are not reported; a compression without one "
-                       "within half of that also from limits that far, a stretch of a sheet also from the "
-                       "compression across. 0: none.",
+                       "On each side without another of its sense within this many degrees a limit at an "
+                       "angle learns from one that far, which is not reported; a compression also from one "
+                       "at half of that, likewise, a stretch of a sheet also from the compression across. "
+                       "0: none.",
                        "degree"),
                    0.0),
                "20"),

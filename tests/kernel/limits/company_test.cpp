@@ -57,20 +57,27 @@ TEST(Company, StretchesOfSheetsHaveItBesideAndAcross)
                    "30 degrees, +, 1, sparing from 0", "-80 degrees, -, 1, sparing from 0"};
   EXPECT_EQ(Fabric(japanese(false), held_shear).searches({at(10.0, Sense::positive)}), lone);
   EXPECT_EQ(Fabric(japanese(false), held_nothing).searches({at(10.0, Sense::positive)}), lone);
-  // Of two within 20 degrees each has the other; 100 degrees pushed together is asked for with all its
-  // starts.
+  // Of two within 20 degrees each has the other on that side; 100 degrees pushed together is asked for with
+  // all its starts.
   const Texts three =
       Fabric(japanese(false), held_shear)
           .searches({at(10.0, Sense::positive), at(25.0, Sense::positive), at(100.0, Sense::negative)});
   EXPECT_EQ(three, (Texts{"10 degrees, +, 2, sparing from 1", "25 degrees, +, 2, sparing from 1",
                           "100 degrees, -, 25", "90 degrees, -, 7", "110 degrees, -, 7", "80 degrees, -, 7",
-                          "120 degrees, -, 7", "-65 degrees, -, 1, sparing from 0"}));
-  // Compressions that are 15 degrees apart have others between them.
+                          "120 degrees, -, 7", "-10 degrees, +, 1, sparing from 0",
+                          "45 degrees, +, 1, sparing from 0", "-65 degrees, -, 1, sparing from 0"}));
+  // Compressions that are 15 degrees apart have others between them. Directions are lines: 165 degrees are 15
+  // from 0.
   const Texts pushed =
       Fabric(japanese(false), held_shear)
           .searches({at(100.0, Sense::negative), at(115.0, Sense::negative), at(125.0, Sense::negative)});
   EXPECT_EQ(pushed, (Texts{"100 degrees, -, 25", "115 degrees, -, 25", "125 degrees, -, 25",
-                           "90 degrees, -, 7", "110 degrees, -, 7"}));
+                           "90 degrees, -, 7", "110 degrees, -, 7", "80 degrees, -, 7", "105 degrees, -, 7",
+                           "135 degrees, -, 7", "145 degrees, -, 7"}));
+  EXPECT_EQ(Fabric(japanese(false), held_shear).searches({at(0.0, Sense::positive), at(165.0, Sense::positive)}),
+            (Texts{"0 degrees, +, 2, sparing from 1", "165 degrees, +, 2, sparing from 1",
+                   "20 degrees, +, 1, sparing from 0", "90 degrees, -, 1, sparing from 0",
+                   "145 degrees, +, 1, sparing from 0", "75 degrees, -, 1, sparing from 0"}));
   // In large cells what is held is broken by states of other directions.
   EXPECT_EQ(Fabric(repeated(japanese(false), 3, 2), held_shear).searches({at(10.0, Sense::positive)}),
             (Texts{"10 degrees, +, 1", "-80 degrees, -, 1, sparing from 0"}));

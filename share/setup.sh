@@ -4,6 +4,7 @@
 #   share/setup.sh              packages, then the program and its plugins in build/release
 #   share/setup.sh --no-build   packages only
 #   share/setup.sh --optional   the libraries of optimizers/ipopt and optimizers/pagmo, too
+#   share/setup.sh --judges     PrusaSlicer and admesh, before which tests bring exported files
 #   share/setup.sh --viewer     what `hauberk export` to HTML needs, too: with node and npm, from share/web's lock file
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,12 +27,13 @@ optional_packages=(
   coinor-libipopt-dev pkg-config    # optimizers/ipopt
 )
 
-usage() { sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
-build=yes optional=no viewer=no
+usage() { sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+build=yes optional=no judges=no viewer=no
 for argument in "$@"; do
   case $argument in
     --no-build) build=no ;;
     --optional) optional=yes ;;
+    --judges) judges=yes ;;
     --viewer) viewer=yes ;;
     -h | --help) usage; exit 0 ;;
     *) echo "setup: unknown option '$argument'" >&2; usage >&2; exit 2 ;;
@@ -91,6 +93,7 @@ install_pagmo() {
 }
 
 if [[ $optional == yes ]]; then packages+=("${optional_packages[@]}"); fi
+if [[ $judges == yes ]]; then packages+=(prusa-slicer admesh); fi
 if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
   mapfile -t missing < <(missing_packages)
   if ((${#missing[@]} == 0)); then

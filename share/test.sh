@@ -10,6 +10,7 @@ if command -v npm >/dev/null; then share/setup.sh --no-build --viewer || echo "t
 if command -v npm >/dev/null; then
   (cd tests/judges && npm ci --silent --no-audit --no-fund --ignore-scripts) || echo "test: exported files are not judged by others"
 fi
+if [[ -n ${CI:-} ]]; then share/setup.sh --no-build --judges || echo "test: exported files are not sliced"; fi
 cmake --preset release --log-level=WARNING
 cmake --build --preset release --parallel "$(nproc)"
 ctest --test-dir build/release --output-on-failure --no-tests=error --parallel 2 "$@"

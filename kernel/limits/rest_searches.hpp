@@ -41,8 +41,9 @@ long allowance(long evaluations);
 ///
 /// Beside: a limit at an angle has one at `settings.neighbours` degrees on each side on which no other of its
 /// sense is within that; compressions of periodic cells also one at half of it, likewise, and theirs have a
-/// quarter of the starts. Taut limits have them as far as they learn from them (learns_beside). Across: a taut
-/// limit that begins again has the other sense at right angles, and in small cells another start of its own.
+/// quarter of the starts. Taut limits have them as far as they learn from them (learns_beside). Across: a
+/// taut limit that begins again has the other sense at right angles, and in small cells another start of its
+/// own.
 std::vector<RestSearches> rest_searches(const Model& model, const std::vector<LimitTask>& tasks,
                                         const LimitSettings& settings);
 

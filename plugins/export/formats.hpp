@@ -17,9 +17,15 @@ std::string stl(const Assembly& assembly);
 /// Wavefront OBJ: a group for each copy, named by it; points of copies are written out.
 std::string obj(const Assembly& assembly);
 
-/// 3MF: an object for each mesh, coloured, and an item with a transform for each copy; the unit is kept.
-/// Throws InputError where the program was built without libzip.
-std::string three_mf(const Assembly& assembly);
+/// How 3MF holds an assembly. Slicers lay every item on the bed by itself, at times elsewhere: what is linked
+/// stays so in one object alone.
+enum class Objects {
+  one,      ///< all copies are one mesh, coloured by triangles, whose lowest coordinates the item moves to 0
+  separate  ///< an object for each mesh, an item with its name and place for each copy
+};
+
+/// 3MF; the unit is kept. Throws InputError where the program was built without libzip.
+std::string three_mf(const Assembly& assembly, Objects objects);
 
 /// Binary glTF 2.0: a mesh for each, a node for each copy, named, in metres and with y upwards, as glTF has
 /// it. Where copies are not at rest, an animation of two seconds takes them there from rest, by places and

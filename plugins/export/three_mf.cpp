@@ -8,6 +8,7 @@
 #endif
 
 #include <iterator>
+#include <limits>
 #include <memory>
 
 namespace hauberk::exporting {
@@ -39,16 +40,22 @@ const char* unit_name(const std::string& unit)
   return unit == "m" ? "meter" : unit == "um" ? "micron" : "millimeter";
 }
 
-std::string object_xml(const Assembly& assembly, std::size_t k)
+std::string vertices_xml(const Mesh& mesh)
 {
-  const Mesh& mesh = assembly.meshes[k];
-  std::string out =
-      fmt::format("<object id=\"{}\" name=\"{}\" type=\"model\" pid=\"1\" pindex=\"{}\"><mesh><vertices>\n",
-                  k + 2, escaped(assembly.mesh_names[k]), k);
+  std::string out = "<mesh><vertices>\n";
   for (const Vec3& x : mesh.points)
     fmt::format_to(std::back_inserter(out), "<vertex x=\"{:.9g}\" y=\"{:.9g}\" z=\"{:.9g}\"/>\n", x.x(),
                    x.y(), x.z());
-  out += "</vertices><triangles>\n";
+  return out + "</vertices><triangles>\n";
+}
+
+/// The mesh of one kind of element in its own frame.
+std::string object_xml(const Assembly& assembly, std::size_t k)
+{
+  const Mesh& mesh = assembly.meshes[k];
+  std::string out = fmt::format("<object id=\"{}\" name=\"{}\" type=\"model\" pid=\"1\" pindex=\"{}\">",
+                                k + 2, escaped(assembly.mesh_names[k]), k) +
+                    vertices_xml(mesh);
   for (const auto& t : mesh.triangles)
     fmt::format_to(std::back_inserter(out), "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", t[0], t[1], t[2]);
   return out + "</triangles></mesh></object>\n";
@@ -67,7 +74,48 @@ std::string item_xml(const Assembly::Copy& copy)
                      escaped(copy.name), transform);
 }
 
-std::string model_xml(const Assembly& assembly)
+/// All copies as one mesh, triangles coloured by their kind, and its item, whose transform moves the lowest
+/// coordinates to 0: the format puts what is to be printed there.
+std::string one_object_xml(const Assembly& assembly)
+{
+  Mesh all;
+  std::vector<std::size_t> ends;  // of the triangles of each copy
+  for (const auto& copy : assembly.copies) {
+    append(all, assembly.meshes[copy.mesh], copy.pose.rotation, copy.pose.position);
+    ends.push_back(all.triangles.size());
+  }
+  Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::infinity());
+  for (const Vec3& x : all.points) lowest = lowest.cwiseMin(x);
+  std::string out = fmt::format("<object id=\"2\" name=\"{}\" type=\"model\" pid=\"1\" pindex=\"0\">",
+                                escaped(assembly.name)) +
+                    vertices_xml(all);
+  std::size_t k = 0;
+  for (std::size_t c = 0; c < ends.size(); ++c) {
+    const int colour = assembly.copies[c].mesh;
+    // Corners 2 and 3 have the property of the first where they name none.
+    const std::string property = colour == 0 ? "" : fmt::format(" pid=\"1\" p1=\"{}\"", colour);
+    for (; k < ends[c]; ++k) {
+      const auto& t = all.triangles[k];
+      fmt::format_to(std::back_inserter(out), "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"{}/>\n", t[0], t[1],
+                     t[2], property);
+    }
+  }
+  return out + fmt::format(
+                   "</triangles></mesh></object>\n</resources>\n<build>\n<item objectid=\"2\" "
+                   "transform=\"1 0 0 0 1 0 0 0 1 {:.9g} {:.9g} {:.9g}\"/>\n",
+                   -lowest.x(), -lowest.y(), -lowest.z());
+}
+
+std::string separate_objects_xml(const Assembly& assembly)
+{
+  std::string out;
+  for (std::size_t k = 0; k < assembly.meshes.size(); ++k) out += object_xml(assembly, k);
+  out += "</resources>\n<build>\n";
+  for (const auto& copy : assembly.copies) out += item_xml(copy);
+  return out;
+}
+
+std::string model_xml(const Assembly& assembly, Objects objects)
 {
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"{}\" xml:lang=\"en\" "
@@ -80,9 +128,7 @@ std::string model_xml(const Assembly& assembly)
                        escaped(assembly.mesh_names[k]), c[0], c[1], c[2]);
   }
   out += "</basematerials>\n";
-  for (std::size_t k = 0; k < assembly.meshes.size(); ++k) out += object_xml(assembly, k);
-  out += "</resources>\n<build>\n";
-  for (const auto& copy : assembly.copies) out += item_xml(copy);
+  out += objects == Objects::one ? one_object_xml(assembly) : separate_objects_xml(assembly);
   return out + "</build>\n</model>\n";
 }
 
@@ -120,7 +166,11 @@ std::string archive(const std::vector<std::pair<std::string, std::string>>& file
     const zip_int64_t index =
         source == nullptr ? -1 : zip_file_add(zip, name.c_str(), source, ZIP_FL_ENC_UTF_8);
     constexpr zip_uint16_t day = (40 << 9) | (1 << 5) | 1, hour = 0;  // 2020-01-01, in the format of MS-DOS
-    if (index < 0 || zip_file_set_dostime(zip, static_cast<zip_uint64_t>(index), hour, day, 0) != 0) {
+    const auto number = static_cast<zip_uint64_t>(index);
+    constexpr zip_uint32_t level =
+        2;  // of 9: the repetitions of long lists of triangles cost it ten times the time
+    if (index < 0 || zip_set_file_compression(zip, number, ZIP_CM_DEFLATE, level) != 0 ||
+        zip_file_set_dostime(zip, number, hour, day, 0) != 0) {
       zip_discard(zip);
       fail("filled");
     }
@@ -137,14 +187,14 @@ std::string archive(const std::vector<std::pair<std::string, std::string>>& file
 
 }  // namespace
 
-std::string three_mf(const Assembly& assembly)
+std::string three_mf(const Assembly& assembly, Objects objects)
 {
   return archive({{"[Content_Types].xml", content_types},
                   {"_rels/.rels", relationships},
-                  {"3D/3dmodel.model", model_xml(assembly)}});
+                  {"3D/3dmodel.model", model_xml(assembly, objects)}});
 }
 #else
-std::string three_mf(const Assembly&)
+std::string three_mf(const Assembly&, Objects)
 {
   throw InputError(
       "this program was built without libzip, which 3MF needs; install libzip-dev and build again, or export STL, OBJ "

@@ -288,6 +288,7 @@ Inspection inspect(const ModelFile& model, const std::string& file, double gap,
   Inspection out;
   out.file = file;
   out.unit = model.unit;
+  out.objects = model.objects;
   std::vector<std::optional<ClosedBody>> solids(model.parts.size());
   double squares = 0.0;
   for (const Part& part : model.parts) squares += static_cast<double>(part.triangles.size());

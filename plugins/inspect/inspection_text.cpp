@@ -163,6 +163,11 @@ std::string inspection_text(const Inspection& inspection, double gap)
         "surface hangs over, steeper than 45 degrees\n",
         size_text(inspection.box, unit), inspection.on_bed, counted(closed, "body", "bodies"),
         inspection.box[0].z(), unit, 100.0 * inspection.overhang);
+  if (inspection.objects > 1 && !inspection.links.empty())
+    out += fmt::format(
+        "the file places {} objects, which slicers lay on the bed one by one: merge them into one before slicing, or "
+        "bodies that are linked here are printed apart\n",
+        inspection.objects);
   return out;
 }
 
@@ -208,6 +213,7 @@ json::object inspection_json(const Inspection& inspection, double gap)
       {"pieces", inspection.pieces},
       {"printing", json::object{{"box", json::array{vector(inspection.box[0]), vector(inspection.box[1])}},
                                 {"lowest", inspection.box[0].z()},
+                                {"objects", inspection.objects},
                                 {"on_bed", inspection.on_bed},
                                 {"overhang", inspection.overhang}}}};
 }

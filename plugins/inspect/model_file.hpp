@@ -4,6 +4,7 @@
 #include <hauberk/linalg.hpp>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@ struct Part {
 struct ModelFile {
   std::string unit;  ///< empty where the format does not name it
   std::vector<Part> parts;
+  std::size_t objects = 1;  ///< that a slicer moves as one each: meshes that the items of a 3MF place
 };
 
 /// Reads a file whose name ends in .stl, .obj or .3mf, in any case. Corners at the same place are one point;

@@ -106,6 +106,7 @@ class Model {
   {
     ModelFile out;
     out.unit = unit_;
+    out.objects = 0;
     for (const Placed& item : items_) place_object(item, {}, 0, out);
     return out;
   }
@@ -237,6 +238,7 @@ class Model {
                    object.parts);
       object.mesh = {};
     }
+    if (!object.parts.empty()) ++out.objects;
     for (const Part& own : object.parts) {
       placed_triangles_ += own.triangles.size();
       if (placed_triangles_ > most_triangles)

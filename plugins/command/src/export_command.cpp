@@ -143,7 +143,7 @@ std::string content_of(const std::string& format, const Assembly& assembly, cons
 {
   if (format == ".stl") return stl(assembly);
   if (format == ".obj") return obj(assembly);
-  if (format == ".3mf") return three_mf(assembly);
+  if (format == ".3mf") return three_mf(assembly, options.has("separate") ? Objects::separate : Objects::one);
   if (format == ".glb") return glb(assembly);
   if (format == ".vtu")
     return vtu(assembly, options.has("forces") ? contacts_in_results(opened.results, opened.file,
@@ -258,6 +258,9 @@ Description export_description()
             .takes = Takes::real,
             .value = "X",
             .help = "write nothing if two elements are nearer than this"},
+           {.name = "separate",
+            .help = "of .3mf: an object for each kind of element and an item for each copy, which slicers "
+                    "lay on the bed one by one; default: one object, so that what is linked stays so"},
            {.name = "forces",
             .help = "with `--state limit:K`, of .vtu: contact points with their forces and gaps"},
            {.name = "view",
@@ -291,6 +294,8 @@ int export_command(const std::vector<std::string>& words)
     throw UsageError(
         "--forces: only of a limit (--state limit:K), and only .vtu holds them; a page shows them anyway",
         options.usage());
+  if (options.has("separate") && format != ".3mf")
+    throw UsageError("--separate: only .3mf has objects and items", options.usage());
   if (format == ".html" && options.has("state"))
     throw UsageError("--state: a page has all states; leave it out", options.usage());
   const Opened opened = open_fabric(options);

@@ -74,10 +74,11 @@ TEST(Company, StretchesOfSheetsHaveItBesideAndAcross)
   EXPECT_EQ(pushed, (Texts{"100 degrees, -, 25", "115 degrees, -, 25", "125 degrees, -, 25",
                            "90 degrees, -, 7", "110 degrees, -, 7", "80 degrees, -, 7", "105 degrees, -, 7",
                            "135 degrees, -, 7", "145 degrees, -, 7"}));
-  EXPECT_EQ(Fabric(japanese(false), held_shear).searches({at(0.0, Sense::positive), at(165.0, Sense::positive)}),
-            (Texts{"0 degrees, +, 2, sparing from 1", "165 degrees, +, 2, sparing from 1",
-                   "20 degrees, +, 1, sparing from 0", "90 degrees, -, 1, sparing from 0",
-                   "145 degrees, +, 1, sparing from 0", "75 degrees, -, 1, sparing from 0"}));
+  EXPECT_EQ(
+      Fabric(japanese(false), held_shear).searches({at(0.0, Sense::positive), at(165.0, Sense::positive)}),
+      (Texts{"0 degrees, +, 2, sparing from 1", "165 degrees, +, 2, sparing from 1",
+             "20 degrees, +, 1, sparing from 0", "90 degrees, -, 1, sparing from 0",
+             "145 degrees, +, 1, sparing from 0", "75 degrees, -, 1, sparing from 0"}));
   // In large cells what is held is broken by states of other directions.
   EXPECT_EQ(Fabric(repeated(japanese(false), 3, 2), held_shear).searches({at(10.0, Sense::positive)}),
             (Texts{"10 degrees, +, 1", "-80 degrees, -, 1, sparing from 0"}));

@@ -118,7 +118,22 @@ if "built without libzip" in subprocess.run([hauberk, "export", chain, "-o", fol
                                             capture_output=True, text=True, check=False).stderr:
     print("3MF is not written by this program: not tested")
 else:
+    # One object, at the lowest coordinates 0.
     total, items = three_mf_volume(export(chain, "chain.3mf", "--repeat", "2,1")[0], "millimeter")
+    close(total, volume, 1e-5)
+    assert len(items) == 1
+    transform = list(map(float, items[0].get("transform").split()))
+    with zipfile.ZipFile(folder / "chain.3mf") as archive:
+        vertices = list(xml.fromstring(archive.read("3D/3dmodel.model")).iter(core + "vertex"))
+    lowest = [min(float(v.get(c)) for v in vertices) for c in "xyz"]
+    assert max(abs(a - b) for a, b in zip(transform, [1, 0, 0, 0, 1, 0, 0, 0, 1, *(-x for x in lowest)])) < 1e-9, transform
+    assert all(-5.7 <= x < -5.6 for x in lowest), lowest
+    # A second kind has its colour by triangles.
+    with zipfile.ZipFile(export(experiments / "cage.json", "cage.3mf", "--chord", "0.2")[0]) as archive:
+        model = xml.fromstring(archive.read("3D/3dmodel.model"))
+    kinds = [t.get("p1", "0") for t in model.iter(core + "triangle")]
+    assert len(list(model.iter(core + "base"))) == len(set(kinds)) == 2 and kinds == sorted(kinds), set(kinds)
+    total, items = three_mf_volume(export(chain, "separate.3mf", "--repeat", "2,1", "--separate")[0], "millimeter")
     close(total, volume, 1e-5)
     assert [item.get("partnumber") for item in items][1] == "link 1 [0, 0]"
     transform = list(map(float, items[1].get("transform").split()))

@@ -262,10 +262,15 @@ for name, words in (("cubes", ("--chord", "0.1")), ("chainmail_limits", ("--repe
             # Of 3 x 3 cells of 8 rings, 6 x 12 rings in rows of alternating lean: every ring is linked with its four
             # diagonal neighbours.
             assert len(answer["bodies"]) == 72 and answer["pieces"] == 1, text
+            assert answer["printing"]["objects"] == 1 and "places" not in text, text
             assert max(len(b["linked"]) for b in answer["bodies"]) == 4
             assert len(answer["links"]) == 11 * (2 * 6 - 1), len(answer["links"])
 if not without_3mf:
+    # Items keep the names of their bodies, and a slicer takes them apart.
+    run("export", experiments / "chainmail_limits.json", "-o", folder / "items.3mf", "--repeat", "3,3", "--chord", "0.1", "--separate")
+    answer, text = inspect(folder / "items.3mf")
     assert answer["unit"] == "mm" and "[2, 2]" in answer["bodies"][-1]["name"], answer["bodies"][-1]
+    assert answer["printing"]["objects"] == 72 and "places 72 objects" in text, text
 
     # Components of components, turned, mirrored and in inches; and what would never end.
     points, triangles = ONE

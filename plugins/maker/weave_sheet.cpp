@@ -1,8 +1,6 @@
 #include "maker/weave_sheet.hpp"
 
 #include "document/json_text.hpp"
-#include "document/jsonc.hpp"
-#include "document/node_access.hpp"
 #include "maker/job_limits.hpp"
 #include "maker/lattice_step.hpp"
 #include "maker/weave_roll.hpp"
@@ -21,13 +19,6 @@ namespace {
 
 constexpr double square_decimetre = 1e4, metre = 1e3;  // mm^2, mm
 
-double length_of(const Node& root, const char* outer, const char* name)
-{
-  const Node* section = root.find(outer);
-  const Node* value = section == nullptr ? nullptr : section->find(name);
-  return value != nullptr && value->is(Node::Type::number) ? value->number : 0.0;
-}
-
 /// How far a lattice repeats itself along a direction; 0 where it does not.
 double pitch_along(const std::vector<Vec3>& lattice, double degrees)
 {
@@ -40,6 +31,28 @@ Job job_of(const Weave& weave, const Question& question, double clearance, const
 {
   return prepare_job(
       registry, {"hauberk weave " + question.weave, experiment_text(weave, question, clearance), {}, lookup});
+}
+
+/// 2 pi^2 R r0 r1 of every ring of the element.
+double wire_volume(const SceneSpec& scene, const PlacedElement& element)
+{
+  double volume = 0.0;
+  for (const Primitive& ring : scene.types[element.type].shape->primitives(element.parameters))
+    volume += 2.0 * std::numbers::pi * std::numbers::pi * ring.size[0] * ring.size[1] * ring.size[2];
+  return volume;
+}
+
+/// Surfaces that stay a gap apart are those of wire as much thicker that touch.
+Question thicker(const Question& question)
+{
+  Question out = question;
+  out.inner -= question.gap;
+  out.wire += question.gap;
+  if (out.small) {
+    out.small->inner -= question.gap;
+    out.small->wire += question.gap;
+  }
+  return out;
 }
 
 /// Limits of all ways, both senses.
@@ -107,64 +120,6 @@ boost::json::array ways_json(const std::vector<WayAnswer>& ways)
 
 }  // namespace
 
-Weave read_weave(const std::string& name, const WeaveLookup& lookup)
-{
-  std::string error;
-  const std::optional<std::string> text = lookup(name, error);
-  if (!text) throw InputError(error);
-  Problems problems;
-  const std::optional<Node> file = read_jsonc(*text, problems);
-  if (!file || !file->is(Node::Type::object))
-    throw InputError(
-        fmt::format("weave '{}' is no JSON; `hauberk check` of an experiment with it says where", name));
-  Weave weave;
-  weave.name = name;
-  if (const Node* about = file->find("description")) weave.description = about->string;
-  weave.smallest_ratio = length_of(*file, "buildable", "at_least");
-  const Node* parameters = file->find("parameters");
-  if (parameters == nullptr || parameters->find("inner_diameter") == nullptr ||
-      parameters->find("wire_diameter") == nullptr || !(weave.smallest_ratio > 0.0))
-    throw InputError(fmt::format(
-        "weave '{}' is not woven of plain rings: a maker's answers need the parameters inner_diameter and "
-        "wire_diameter, and buildable.at_least; use `hauberk run` for its limits",
-        name));
-  if (const Node* ways = file->find("ways"); ways != nullptr && ways->is(Node::Type::object)) {
-    for (const auto& [way, degrees] : ways->members) weave.ways.push_back({way, degrees.number});
-  }
-  if (weave.ways.empty()) weave.ways = {{"along x", 0.0}, {"along y", 90.0}};
-  return weave;
-}
-
-bool can_be_woven(const Weave& weave, const Question& question)
-{
-  return question.inner / question.wire >= weave.smallest_ratio;
-}
-
-std::string experiment_text(const Weave& weave, const Question& question, double clearance)
-{
-  namespace json = boost::json;
-  json::array directions;
-  for (const Weave::Way& way : weave.ways) directions.push_back(way.degrees);
-  std::string name;
-  for (const char c : weave.name)
-    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ? c : '_';
-  json::object load{{"plugin", "in_plane_periodic"}, {"directions_deg", directions}};
-  // A chain hangs on nothing beside it, and is as high as it is wide: it may shrink and swell across. With
-  // its direction free as well (no shear held) it would turn aside instead of being pushed together.
-  if (weave.ways.size() == 1) load["out_of_plane"] = "free";
-  json::object document{
-      {"name", name},
-      {"task", "limits"},
-      {"length_unit", "mm"},
-      {"cell",
-       json::object{{"weave", json::object{{"name", weave.name},
-                                           {"parameters", json::object{{"inner_diameter", question.inner},
-                                                                       {"wire_diameter", question.wire}}}}}}},
-      {"load_case", std::move(load)}};
-  if (clearance > 0.0) document["solver"] = json::object{{"clearance", clearance}};
-  return write_json(document);
-}
-
 Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lookup,
              const std::shared_ptr<const Registry>& registry, unsigned threads, Progress& progress)
 {
@@ -172,24 +127,25 @@ Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lo
   sheet.question = question;
   sheet.weave = weave;
   sheet.ratio = question.inner / question.wire;
-  sheet.smallest_inner = weave.smallest_ratio * question.wire;
-  sheet.thickest_wire = question.inner / weave.smallest_ratio;
+  const RingFit fit(weave, lookup, registry);
+  sheet.inner = fit.range(question, Diameter::inner).value_or(Range());
+  sheet.wire = fit.range(question, Diameter::wire).value_or(Range());
+  if (question.small) sheet.small_inner = fit.range(question, Diameter::small_inner);
+  sheet.ranges = fit.ranges_text(question);
   sheet.chain = weave.ways.size() == 1;
-  const double r = 0.5 * question.wire, R = 0.5 * question.inner + r;
-  sheet.ring_volume = 2.0 * std::numbers::pi * std::numbers::pi * R * r * r;
   const Job job = job_of(weave, question, 0.0, lookup, registry);
   const SceneSpec& scene = job.prepared->scene;
-  const auto count = static_cast<double>(scene.elements.size());
-  const double area = std::abs(scene.lattice[0].cross(scene.lattice[1]).z());
-  sheet.rings = sheet.chain ? count / pitch_along(scene.lattice, weave.ways[0].degrees) * metre
-                            : count / area * square_decimetre;
+  const double cells = sheet.chain
+                           ? metre / pitch_along(scene.lattice, weave.ways[0].degrees)
+                           : square_decimetre / std::abs(scene.lattice[0].cross(scene.lattice[1]).z());
+  sheet.rings = cells * static_cast<double>(scene.elements.size());
+  for (const PlacedElement& element : scene.elements) sheet.metal += cells * wire_volume(scene, element);
   sheet.ways = answers(job, weave, threads, progress, "limits");
   if (question.roll && !sheet.chain)
     sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
-  // Surfaces that stay a gap apart are those of wire as much thicker that touch.
-  const Question thicker{question.weave, question.inner - question.gap, question.wire + question.gap,
-                         question.gap};
-  sheet.printable = thicker.inner > 0.0 && can_be_woven(weave, thicker);
+  sheet.printable = fit.fits(thicker(question));
+  if (!question.small)
+    sheet.inner_of_gap = fit.range(thicker(question), Diameter::inner).value_or(Range()).low + question.gap;
   if (sheet.printable)
     sheet.with_gap = answers(job_of(weave, question, question.gap, lookup, registry), weave, threads,
                              progress, "limits with the gap");
@@ -208,13 +164,19 @@ std::string sheet_text(const Sheet& sheet)
 {
   const Question& q = sheet.question;
   std::string text = fmt::format("{}: {}\n", sheet.weave.name, sheet.weave.description);
-  text += fmt::format(
-      "rings of {:.4g} mm inner diameter, wire of {:.4g} mm: ratio {:.3f}, at least {:.3f} is needed\n",
-      q.inner, q.wire, sheet.ratio, sheet.weave.smallest_ratio);
-  text += fmt::format("  this wire takes rings from {:.3f} mm on, these rings wire up to {:.3f} mm\n\n",
-                      sheet.smallest_inner, sheet.thickest_wire);
+  if (q.small)
+    text += fmt::format(
+        "large rings of {:.4g} mm inner diameter and {:.4g} mm wire, small ones of {:.4g} mm and {:.4g} mm: ratios {:.3f} "
+        "and {:.3f}\n  with the other sizes as they are it takes {}\n\n",
+        q.inner, q.wire, q.small->inner, q.small->wire, sheet.ratio, q.small->inner / q.small->wire,
+        sheet.ranges);
+  else
+    text += fmt::format(
+        "rings of {:.4g} mm inner diameter, wire of {:.4g} mm: ratio {:.3f}, at least {:.3f} is needed\n"
+        "  this wire takes rings from {:.3f} mm on, these rings wire up to {:.3f} mm\n\n",
+        q.inner, q.wire, sheet.ratio, sheet.weave.smallest_ratio, sheet.inner.low, sheet.wire.high);
   text += "the pattern repeats itself every\n" + ways_text(sheet.ways) + "\n" + rolls_text(sheet.rolls);
-  const double weight = 1e-3 * sheet.rings * sheet.ring_volume;  // cm^3 per dm^2 or metre
+  const double weight = 1e-3 * sheet.metal;  // cm^3 per dm^2 or metre
   const char* per = sheet.chain ? "m" : "dm^2";
   text += fmt::format("{:.1f} rings per {} at rest; grams per {}:", sheet.rings, per, per);
   const char* separator = " ";
@@ -223,10 +185,11 @@ std::string sheet_text(const Sheet& sheet)
     separator = ", ";
   }
   text += "\n\n";
-  if (!sheet.printable)
-    return text +
-           fmt::format("printed with a gap of {:g} mm it has no room: that takes rings from {:.3f} mm on\n",
-                       q.gap, sheet.weave.smallest_ratio * (q.wire + q.gap) + q.gap);
+  if (!sheet.printable) {
+    text += fmt::format("printed with a gap of {:g} mm it has no room", q.gap);
+    if (q.small) return text + "\n";
+    return text + fmt::format(": that takes rings from {:.3f} mm on\n", sheet.inner_of_gap);
+  }
   return text + fmt::format("printed, surfaces {:g} mm apart, every\n", q.gap) + ways_text(sheet.with_gap);
 }
 
@@ -235,15 +198,14 @@ boost::json::object sheet_json(const Sheet& sheet)
   namespace json = boost::json;
   const Question& q = sheet.question;
   json::object grams;
-  for (const Metal& metal : metals())
-    grams[metal.name] = 1e-3 * sheet.rings * sheet.ring_volume * metal.density;
+  for (const Metal& metal : metals()) grams[metal.name] = 1e-3 * sheet.metal * metal.density;
   json::object out{{"weave", sheet.weave.name},
                    {"inner_mm", q.inner},
                    {"wire_mm", q.wire},
                    {"ratio", sheet.ratio},
                    {"smallest_ratio", sheet.weave.smallest_ratio},
-                   {"smallest_inner_mm", sheet.smallest_inner},
-                   {"thickest_wire_mm", sheet.thickest_wire},
+                   {"smallest_inner_mm", sheet.inner.low},
+                   {"thickest_wire_mm", sheet.wire.high},
                    {"ways", ways_json(sheet.ways)},
                    {"rolls", rolls_json(sheet.rolls)},
                    {"rings", sheet.rings},
@@ -252,6 +214,15 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"gap_mm", q.gap},
                    {"printable", sheet.printable}};
   out["with_gap"] = ways_json(sheet.with_gap);
+  if (q.small) {
+    const Range small = sheet.small_inner.value_or(Range());
+    const auto up_to = [](double x) { return std::isinf(x) ? json::value(nullptr) : json::value(x); };
+    out["largest_inner_mm"] = up_to(sheet.inner.high);
+    out["small"] = json::object{{"inner_mm", q.small->inner},
+                                {"wire_mm", q.small->wire},
+                                {"smallest_inner_mm", small.low},
+                                {"largest_inner_mm", up_to(small.high)}};
+  }
   return out;
 }
 

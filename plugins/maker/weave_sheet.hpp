@@ -2,9 +2,9 @@
 /// A maker's answers about a weave of given rings: whether it can be woven, how far it gives, what it weighs.
 
 #include "limits/limit_result.hpp"
+#include "maker/weave_rings.hpp"
 #include "run/progress.hpp"
 
-#include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/registry.hpp>
 
 #include <boost/json/object.hpp>
@@ -15,31 +15,6 @@
 #include <vector>
 
 namespace hauberk::maker {
-
-/// What is asked; lengths in millimetres.
-struct Question {
-  std::string weave;   ///< name in the library, or path of a weave file
-  double inner = 0.0;  ///< inner diameter of the rings
-  double wire = 0.0;   ///< diameter of their wire
-  double gap = 0.4;    ///< that a printer needs between surfaces
-  bool roll = false;   ///< whether to tell how tightly it is wound onto a rod
-};
-
-/// A weave file as far as it concerns makers.
-struct Weave {
-  std::string name, description;
-  double smallest_ratio =
-      0.0;  ///< inner diameter over wire diameter; below, no arrangement of the file has room
-  struct Way {
-    std::string name;  ///< "along the columns"
-    double degrees = 0.0;
-  };
-  std::vector<Way> ways;  ///< at least one; of one alone it is a chain
-};
-
-/// Reads the weave. Throws InputError where there is none of that name, or where it is not woven of plain
-/// rings (its parameters are not `inner_diameter` and `wire_diameter`).
-Weave read_weave(const std::string& name, const WeaveLookup& lookup);
 
 /// One way of the sheet. Pitches, in mm, are how far the pattern repeats itself along the way.
 struct WayAnswer {
@@ -64,27 +39,23 @@ struct RollAnswer {
 struct Sheet {
   Question question;
   Weave weave;
-  double ratio = 0.0;           ///< inner / wire
-  double smallest_inner = 0.0;  ///< of this wire, mm
-  double thickest_wire = 0.0;   ///< of this inner diameter, mm
+  double ratio = 0.0;  ///< inner / wire, of two sizes of the large rings
+  Range inner, wire;   ///< with which it can be woven, the other being as it is
+  std::optional<Range> small_inner;
+  std::string ranges;         ///< RingFit::ranges_text
+  double inner_of_gap = 0.0;  ///< of one size: with which it could be printed, this wire
   bool chain = false;
-  double rings = 0.0;        ///< per dm^2 at rest, per metre of a chain
-  double ring_volume = 0.0;  ///< mm^3: 2 pi^2 R r^2
+  double rings = 0.0;  ///< of all sizes, per dm^2 at rest, per metre of a chain
+  double metal = 0.0;  ///< volume of the wire of these, mm^3; 2 pi^2 R r^2 is that of a ring
   std::vector<WayAnswer> ways;
   std::vector<RollAnswer> rolls;    ///< none of a chain
   bool printable = false;           ///< whether the weave has room for the gap
   std::vector<WayAnswer> with_gap;  ///< what the gap leaves; none where it has no room
 };
 
-/// Whether the rings are wide enough for their wire.
-bool can_be_woven(const Weave& weave, const Question& question);
-
-/// The experiment that the answers come from, as JSON text.
-std::string experiment_text(const Weave& weave, const Question& question, double clearance);
-
-/// Computes the answers, with `can_be_woven`. Limits are those of the load's direction with the shear held,
-/// in the plane (of a chain free to leave it). Throws what preparing and computing an experiment throws;
-/// ComputationError where it is interrupted.
+/// Computes the answers to a question of which `RingFit::fits` holds. Limits are those of the load's
+/// direction with the shear held, in the plane (of a chain free to leave it). Throws what preparing and
+/// computing an experiment throws; ComputationError where it is interrupted.
 Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lookup,
              const std::shared_ptr<const Registry>& registry, unsigned threads, Progress& progress);
 

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 
 namespace hauberk::command {
 namespace {
@@ -28,6 +29,43 @@ double length_option(const Options& options, const char* name, const char* fallb
     throw UsageError(fmt::format("--{}: expected a length, as 8mm, 5/16in or 18awg", name), options.usage());
   return maker::millimetres(options.has(name) ? options.get<std::string>(name) : fallback,
                             fmt::format("--{}", name));
+}
+
+/// The small rings that are asked for, none of a weave of one size.
+std::optional<maker::Ring> small_rings(const Options& options, const maker::Weave& weave, double wire)
+{
+  if (!weave.two_sizes) {
+    for (const char* name : {"small-inner", "small-wire"})
+      if (options.has(name))
+        throw UsageError(
+            fmt::format("--{}: '{}' is woven of rings of one size; leave it out", name, weave.name),
+            options.usage());
+    return std::nullopt;
+  }
+  if (!options.has("small-inner"))
+    throw UsageError(
+        fmt::format("--small-inner: '{}' is woven of rings of two sizes; give the inner diameter of the "
+                    "small ones, too",
+                    weave.name),
+        options.usage());
+  return maker::Ring{length_option(options, "small-inner", nullptr),
+                     options.has("small-wire") ? length_option(options, "small-wire", nullptr) : wire};
+}
+
+/// Why the rings cannot be woven, and which could.
+std::string no_room_text(const maker::Weave& weave, const maker::RingFit& fit,
+                         const maker::Question& question)
+{
+  const std::string ranges = fit.ranges_text(question);
+  const std::string way_out =
+      ranges.empty() ? "no other size of one of them alone would do" : "take " + ranges;
+  if (question.small)
+    return fmt::format("{}: {} leave no room for each other; {}", weave.name, maker::rings_text(question),
+                       way_out);
+  return fmt::format(
+      "{}: rings of {:.4g} mm are too small for wire of {:.4g} mm (ratio {:.3f}, at least {:.3f} is needed); {}",
+      weave.name, question.inner, question.wire, question.inner / question.wire, weave.smallest_ratio,
+      way_out);
 }
 
 }  // namespace
@@ -48,6 +86,14 @@ Description weave_description()
       .options = {
           {.name = "inner", .takes = Takes::text, .value = "LENGTH", .help = "inner diameter of the rings"},
           {.name = "wire", .takes = Takes::text, .value = "LENGTH", .help = "diameter of their wire"},
+          {.name = "small-inner",
+           .takes = Takes::text,
+           .value = "LENGTH",
+           .help = "of a weave of two sizes: inner diameter of the small rings"},
+          {.name = "small-wire",
+           .takes = Takes::text,
+           .value = "LENGTH",
+           .help = "diameter of their wire; default that of the large ones"},
           {.name = "gap",
            .takes = Takes::text,
            .value = "LENGTH",
@@ -85,12 +131,10 @@ int weave_command(const std::vector<std::string>& words)
   question.roll = options.has("roll");
   const WeaveLookup lookup = weave_lookup("weave.json");
   const maker::Weave weave = maker::read_weave(question.weave, lookup);
-  if (!maker::can_be_woven(weave, question))
-    throw ComputationError(fmt::format(
-        "{}: rings of {:.4g} mm are too small for wire of {:.4g} mm (ratio {:.3f}, at least {:.3f} is needed); take "
-        "rings from {:.3f} mm on, or wire up to {:.3f} mm",
-        weave.name, question.inner, question.wire, question.inner / question.wire, weave.smallest_ratio,
-        weave.smallest_ratio * question.wire, question.inner / weave.smallest_ratio));
+  question.small = small_rings(options, weave, question.wire);
+  const std::shared_ptr<const Registry> registry = open_registry(options);
+  const maker::RingFit fit(weave, lookup, registry);
+  if (!fit.fits(question)) throw ComputationError(no_room_text(weave, fit, question));
   if (question.roll && weave.ways.size() == 1)
     throw UsageError(
         fmt::format("--roll: '{}' is a chain, which has no width to be wound; leave it out", weave.name),
@@ -100,7 +144,7 @@ int weave_command(const std::vector<std::string>& words)
   if (kept) prepare_output_directory(folder, options.has("force"), sheet_files);
   Progress progress(Progress::detect(true));
   const maker::Sheet sheet =
-      maker::answer(weave, question, lookup, open_registry(options), available_processors(), progress);
+      maker::answer(weave, question, lookup, registry, available_processors(), progress);
   const std::string text = maker::sheet_text(sheet), json = write_json(maker::sheet_json(sheet));
   if (options.has("json"))
     say_json(json);

@@ -40,14 +40,25 @@ TEST(WireLength, RefusesWhatIsNone)
 
 class Answers : public ::testing::Test {
  protected:
-  static Sheet of(const std::string& name, double inner, double wire, double gap = 0.4)
+  static WeaveLookup library()
+  {
+    return weave_lookup(".", std::filesystem::path(HAUBERK_SOURCE_DIR) / "share/weaves");
+  }
+  static std::shared_ptr<const Registry> registry()
   {
     const std::filesystem::path build = HAUBERK_BINARY_DIR;
-    const WeaveLookup lookup = weave_lookup(".", std::filesystem::path(HAUBERK_SOURCE_DIR) / "share/weaves");
-    const auto registry =
-        std::make_shared<Registry>(std::vector<std::filesystem::path>{build / "lib/hauberk/plugins"});
+    return std::make_shared<Registry>(std::vector<std::filesystem::path>{build / "lib/hauberk/plugins"});
+  }
+  static RingFit fit_of(const std::string& name)
+  {
+    return RingFit(read_weave(name, library()), library(), registry());
+  }
+  static Sheet of(const std::string& name, double inner, double wire, double gap = 0.4,
+                  std::optional<Ring> small = {})
+  {
     Progress quiet(Progress::Mode::quiet);
-    return answer(read_weave(name, lookup), {name, inner, wire, gap}, lookup, registry, 2, quiet);
+    return answer(read_weave(name, library()), {name, inner, wire, gap, false, small}, library(), registry(),
+                  2, quiet);
   }
 };
 
@@ -67,7 +78,7 @@ TEST_F(Answers, OfAChainAreThoseOfTheClosedForm)
   EXPECT_NEAR(sheet.with_gap[0].pitch * (1.0 + *sheet.with_gap[0].stretch), 15.2, 1e-8);
   // Two rings in every pitch of the rest, and the weight of their wire.
   EXPECT_NEAR(sheet.rings, 2000.0 / sheet.ways[0].pitch, 1e-9);
-  EXPECT_NEAR(sheet.ring_volume, std::numbers::pi * 0.36 * std::numbers::pi * 9.2, 1e-12);
+  EXPECT_NEAR(sheet.metal / sheet.rings, std::numbers::pi * 0.36 * std::numbers::pi * 9.2, 1e-11);
 }
 
 TEST_F(Answers, OfASquareWeaveHangAlongItsRowsLikeChains)
@@ -85,14 +96,47 @@ TEST_F(Answers, OfASquareWeaveHangAlongItsRowsLikeChains)
   EXPECT_EQ(document.at("ways").as_array().size(), 2U);
 }
 
+TEST_F(Answers, OfTwoSizesOfRingsSayWhichFit)
+{
+  const RingFit fit = fit_of("dragonscale");
+  const Question question{"dragonscale", 8.6, 1.4, 0.4, false, Ring{5.6, 1.3}};
+  EXPECT_TRUE(fit.fits(question));
+  const std::optional<Range> small = fit.range(question, Diameter::small_inner);
+  ASSERT_TRUE(small);
+  // A small ring touches the large one around it where its outer diameter is the inner one of that; thin wire
+  // of the small rings leaves the large ones to each other, at the ratio of the file.
+  EXPECT_NEAR(small->high, 8.6 - 2.0 * 1.3, 2e-4 * 5.6);
+  const std::optional<Range> wire =
+      fit.range({"dragonscale", 8.6, 1.4, 0.4, false, Ring{6.2, 0.8}}, Diameter::wire);
+  ASSERT_TRUE(wire);
+  EXPECT_NEAR(wire->high, 8.6 / 5.70924, 2e-4 * 1.4);
+  // Ends are where the weave begins to have no room.
+  for (const double end : {small->low, small->high}) {
+    const double within = end == small->low ? 1e-3 : -1e-3;
+    EXPECT_TRUE(fit.fits({"dragonscale", 8.6, 1.4, 0.4, false, Ring{end + within, 1.3}})) << end;
+    EXPECT_FALSE(fit.fits({"dragonscale", 8.6, 1.4, 0.4, false, Ring{end - within, 1.3}})) << end;
+  }
+  // What has no room has the nearest sizes told, or none.
+  const Question wide{"dragonscale", 8.6, 1.4, 0.4, false, Ring{7.0, 1.3}};
+  EXPECT_FALSE(fit.fits(wide));
+  EXPECT_NEAR(fit.range(wide, Diameter::small_inner)->high, small->high, 2e-4 * 7.0);
+  EXPECT_FALSE(fit.range({"dragonscale", 8.6, 3.0, 0.4, false, Ring{5.6, 1.3}}, Diameter::small_inner));
+  const Sheet sheet = of("dragonscale", 8.6, 1.2, 0.1, Ring{5.6, 1.1});
+  ASSERT_EQ(sheet.ways.size(), 2U);
+  EXPECT_TRUE(sheet.ways[0].stretch && sheet.ways[1].stretch);
+  // Half of the rings are large.
+  const double square = std::numbers::pi * std::numbers::pi;
+  EXPECT_NEAR(sheet.metal / sheet.rings, square * (0.36 * 4.9 + 0.3025 * 3.35), 1e-11);
+  EXPECT_NE(sheet_text(sheet).find("ratios 7.167 and 5.091"), std::string::npos);
+}
+
 TEST_F(Answers, CanBeWovenFromTheSmallestRatioOn)
 {
-  const WeaveLookup lookup = weave_lookup(".", std::filesystem::path(HAUBERK_SOURCE_DIR) / "share/weaves");
-  const Weave weave = read_weave("european_4in1", lookup);
-  EXPECT_TRUE(can_be_woven(weave, {"european_4in1", 2.9810, 1.0, 0.4}));
-  EXPECT_FALSE(can_be_woven(weave, {"european_4in1", 2.9809, 1.0, 0.4}));
-  EXPECT_THROW(read_weave("threefold", lookup), InputError);
-  EXPECT_THROW(read_weave("no_such_weave", lookup), InputError);
+  const RingFit fit = fit_of("european_4in1");
+  EXPECT_TRUE(fit.fits({"european_4in1", 2.9810, 1.0, 0.4}));
+  EXPECT_FALSE(fit.fits({"european_4in1", 2.9809, 1.0, 0.4}));
+  EXPECT_THROW(fit_of("threefold"), InputError);
+  EXPECT_THROW(fit_of("no_such_weave"), InputError);
 }
 
 }  // namespace

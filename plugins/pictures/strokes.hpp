@@ -7,10 +7,8 @@
 
 namespace hauberk::detail {
 
-/// How many there are.
-inline constexpr std::size_t distinct_strokes = 8;
-
-/// Told apart by dashes as well as by colour; lines beyond the last look alike.
+/// Told apart by dashes as well as by colour. No two are alike: beyond eight colours are dashed in other
+/// ways, beyond all ways lines are thicker.
 Stroke distinct_stroke(std::size_t k);
 
 }  // namespace hauberk::detail

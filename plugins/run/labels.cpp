@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
 #include <tuple>
 
 namespace hauberk {
@@ -21,14 +23,23 @@ std::string unit_of(const Experiment& experiment)
 
 }  // namespace
 
-PlotLabels plot_labels(const Experiment& e)
+PlotLabels plot_labels(const Experiment& e, std::span<const std::string> varied)
 {
+  const auto stands = [&](std::string_view pointer) {
+    return std::none_of(varied.begin(), varied.end(), [&](const std::string& other) {
+      return pointer == other || pointer.starts_with(other + "/");
+    });
+  };
   PlotLabels labels;
   labels.title = e.name;
-  labels.subtitle =
-      fmt::format("{}, measure {}, clearance {:g} {}", e.load_case_plugin,
-                  e.directions.empty() ? e.load_case->measure() : e.load_case->measure(e.directions.front()),
-                  e.solver.clearance, e.length_unit);
+  const auto add = [&](const std::string& text) {
+    labels.subtitle += (labels.subtitle.empty() ? "" : ", ") + text;
+  };
+  if (stands("/load_case/plugin")) add(e.load_case_plugin);
+  if (stands("/load_case/measure") && stands("/load_case/plugin"))
+    add(fmt::format("measure {}", e.directions.empty() ? e.load_case->measure()
+                                                       : e.load_case->measure(e.directions.front())));
+  if (stands("/solver/clearance")) add(fmt::format("clearance {:g} {}", e.solver.clearance, e.length_unit));
   std::tie(labels.positive, labels.negative) = e.load_case->sense_names();
   labels.unit = unit_of(e);
   return labels;

@@ -5,8 +5,12 @@
 
 #include <hauberk/experiment/experiment.hpp>
 
+#include <span>
+#include <string>
+
 namespace hauberk {
 
-PlotLabels plot_labels(const Experiment& experiment);
+/// `varied`: pointers to values of the experiment that the picture's rows replace, which are not told of all.
+PlotLabels plot_labels(const Experiment& experiment, std::span<const std::string> varied = {});
 
 }  // namespace hauberk

@@ -135,6 +135,29 @@ TEST(SweepRun, TableAndPicture)
   EXPECT_EQ(read_results(folder / "out").at_pointer("/files/sweep").as_string(), "sweep.csv");
 }
 
+/// What rows replace is not said of all of them.
+TEST(SweepRun, PicturesNameNoSweptQuantityAbove)
+{
+  const TemporaryFolder folder;
+  const auto picture = [&](const std::string& vary) {
+    const std::string file = folder.write(
+        "s.json",
+        R"({ "name": "s", "task": "sweep", "length_unit": "mm", "cell": { "weave": { "name": "chain" } },
+  "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
+  "sweep": { "vary": [ )" +
+            vary + " ] } }");
+    const Outcome ran = run_program({"run", file, "-o", folder / "out", "--force"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return read_text(folder.path() / "out" / "sweep.svg");
+  };
+  const std::string clearance =
+      picture(R"({ "name": "gap", "pointers": ["/solver/clearance"], "values": [0, 0.1] })");
+  EXPECT_NE(clearance.find(">in_plane_periodic, measure tensor<"), std::string::npos);
+  const std::string wire = picture(
+      R"({ "name": "wire", "pointers": ["/cell/weave/parameters/wire_diameter"], "values": [1, 1.1] })");
+  EXPECT_NE(wire.find(">in_plane_periodic, measure tensor, clearance 0 mm<"), std::string::npos);
+}
+
 TEST(SweepRun, ListsStandOnOneLine)
 {
   const TemporaryFolder folder;

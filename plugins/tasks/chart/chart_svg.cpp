@@ -31,14 +31,10 @@ double cost_of(const PrecisionPoint& point, PrecisionCost cost)
   return std::max(static_cast<double>(point.first->evaluations), least_evaluations);
 }
 
-/// The line of a method, without points; beyond as many as there are strokes the markers go on.
+/// The line of a method, without points.
 DecadeLine method_line(const PrecisionChart& chart, std::size_t method)
 {
-  const std::size_t round = method / detail::distinct_strokes;
-  return {chart.methods[method].name,
-          detail::distinct_stroke(method % detail::distinct_strokes),
-          method % detail::distinct_strokes + round * (detail::distinct_strokes + 1),
-          {}};
+  return {chart.methods[method].name, detail::distinct_stroke(method), method, {}};
 }
 
 DecadePanel panel_of(const PrecisionChart& chart, std::size_t scene, PrecisionCost cost)

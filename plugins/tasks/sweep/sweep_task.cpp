@@ -82,7 +82,10 @@ class SweepTask final : public TaskRun {
   std::vector<ResultFile> files(const std::filesystem::path& /*folder*/) const override
   {
     const auto& [rows, picture] = sweep_file_names;
-    const PlotLabels labels = plot_labels(prepared_.experiment);
+    std::vector<std::string> varied;
+    for (const SweepAxis& axis : prepared_.experiment.section<ExperimentSweep>()->axes)
+      for (const SweepPlace& place : axis.places) varied.push_back(place.pointer);
+    const PlotLabels labels = plot_labels(prepared_.experiment, varied);
     return {{"sweep", rows, sweep_csv(table_)},
             {"picture", picture, sweep_svg(table_, labels.title, labels.subtitle)}};
   }

@@ -1,4 +1,5 @@
 #include "pictures/line_panel.hpp"
+#include "pictures/strokes.hpp"
 #include "tasks/transition/transition_results.hpp"
 
 #include <fmt/format.h>
@@ -18,14 +19,6 @@ using detail::Svg;
 constexpr double left = 70.0, between = 92.0, top = 108.0, panel_step = 172.0, bottom = 52.0, right = 24.0,
                  legend_word = 92.0;
 constexpr LineFrame plot{0.0, 1.0, 400.0, 130.0};
-
-/// Told apart by dashes as well as by colour; contacts beyond the last look alike.
-Stroke contact_stroke(int contact)
-{
-  static const std::array<Stroke, 4> strokes{Stroke{"#1f4e79", 2.0, ""}, Stroke{"#c55a11", 2.0, "8,4"},
-                                             Stroke{"#2e7d32", 2.0, "2,3"}, Stroke{"#777", 2.0, "10,3,2,3"}};
-  return strokes[std::min<std::size_t>(static_cast<std::size_t>(contact), strokes.size() - 1)];
-}
 
 /// `auto` is one of the others, so it is drawn as wide dots on top of it.
 Stroke curve_stroke(const std::string& contact)
@@ -56,7 +49,7 @@ std::vector<Line> contact_lines(const TransitionPath& path, F&& quantity)
 {
   std::vector<Line> lines;
   for (int k = 0; k < contact_count(path); ++k) {
-    Line line{fmt::format("contact {}", k), contact_stroke(k), {}};
+    Line line{fmt::format("contact {}", k), detail::distinct_stroke(static_cast<std::size_t>(k)), {}};
     for (const TransitionSample& sample : path.samples) {
       std::optional<double> value;
       for (const TransitionMinimum& m : sample.minima) {
@@ -114,7 +107,7 @@ std::vector<Line> legend_contacts(const TransitionResult& result)
   for (const TransitionPath& path : result.paths) most = std::max(most, contact_count(path));
   std::vector<Line> lines;
   for (int k = 0; k < std::min(most, 4); ++k)
-    lines.push_back({fmt::format("contact {}", k), contact_stroke(k), {}});
+    lines.push_back({fmt::format("contact {}", k), detail::distinct_stroke(static_cast<std::size_t>(k)), {}});
   return lines;
 }
 

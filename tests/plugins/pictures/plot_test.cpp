@@ -1,6 +1,7 @@
 #include "document/json_text.hpp"
 #include "occurrences.hpp"
 #include "pictures/polar_svg.hpp"
+#include "pictures/strokes.hpp"
 #include "sample_run.hpp"
 #include "tasks/sweep/sweep_results.hpp"
 
@@ -11,11 +12,23 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <set>
+#include <string>
+#include <tuple>
 
 namespace hauberk {
 namespace {
 
 using test::occurrences;
+
+TEST(Strokes, NoTwoAreAlike)
+{
+  std::set<std::tuple<std::string, std::string, double>> seen;
+  for (std::size_t k = 0; k < 300; ++k) {
+    const detail::Stroke stroke = detail::distinct_stroke(k);
+    EXPECT_TRUE(seen.emplace(stroke.colour, stroke.dash, stroke.width).second) << k;
+  }
+}
 
 TEST(PolarPlot, DesignShowsBeforeAfterAndTargets)
 {

@@ -11,12 +11,13 @@ if (($# > 0)) && [[ $1 != -* ]]; then
   shift
 fi
 
-viewer=()
-if command -v npm >/dev/null; then viewer=(--viewer); fi
-"$here/setup.sh" "${viewer[@]}"
+# A page to turn the fabric by hand, where its viewer can be built.
+page=()
+if command -v npm >/dev/null && "$here/setup.sh" --no-build --viewer; then page=(--html); fi
+"$here/setup.sh"
 hauberk=$(dirname "$here")/build/release/bin/hauberk
 status=0
-"$hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force ${viewer[@]:+--html} "$@" || status=$?
+"$hauberk" run "$here/experiments/chainmail_c.json" -o "$out" --force "${page[@]}" "$@" || status=$?
 
 out=$(cd "$out" 2>/dev/null && pwd) || exit "$status"
 echo

@@ -114,7 +114,11 @@ build_viewer() {
     return 1
   fi
   echo "setup: building the viewer of pages in share/web/build"
-  (cd share/web && npm ci --silent --no-audit --no-fund --ignore-scripts && npm run --silent build -- --log-level=warning)
+  if ! (cd share/web && npm ci --loglevel=error --no-audit --no-fund --ignore-scripts &&
+        npm run --silent build -- --log-level=warning); then
+    echo "setup: the viewer of pages could not be built (npm, above); everything else works without it" >&2
+    return 1
+  fi
 }
 if [[ $viewer == yes ]]; then build_viewer; fi
 

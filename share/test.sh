@@ -8,7 +8,7 @@ share/setup.sh --no-build
 if command -v npm >/dev/null; then share/setup.sh --no-build --viewer || echo "test: the viewer of pages is not tested"; fi
 # Exported files are judged by others' readers where these can be had.
 if command -v npm >/dev/null; then
-  (cd tests/judges && npm ci --silent --no-audit --no-fund --ignore-scripts) || echo "test: exported files are not judged by others"
+  (cd tests/judges && npm ci --loglevel=error --no-audit --no-fund --ignore-scripts) || echo "test: exported files are not judged by others"
 fi
 if [[ -n ${CI:-} ]]; then share/setup.sh --no-build --judges || echo "test: exported files are not sliced"; fi
 cmake --preset release --log-level=WARNING

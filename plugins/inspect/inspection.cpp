@@ -320,6 +320,9 @@ Inspection inspect(const ModelFile& model, const std::string& file, double gap,
   }
   look_at_pairs(solids, gap, keep_going, out);
   count_pieces(out);
+  out.linked_apart = std::any_of(out.links.begin(), out.links.end(), [&](const LinkedBodies& link) {
+    return model.parts[link.bodies[0]].object != model.parts[link.bodies[1]].object;
+  });
   look_at_printing(model, out);
   return out;
 }

@@ -50,6 +50,7 @@ struct Inspection {
   std::vector<LinkedBodies> links;
   int pieces = 0;             ///< that hang together by links, of closed bodies
   std::size_t objects = 1;    ///< see ModelFile
+  bool linked_apart = false;  ///< bodies of different objects are linked
   std::array<Vec3, 2> box{};  ///< lowest and highest coordinates of all bodies
   int on_bed = 0;  ///< closed bodies that reach down to its lowest z, to a thousandth of the model's height
   double overhang =

@@ -163,7 +163,7 @@ std::string inspection_text(const Inspection& inspection, double gap)
         "surface hangs over, steeper than 45 degrees\n",
         size_text(inspection.box, unit), inspection.on_bed, counted(closed, "body", "bodies"),
         inspection.box[0].z(), unit, 100.0 * inspection.overhang);
-  if (inspection.objects > 1 && !inspection.links.empty())
+  if (inspection.linked_apart)
     out += fmt::format(
         "the file places {} objects, which slicers lay on the bed one by one: merge them into one before slicing, or "
         "bodies that are linked here are printed apart\n",
@@ -214,6 +214,7 @@ json::object inspection_json(const Inspection& inspection, double gap)
       {"printing", json::object{{"box", json::array{vector(inspection.box[0]), vector(inspection.box[1])}},
                                 {"lowest", inspection.box[0].z()},
                                 {"objects", inspection.objects},
+                                {"linked_apart", inspection.linked_apart},
                                 {"on_bed", inspection.on_bed},
                                 {"overhang", inspection.overhang}}}};
 }

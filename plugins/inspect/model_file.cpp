@@ -25,7 +25,7 @@ void append_parts(const Part& mesh, std::vector<Part>& parts)
     int& part = part_of[together.root(t[0])];
     if (part < 0) {
       part = static_cast<int>(parts.size() - before);
-      parts.push_back({mesh.name, {}, {}});
+      parts.push_back({mesh.name, {}, {}, mesh.object});
     }
     Part& into = parts[before + part];
     std::array<int, 3> corners{};

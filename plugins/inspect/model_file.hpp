@@ -16,12 +16,14 @@ struct Part {
   std::string name;  ///< that of the file, if it has names; may be empty
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
+  std::size_t object = 0;  ///< number of the object that it is part of
 };
 
 struct ModelFile {
   std::string unit;  ///< empty where the format does not name it
   std::vector<Part> parts;
-  std::size_t objects = 1;  ///< that a slicer moves as one each: meshes that the items of a 3MF place
+  std::size_t objects =
+      1;  ///< that a slicer moves as one each: meshes that the items of a 3MF place, numbered from 0
 };
 
 /// Reads a file whose name ends in .stl, .obj or .3mf, in any case. Corners at the same place are one point;

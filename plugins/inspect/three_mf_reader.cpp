@@ -244,6 +244,7 @@ class Model {
       if (placed_triangles_ > most_triangles)
         throw InputError(fmt::format("{}: its items have more than {} triangles", name_, most_triangles));
       Part& part = out.parts.emplace_back(own);
+      part.object = out.objects - 1;
       if (!what.name.empty()) part.name = what.name;
       for (Vec3& x : part.points) x = placement.A * x + placement.b;
       if (placement.A.determinant() < 0.0)

@@ -3,6 +3,7 @@
 #include "document/json_text.hpp"
 #include "document/jsonc.hpp"
 #include "document/node_access.hpp"
+#include "run/interrupt.hpp"
 #include "run/prepared.hpp"
 #include "run/variant_run.hpp"
 
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
+#include <boost/json/parse.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -49,7 +51,17 @@ Question with(Question question, Diameter diameter, double value)
   return question;
 }
 
-constexpr double stride = 1.01, farthest = 8.0, resolution = 1e-4;
+constexpr double stride = 1.01, farthest = 8.0, resolution = 1e-10;
+
+/// Links at rest. Throws InputError where there is no such scene, or no rest state.
+std::size_t links_at_rest(const std::string& text, const WeaveSource& source)
+{
+  Diagnostics diagnostics;
+  const std::optional<Experiment> experiment = read_experiment(
+      {"weave " + source.weave.name, text, {}, source.lookup}, lookup_in(*source.registry), diagnostics);
+  if (!experiment) throw ReportedProblems(diagnostics);
+  return prepare_variant(*experiment).model.links.size();
+}
 
 }  // namespace
 
@@ -70,11 +82,13 @@ Weave read_weave(const std::string& name, const WeaveLookup& lookup)
       ratio != nullptr && ratio->is(Node::Type::number))
     weave.smallest_ratio = ratio->number;
   const auto has = [&](const char* parameter) { return find_in(*file, "parameters", parameter) != nullptr; };
-  weave.two_sizes = has("small_inner_diameter") && has("small_wire_diameter");
-  if (!has("inner_diameter") || !has("wire_diameter") || !(weave.smallest_ratio > 0.0))
+  weave.two_sizes = has("small_inner_diameter");
+  if (weave.two_sizes != has("small_wire_diameter") || !has("inner_diameter") || !has("wire_diameter") ||
+      !(weave.smallest_ratio > 0.0))
     throw InputError(fmt::format(
         "weave '{}' is not woven of plain rings: a maker's answers need the parameters inner_diameter and "
-        "wire_diameter, and buildable.at_least; use `hauberk run` for its limits",
+        "wire_diameter (of two sizes small_inner_diameter and small_wire_diameter, too), and buildable.at_least; use "
+        "`hauberk run` for its limits",
         name));
   if (const Node* ways = file->find("ways"); ways != nullptr && ways->is(Node::Type::object)) {
     for (const auto& [way, degrees] : ways->members) weave.ways.push_back({way, degrees.number});
@@ -111,50 +125,45 @@ std::string experiment_text(const Weave& weave, const Question& question, double
   return write_json(document);
 }
 
-RingFit::RingFit(Weave weave, WeaveLookup lookup, std::shared_ptr<const Registry> registry)
-    : weave_(std::move(weave)), lookup_(std::move(lookup)), registry_(std::move(registry))
+RingFit::RingFit(WeaveSource source) : source_(std::move(source))
 {
-  if (!weave_.two_sizes) return;
-  std::string error;
-  Problems problems;
-  const Node file = read_jsonc(lookup_(weave_.name, error).value(), problems).value();
-  const auto size = [&](const char* name) {
-    const Node* value = file.at("parameters").at(name).find("default");
-    return value == nullptr ? 0.0 : value->number;
-  };
-  Question own{weave_.name, size("inner_diameter"), size("wire_diameter")};
-  own.small = Ring{size("small_inner_diameter"), size("small_wire_diameter")};
-  links_ = links(own);
-}
-
-/// Links at rest; 0 where there is no rest state.
-std::size_t RingFit::links(const Question& question) const
-{
-  Diagnostics diagnostics;
+  if (!source_.weave.two_sizes) return;
+  namespace json = boost::json;
+  json::value own = json::parse(experiment_text(source_.weave, {}, 0.0));
+  own.at("cell").at("weave").as_object().erase("parameters");
   try {
-    const std::optional<Experiment> experiment = read_experiment(
-        {"weave", experiment_text(weave_, question, 0.0), {}, lookup_}, lookup_in(*registry_), diagnostics);
-    return experiment ? prepare_variant(*experiment).model.links.size() : 0;
-  } catch (const InputError&) {
-    return 0;
+    links_ = links_at_rest(write_json(own), source_);
+  } catch (const ReportedProblems&) {
+    throw;
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("weave '{}', with the sizes of its file: {}", source_.weave.name, error.what()));
   }
 }
 
 bool RingFit::fits(const Question& question) const
 {
-  if (!weave_.two_sizes) return question.inner / question.wire >= weave_.smallest_ratio;
-  const std::size_t found = links(question);
-  return found > 0 && found == links_;
+  const Weave& weave = source_.weave;
+  if (!weave.two_sizes) return question.inner / question.wire >= weave.smallest_ratio;
+  try {
+    return links_at_rest(experiment_text(weave, question, 0.0), source_) == links_;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 std::optional<Range> RingFit::range(const Question& question, Diameter diameter) const
 {
-  if (!weave_.two_sizes)
-    return diameter == Diameter::inner ? Range{weave_.smallest_ratio * question.wire}
-                                       : Range{0.0, question.inner / weave_.smallest_ratio};
+  const Weave& weave = source_.weave;
+  if (!weave.two_sizes)
+    return diameter == Diameter::inner ? Range{weave.smallest_ratio * question.wire}
+                                       : Range{0.0, question.inner / weave.smallest_ratio};
   Question asked = question;
   const double value = value_of(asked, diameter);
-  const auto has_room = [&](double x) { return fits(with(question, diameter, x)); };
+  const auto has_room = [&](double x) {
+    if (interrupted()) throw ComputationError("interrupted");
+    return fits(with(question, diameter, x));
+  };
   // The nearest value with room, by steps to both sides.
   std::optional<double> inside;
   for (double factor = 1.0; factor <= farthest && !inside; factor *= stride) {
@@ -181,23 +190,37 @@ std::optional<Range> RingFit::range(const Question& question, Diameter diameter)
   return found;
 }
 
-std::string RingFit::ranges_text(const Question& question) const
+Fitting RingFit::fitting(const Question& question) const
+{
+  Fitting out;
+  out.inner = range(question, Diameter::inner);
+  out.wire = range(question, Diameter::wire);
+  out.two_sizes = question.small.has_value();
+  if (out.two_sizes) out.small_inner = range(question, Diameter::small_inner);
+  if (!question.one_wire()) out.small_wire = range(question, Diameter::small_wire);
+  return out;
+}
+
+std::string fitting_text(const Fitting& fitting)
 {
   std::vector<std::string> parts;
-  const auto add = [&](const std::string& what, Diameter diameter) {
-    const std::optional<Range> found = range(question, diameter);
-    if (!found) return;
-    if (found->low <= 0.0)
-      parts.push_back(fmt::format("{} up to {:.3f} mm", what, found->high));
-    else if (std::isinf(found->high))
-      parts.push_back(fmt::format("{} from {:.3f} mm on", what, found->low));
+  const auto add = [&](const std::string& what, const std::optional<Range>& range) {
+    if (!range) return;
+    // Inwards, but for what rounding made of a number of so many digits.
+    constexpr double digits = 1e3, rounding = 1e-6;
+    const double low = std::ceil(range->low * digits - rounding) / digits;
+    const double high = std::floor(range->high * digits + rounding) / digits;
+    if (std::isinf(high))
+      parts.push_back(low <= 0.0 ? "any " + what : fmt::format("{} from {:.3f} mm on", what, low));
+    else if (low <= 0.0)
+      parts.push_back(fmt::format("{} up to {:.3f} mm", what, high));
     else
-      parts.push_back(fmt::format("{} from {:.3f} to {:.3f} mm", what, found->low, found->high));
+      parts.push_back(fmt::format("{} from {:.3f} to {:.3f} mm", what, low, high));
   };
-  add(weave_.two_sizes ? "large rings" : "rings", Diameter::inner);
-  if (weave_.two_sizes) add("small rings", Diameter::small_inner);
-  add("wire", Diameter::wire);
-  if (!question.one_wire()) add("wire of the small rings", Diameter::small_wire);
+  add(fitting.two_sizes ? "large rings" : "rings", fitting.inner);
+  add("small rings", fitting.small_inner);
+  add(fitting.small_wire ? "wire of the large rings" : "wire", fitting.wire);
+  add("wire of the small rings", fitting.small_wire);
   std::string text;
   for (std::size_t k = 0; k < parts.size(); ++k)
     text += (k == 0 ? "" : k + 1 < parts.size() ? ", " : ", or ") + parts[k];

@@ -4,7 +4,6 @@
 #include <hauberk/experiment/experiment.hpp>
 #include <hauberk/host/registry.hpp>
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -46,42 +45,57 @@ struct Weave {
 
 /// Reads the weave. Throws InputError where there is none of that name, or where it is not woven of plain
 /// rings: its parameters are not inner_diameter and wire_diameter, of two sizes also small_inner_diameter and
-/// small_wire_diameter.
+/// small_wire_diameter, none without the other.
 Weave read_weave(const std::string& name, const WeaveLookup& lookup);
 
 /// The experiment that the answers come from, as JSON text.
 std::string experiment_text(const Weave& weave, const Question& question, double clearance);
 
+/// What a weave's scenes are made with.
+struct WeaveSource {
+  Weave weave;
+  WeaveLookup lookup;
+  std::shared_ptr<const Registry> registry;
+};
+
 enum class Diameter { inner, wire, small_inner, small_wire };
 
-/// Values of one diameter, all others being as asked for, with which a weave has room: from `low` to `high`.
+/// Values of one diameter with which a weave has room: from `low` to `high`.
 struct Range {
   double low = 0.0, high = std::numeric_limits<double>::infinity();
 };
+
+/// For every diameter, all others being as asked for, the values around it with which a weave has room;
+/// around the nearest such one where it has none; none where that is not within an eighth and eight times the
+/// value. Wires of both sizes change alike where they are one.
+struct Fitting {
+  std::optional<Range> inner, wire;
+  std::optional<Range> small_inner, small_wire;  ///< none of one size; the second none of one wire
+  bool two_sizes = false;
+};
+
+/// As words: "rings from 3.578 mm on, or wire up to 2.683 mm"; ends are rounded inwards, so that each of them
+/// has room. Empty where nothing alone would do.
+std::string fitting_text(const Fitting& fitting);
 
 /// For which rings a weave has room in the arrangement of its file. Of rings of one size their ratio decides;
 /// of two, whether the scene has a rest state and as many links as with the sizes of the file. Thread safe.
 class RingFit {
  public:
-  RingFit(Weave weave, WeaveLookup lookup, std::shared_ptr<const Registry> registry);
+  /// Throws InputError where a weave of two sizes cannot be read, or has no rest state with its own sizes.
+  explicit RingFit(WeaveSource source);
 
+  const WeaveSource& source() const { return source_; }
   bool fits(const Question& question) const;
 
-  /// The values around the one asked for, of two sizes to a ten-thousandth and from an eighth of it to eight
-  /// times as much; around the nearest one with room, if it has none; none, if there is none there. Wires of
-  /// both sizes change alike where they are one.
-  std::optional<Range> range(const Question& question, Diameter diameter) const;
-
-  /// The ranges of all diameters as words: "rings from 3.577 mm on, or wire up to 2.684 mm".
-  std::string ranges_text(const Question& question) const;
+  /// Throws ComputationError where it is interrupted.
+  Fitting fitting(const Question& question) const;
 
  private:
-  std::size_t links(const Question& question) const;
+  std::optional<Range> range(const Question& question, Diameter diameter) const;
 
-  Weave weave_;
-  WeaveLookup lookup_;
-  std::shared_ptr<const Registry> registry_;
-  std::size_t links_ = 0;  ///< with the sizes of the file
+  WeaveSource source_;
+  std::size_t links_ = 0;  ///< of two sizes, with those of the file
 };
 
 /// The rings as words: "rings of 8 mm, wire of 1.2 mm".

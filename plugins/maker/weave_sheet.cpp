@@ -33,13 +33,18 @@ Job job_of(const Weave& weave, const Question& question, double clearance, const
       registry, {"hauberk weave " + question.weave, experiment_text(weave, question, clearance), {}, lookup});
 }
 
-/// 2 pi^2 R r0 r1 of every ring of the element.
+/// 2 pi^2 R r0 r1 of the ring that the element is.
 double wire_volume(const SceneSpec& scene, const PlacedElement& element)
 {
-  double volume = 0.0;
-  for (const Primitive& ring : scene.types[element.type].shape->primitives(element.parameters))
-    volume += 2.0 * std::numbers::pi * std::numbers::pi * ring.size[0] * ring.size[1] * ring.size[2];
-  return volume;
+  const std::vector<Primitive> rings = scene.types[element.type].shape->primitives(element.parameters);
+  const PrimitiveKind kind = rings.front().kind;
+  if (rings.size() != 1 || (kind != PrimitiveKind::circle_tube && kind != PrimitiveKind::revolved_ellipse))
+    throw InputError(
+        fmt::format("'{}' is no single ring of round or oval wire, as a maker's answers need it; use "
+                    "`hauberk run` for its limits",
+                    scene.types[element.type].name));
+  const auto& [R, r0, r1] = rings.front().size;
+  return 2.0 * std::numbers::pi * std::numbers::pi * R * r0 * r1;
 }
 
 /// Surfaces that stay a gap apart are those of wire as much thicker that touch.
@@ -118,20 +123,30 @@ boost::json::array ways_json(const std::vector<WayAnswer>& ways)
   return out;
 }
 
+/// Lowest and highest mm by diameter; null: none, and no end.
+boost::json::object fitting_json(const Fitting& fitting)
+{
+  const auto ends = [](const std::optional<Range>& range) -> boost::json::value {
+    if (!range) return nullptr;
+    return {range->low,
+            std::isinf(range->high) ? boost::json::value(nullptr) : boost::json::value(range->high)};
+  };
+  boost::json::object out{{"inner_mm", ends(fitting.inner)}, {"wire_mm", ends(fitting.wire)}};
+  if (fitting.two_sizes) out["small_inner_mm"] = ends(fitting.small_inner);
+  if (fitting.small_wire) out["small_wire_mm"] = ends(fitting.small_wire);
+  return out;
+}
+
 }  // namespace
 
-Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lookup,
-             const std::shared_ptr<const Registry>& registry, unsigned threads, Progress& progress)
+Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Progress& progress)
 {
+  const auto& [weave, lookup, registry] = fit.source();
   Sheet sheet;
   sheet.question = question;
   sheet.weave = weave;
   sheet.ratio = question.inner / question.wire;
-  const RingFit fit(weave, lookup, registry);
-  sheet.inner = fit.range(question, Diameter::inner).value_or(Range());
-  sheet.wire = fit.range(question, Diameter::wire).value_or(Range());
-  if (question.small) sheet.small_inner = fit.range(question, Diameter::small_inner);
-  sheet.ranges = fit.ranges_text(question);
+  sheet.fitting = fit.fitting(question);
   sheet.chain = weave.ways.size() == 1;
   const Job job = job_of(weave, question, 0.0, lookup, registry);
   const SceneSpec& scene = job.prepared->scene;
@@ -144,8 +159,8 @@ Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lo
   if (question.roll && !sheet.chain)
     sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
   sheet.printable = fit.fits(thicker(question));
-  if (!question.small)
-    sheet.inner_of_gap = fit.range(thicker(question), Diameter::inner).value_or(Range()).low + question.gap;
+  if (!question.small && !sheet.printable)
+    sheet.inner_of_gap = fit.fitting(thicker(question)).inner.value_or(Range()).low + question.gap;
   if (sheet.printable)
     sheet.with_gap = answers(job_of(weave, question, question.gap, lookup, registry), weave, threads,
                              progress, "limits with the gap");
@@ -169,12 +184,12 @@ std::string sheet_text(const Sheet& sheet)
         "large rings of {:.4g} mm inner diameter and {:.4g} mm wire, small ones of {:.4g} mm and {:.4g} mm: ratios {:.3f} "
         "and {:.3f}\n  with the other sizes as they are it takes {}\n\n",
         q.inner, q.wire, q.small->inner, q.small->wire, sheet.ratio, q.small->inner / q.small->wire,
-        sheet.ranges);
+        fitting_text(sheet.fitting));
   else
     text += fmt::format(
         "rings of {:.4g} mm inner diameter, wire of {:.4g} mm: ratio {:.3f}, at least {:.3f} is needed\n"
-        "  this wire takes rings from {:.3f} mm on, these rings wire up to {:.3f} mm\n\n",
-        q.inner, q.wire, sheet.ratio, sheet.weave.smallest_ratio, sheet.inner.low, sheet.wire.high);
+        "  it takes {}\n\n",
+        q.inner, q.wire, sheet.ratio, sheet.weave.smallest_ratio, fitting_text(sheet.fitting));
   text += "the pattern repeats itself every\n" + ways_text(sheet.ways) + "\n" + rolls_text(sheet.rolls);
   const double weight = 1e-3 * sheet.metal;  // cm^3 per dm^2 or metre
   const char* per = sheet.chain ? "m" : "dm^2";
@@ -188,7 +203,8 @@ std::string sheet_text(const Sheet& sheet)
   if (!sheet.printable) {
     text += fmt::format("printed with a gap of {:g} mm it has no room", q.gap);
     if (q.small) return text + "\n";
-    return text + fmt::format(": that takes rings from {:.3f} mm on\n", sheet.inner_of_gap);
+    return text +
+           fmt::format(": that takes rings from {:.3f} mm on\n", std::ceil(1e3 * sheet.inner_of_gap) / 1e3);
   }
   return text + fmt::format("printed, surfaces {:g} mm apart, every\n", q.gap) + ways_text(sheet.with_gap);
 }
@@ -204,8 +220,7 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"wire_mm", q.wire},
                    {"ratio", sheet.ratio},
                    {"smallest_ratio", sheet.weave.smallest_ratio},
-                   {"smallest_inner_mm", sheet.inner.low},
-                   {"thickest_wire_mm", sheet.wire.high},
+                   {"fitting", fitting_json(sheet.fitting)},
                    {"ways", ways_json(sheet.ways)},
                    {"rolls", rolls_json(sheet.rolls)},
                    {"rings", sheet.rings},
@@ -214,15 +229,7 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"gap_mm", q.gap},
                    {"printable", sheet.printable}};
   out["with_gap"] = ways_json(sheet.with_gap);
-  if (q.small) {
-    const Range small = sheet.small_inner.value_or(Range());
-    const auto up_to = [](double x) { return std::isinf(x) ? json::value(nullptr) : json::value(x); };
-    out["largest_inner_mm"] = up_to(sheet.inner.high);
-    out["small"] = json::object{{"inner_mm", q.small->inner},
-                                {"wire_mm", q.small->wire},
-                                {"smallest_inner_mm", small.low},
-                                {"largest_inner_mm", up_to(small.high)}};
-  }
+  if (q.small) out["small"] = json::object{{"inner_mm", q.small->inner}, {"wire_mm", q.small->wire}};
   return out;
 }
 

@@ -39,10 +39,8 @@ struct RollAnswer {
 struct Sheet {
   Question question;
   Weave weave;
-  double ratio = 0.0;  ///< inner / wire, of two sizes of the large rings
-  Range inner, wire;   ///< with which it can be woven, the other being as it is
-  std::optional<Range> small_inner;
-  std::string ranges;         ///< RingFit::ranges_text
+  double ratio = 0.0;         ///< inner / wire, of two sizes of the large rings
+  Fitting fitting;            ///< with which rings it can be woven
   double inner_of_gap = 0.0;  ///< of one size: with which it could be printed, this wire
   bool chain = false;
   double rings = 0.0;  ///< of all sizes, per dm^2 at rest, per metre of a chain
@@ -53,11 +51,11 @@ struct Sheet {
   std::vector<WayAnswer> with_gap;  ///< what the gap leaves; none where it has no room
 };
 
-/// Computes the answers to a question of which `RingFit::fits` holds. Limits are those of the load's
-/// direction with the shear held, in the plane (of a chain free to leave it). Throws what preparing and
-/// computing an experiment throws; ComputationError where it is interrupted.
-Sheet answer(const Weave& weave, const Question& question, const WeaveLookup& lookup,
-             const std::shared_ptr<const Registry>& registry, unsigned threads, Progress& progress);
+/// Computes the answers to a question that fits. Limits are those of the load's direction with the shear
+/// held, in the plane (of a chain free to leave it). Throws what preparing and computing an experiment
+/// throws; InputError where elements are no single rings of round or oval wire; ComputationError where it is
+/// interrupted.
+Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Progress& progress);
 
 /// Grams per cubic centimetre.
 struct Metal {

@@ -1,5 +1,7 @@
 #include "run/labels.hpp"
 
+#include "document/jsonc.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +29,7 @@ PlotLabels plot_labels(const Experiment& e, std::span<const std::string> varied)
 {
   const auto stands = [&](std::string_view pointer) {
     return std::none_of(varied.begin(), varied.end(), [&](const std::string& other) {
-      return pointer == other || pointer.starts_with(other + "/");
+      return pointer_within(pointer, other) || pointer_within(other, "/values");
     });
   };
   PlotLabels labels;
@@ -39,7 +41,8 @@ PlotLabels plot_labels(const Experiment& e, std::span<const std::string> varied)
   if (stands("/load_case/measure") && stands("/load_case/plugin"))
     add(fmt::format("measure {}", e.directions.empty() ? e.load_case->measure()
                                                        : e.load_case->measure(e.directions.front())));
-  if (stands("/solver/clearance")) add(fmt::format("clearance {:g} {}", e.solver.clearance, e.length_unit));
+  if (stands("/solver/clearance") && stands("/length_unit"))
+    add(fmt::format("clearance {:g} {}", e.solver.clearance, e.length_unit));
   std::tie(labels.positive, labels.negative) = e.load_case->sense_names();
   labels.unit = unit_of(e);
   return labels;

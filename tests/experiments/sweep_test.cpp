@@ -144,7 +144,7 @@ TEST(SweepRun, PicturesNameNoSweptQuantityAbove)
         "s.json",
         R"({ "name": "s", "task": "sweep", "length_unit": "mm", "cell": { "weave": { "name": "chain" } },
   "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
-  "sweep": { "vary": [ )" +
+  "values": { "gap": 0.05 }, "solver": { "clearance": "$gap" }, "sweep": { "vary": [ )" +
             vary + " ] } }");
     const Outcome ran = run_program({"run", file, "-o", folder / "out", "--force"});
     EXPECT_EQ(ran.code, 0) << ran.err;
@@ -153,9 +153,17 @@ TEST(SweepRun, PicturesNameNoSweptQuantityAbove)
   const std::string clearance =
       picture(R"({ "name": "gap", "pointers": ["/solver/clearance"], "values": [0, 0.1] })");
   EXPECT_NE(clearance.find(">in_plane_periodic, measure tensor<"), std::string::npos);
+  const std::string measure =
+      picture(R"({ "name": "m", "pointers": ["/load_case/measure"], "values": ["tensor", "equation_12"] })");
+  EXPECT_NE(measure.find(">in_plane_periodic, clearance 0.05 mm<"), std::string::npos);
+  const std::string unit =
+      picture(R"({ "name": "unit", "pointers": ["/length_unit"], "values": ["mm", "m"] })");
+  EXPECT_NE(unit.find(">in_plane_periodic, measure tensor<"), std::string::npos);
+  const std::string value = picture(R"({ "name": "gap", "pointers": ["/values/gap"], "values": [0, 0.1] })");
+  EXPECT_EQ(value.find("clearance"), std::string::npos);
   const std::string wire = picture(
       R"({ "name": "wire", "pointers": ["/cell/weave/parameters/wire_diameter"], "values": [1, 1.1] })");
-  EXPECT_NE(wire.find(">in_plane_periodic, measure tensor, clearance 0 mm<"), std::string::npos);
+  EXPECT_NE(wire.find(">in_plane_periodic, measure tensor, clearance 0.05 mm<"), std::string::npos);
 }
 
 TEST(SweepRun, ListsStandOnOneLine)

@@ -22,7 +22,8 @@ if slicer is None:
     print("slicer: not installed: share/setup.sh --no-build --judges")
     sys.exit(77)
 experiments = sorted((pathlib.Path(source) / "share" / "experiments").glob("*.json"))
-folder = pathlib.Path(tempfile.mkdtemp(prefix="hauberk-slicer-"))
+temporary = tempfile.TemporaryDirectory(prefix="hauberk-slicer-")
+folder = pathlib.Path(temporary.name)
 # What is sliced, with copies of the cell.
 SLICED = {"chain": "3,1", "chainmail_limits": "1,1", "threefold_limits": "2,1", "tetrahedra": "1,1", "cage": "1,1"}
 WIDTH = 0.45  # of an extruded path, mm
@@ -103,5 +104,4 @@ check(len(information(apart)) == 6, "apart", f"{len(information(apart))} objects
 check(abs(high[0] - low[0] + WIDTH - float(whole["size_x"])) > 5.0, "apart", "rings of separate items lie as in one object")
 
 print(f"{judged} scenes, {sliced} sliced: {len(failures)} failures")
-shutil.rmtree(folder)
 sys.exit(1 if failures or judged < 20 or sliced != len(SLICED) else 0)

@@ -108,6 +108,12 @@ class Package(unittest.TestCase):
         self.assertGreater(target.stat().st_size, 84)
         with self.assertRaisesRegex(hauberk.InputError, "exists already; give another name with -o, or --force"):
             hauberk.export(EXPERIMENTS / "chain.json", target)
+        sizes = []
+        for separate in False, True:
+            model = target.with_name(f"chain_{separate}.3mf")
+            hauberk.export(EXPERIMENTS / "chain.json", model, repeat=(2, 1), separate=separate)
+            sizes.append(model.stat().st_size)
+        self.assertGreater(sizes[0], 2 * sizes[1])  # four rings written out, and one placed four times
         with self.assertRaisesRegex(hauberk.ComputationError, "0.6 mm apart"):
             hauberk.export(EXPERIMENTS / "chain.json", target.with_name("other.stl"), repeat=(2, 1), require_gap=0.7)
 

@@ -53,10 +53,10 @@ std::optional<maker::Ring> small_rings(const Options& options, const maker::Weav
 }
 
 /// Why the rings cannot be woven, and which could.
-std::string no_room_text(const maker::Weave& weave, const maker::RingFit& fit,
-                         const maker::Question& question)
+std::string no_room_text(const maker::RingFit& fit, const maker::Question& question)
 {
-  const std::string ranges = fit.ranges_text(question);
+  const maker::Weave& weave = fit.source().weave;
+  const std::string ranges = maker::fitting_text(fit.fitting(question));
   const std::string way_out =
       ranges.empty() ? "no other size of one of them alone would do" : "take " + ranges;
   if (question.small)
@@ -81,7 +81,7 @@ Description weave_description()
           "Says whether a weave can be made of rings of this inner diameter and wire, for which it could, how long it "
           "is at rest, taut and pushed together, what it weighs, and what a printer's gap leaves of it. "
           "Lengths as 8mm, 0.8cm, 5/16in, 18awg (American) or 18swg (British gauge).",
-      .more = "Exit code 1 where the rings are too small for their wire.",
+      .more = "Exit code 1 where the rings leave no room for each other.",
       .arguments = {{.name = "NAME", .optional = true}},
       .options = {
           {.name = "inner", .takes = Takes::text, .value = "LENGTH", .help = "inner diameter of the rings"},
@@ -132,9 +132,8 @@ int weave_command(const std::vector<std::string>& words)
   const WeaveLookup lookup = weave_lookup("weave.json");
   const maker::Weave weave = maker::read_weave(question.weave, lookup);
   question.small = small_rings(options, weave, question.wire);
-  const std::shared_ptr<const Registry> registry = open_registry(options);
-  const maker::RingFit fit(weave, lookup, registry);
-  if (!fit.fits(question)) throw ComputationError(no_room_text(weave, fit, question));
+  const maker::RingFit fit({weave, lookup, open_registry(options)});
+  if (!fit.fits(question)) throw ComputationError(no_room_text(fit, question));
   if (question.roll && weave.ways.size() == 1)
     throw UsageError(
         fmt::format("--roll: '{}' is a chain, which has no width to be wound; leave it out", weave.name),
@@ -143,8 +142,7 @@ int weave_command(const std::vector<std::string>& words)
   const std::filesystem::path folder = kept ? options.get<std::string>("output") : "";
   if (kept) prepare_output_directory(folder, options.has("force"), sheet_files);
   Progress progress(Progress::detect(true));
-  const maker::Sheet sheet =
-      maker::answer(weave, question, lookup, registry, available_processors(), progress);
+  const maker::Sheet sheet = maker::answer(fit, question, available_processors(), progress);
   const std::string text = maker::sheet_text(sheet), json = write_json(maker::sheet_json(sheet));
   if (options.has("json"))
     say_json(json);

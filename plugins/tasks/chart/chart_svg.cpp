@@ -31,10 +31,11 @@ double cost_of(const PrecisionPoint& point, PrecisionCost cost)
   return std::max(static_cast<double>(point.first->evaluations), least_evaluations);
 }
 
-/// The line of a method, without points.
+/// The line of a method, without points. Markers come round in another order than colours.
 DecadeLine method_line(const PrecisionChart& chart, std::size_t method)
 {
-  return {chart.methods[method].name, detail::distinct_stroke(method), method, {}};
+  constexpr std::size_t colours = 8;
+  return {chart.methods[method].name, detail::distinct_stroke(method), method + method / colours, {}};
 }
 
 DecadePanel panel_of(const PrecisionChart& chart, std::size_t scene, PrecisionCost cost)

@@ -100,13 +100,14 @@ std::vector<LinePanel> panels(const TransitionResult& result, const TransitionPa
   return out;
 }
 
-/// Contact lines of the path that has most, for the legend.
-std::vector<Line> legend_contacts(const TransitionResult& result)
+/// Contact lines of the path that has most, as many as the legend has room for.
+std::vector<Line> legend_contacts(const TransitionResult& result, double width)
 {
+  constexpr double entry = 126.0;
   int most = 0;
   for (const TransitionPath& path : result.paths) most = std::max(most, contact_count(path));
   std::vector<Line> lines;
-  for (int k = 0; k < std::min(most, 4); ++k)
+  for (int k = 0; k < std::min(most, static_cast<int>(width / entry)); ++k)
     lines.push_back({fmt::format("contact {}", k), detail::distinct_stroke(static_cast<std::size_t>(k)), {}});
   return lines;
 }
@@ -124,7 +125,8 @@ std::string transition_svg(const TransitionResult& result, const std::string& ti
                        result.length_unit, result.clearance, result.length_unit),
            12.0);
   svg.text({left, 62.0}, "nearest points:", 11.0);
-  detail::draw_line_legend(svg, {left + legend_word, 58.0}, legend_contacts(result));
+  detail::draw_line_legend(svg, {left + legend_word, 58.0},
+                           legend_contacts(result, columns * plot.width + (columns - 1.0) * between));
   svg.text({left, 82.0}, "formulations:", 11.0);
   if (!result.paths.empty()) {
     detail::draw_line_legend(

@@ -196,7 +196,8 @@ def export(source, target, state=None, repeat=None, outline=None, chord=None, re
     and volume.
 
     `source`: a file of an experiment or of results, or a folder of results. `repeat`: copies along the cell's vectors.
-    `separate`: of .3mf, an object for each kind of element and an item for each copy instead of one object. Runs the command beside the package. Raises InputError, and ComputationError where a gap is smaller than required.
+    `separate`: of .3mf, an object for each kind of element and an item for each copy instead of one object. Runs the
+    command beside the package. Raises InputError, and ComputationError where a gap is smaller than required.
     """
     words = [str(_root / "bin" / "hauberk"), "export", os.fspath(source), "-o", os.fspath(target)]
     repeated = None if repeat is None else ",".join(str(n) for n in repeat)
@@ -204,7 +205,8 @@ def export(source, target, state=None, repeat=None, outline=None, chord=None, re
                         ("require-gap", require_gap)):
         if value is not None:
             words += [f"--{name}", str(value)]
-    done = subprocess.run(words + ["--force"] * force + ["--separate"] * separate, capture_output=True, text=True, check=False)
+    words += [word for word, given in (("--force", force), ("--separate", separate)) if given]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode == 0:
         return done.stdout
     raise (InputError if done.returncode == 2 else ComputationError)(done.stderr.strip())

@@ -284,6 +284,15 @@ if not without_3mf:
     assert answer["unit"] == "in" and pairs(answer) == [((0, 1), 1), ((2, 3), 1)] and answer["pieces"] == 2
     assert not any(b["inside_out"] for b in answer["bodies"])
     assert abs(answer["nearest"]["distance"] - hopf["nearest"]["distance"]) < chords
+    assert answer["printing"]["objects"] == 4 and answer["printing"]["linked_apart"]
+    # Two items of one object that is linked within itself.
+    both = mesh.replace("</vertices>", "".join(f'<vertex x="{x + 5}" y="{-z}" z="{y}"/>' for x, y, z in points) + "</vertices>")
+    both = both.replace("</triangles>", "".join(f'<triangle v1="{a + len(points)}" v2="{b + len(points)}" v3="{c + len(points)}"/>'
+                                                for a, b, c in triangles) + "</triangles>")
+    twice = '</resources><build><item objectid="1"/><item objectid="1" transform="1 0 0 0 1 0 0 0 1 -40 0 0"/></build></model>'
+    answer, text = inspect(write_3mf("within.3mf", f'{head}<object id="1">{both}</object>{twice}'))
+    assert pairs(answer) == [((0, 1), 1), ((2, 3), 1)], pairs(answer)
+    assert answer["printing"]["objects"] == 2 and not answer["printing"]["linked_apart"] and "printed apart" not in text, text
     # What an extension names like the core is not the core's.
     slices = ('<s:slicestack xmlns:s="http://schemas.microsoft.com/3dmanufacturing/slice/2015/07" id="9"><s:slice ztop="1">'
               '<s:vertices><s:vertex x="1" y="2"/></s:vertices></s:slice></s:slicestack>')

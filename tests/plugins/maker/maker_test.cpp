@@ -8,6 +8,7 @@
 #include <boost/json/array.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <numbers>
 
@@ -51,14 +52,13 @@ class Answers : public ::testing::Test {
   }
   static RingFit fit_of(const std::string& name)
   {
-    return RingFit(read_weave(name, library()), library(), registry());
+    return RingFit({read_weave(name, library()), library(), registry()});
   }
   static Sheet of(const std::string& name, double inner, double wire, double gap = 0.4,
                   std::optional<Ring> small = {})
   {
     Progress quiet(Progress::Mode::quiet);
-    return answer(read_weave(name, library()), {name, inner, wire, gap, false, small}, library(), registry(),
-                  2, quiet);
+    return answer(fit_of(name), {name, inner, wire, gap, false, small}, 2, quiet);
   }
 };
 
@@ -101,26 +101,33 @@ TEST_F(Answers, OfTwoSizesOfRingsSayWhichFit)
   const RingFit fit = fit_of("dragonscale");
   const Question question{"dragonscale", 8.6, 1.4, 0.4, false, Ring{5.6, 1.3}};
   EXPECT_TRUE(fit.fits(question));
-  const std::optional<Range> small = fit.range(question, Diameter::small_inner);
+  const std::optional<Range> small = fit.fitting(question).small_inner;
   ASSERT_TRUE(small);
   // A small ring touches the large one around it where its outer diameter is the inner one of that; thin wire
   // of the small rings leaves the large ones to each other, at the ratio of the file.
-  EXPECT_NEAR(small->high, 8.6 - 2.0 * 1.3, 2e-4 * 5.6);
-  const std::optional<Range> wire =
-      fit.range({"dragonscale", 8.6, 1.4, 0.4, false, Ring{6.2, 0.8}}, Diameter::wire);
+  EXPECT_NEAR(small->high, 8.6 - 2.0 * 1.3, 2e-6 * 5.6);
+  const std::optional<Range> wire = fit.fitting({"dragonscale", 8.6, 1.4, 0.4, false, Ring{6.2, 0.8}}).wire;
   ASSERT_TRUE(wire);
-  EXPECT_NEAR(wire->high, 8.6 / 5.70924, 2e-4 * 1.4);
+  EXPECT_NEAR(wire->high, 8.6 / 5.70924, 2e-6 * 1.4);
   // Ends are where the weave begins to have no room.
   for (const double end : {small->low, small->high}) {
     const double within = end == small->low ? 1e-3 : -1e-3;
     EXPECT_TRUE(fit.fits({"dragonscale", 8.6, 1.4, 0.4, false, Ring{end + within, 1.3}})) << end;
     EXPECT_FALSE(fit.fits({"dragonscale", 8.6, 1.4, 0.4, false, Ring{end - within, 1.3}})) << end;
   }
+  // Also as they are printed.
+  const std::string words = fitting_text(fit.fitting(question));
+  const std::size_t at = words.find("small rings from ");
+  ASSERT_NE(at, std::string::npos) << words;
+  double low = 0.0, high = 0.0;
+  ASSERT_EQ(std::sscanf(words.c_str() + at, "small rings from %lf to %lf", &low, &high), 2) << words;
+  for (const double end : {low, high})
+    EXPECT_TRUE(fit.fits({"dragonscale", 8.6, 1.4, 0.4, false, Ring{end, 1.3}})) << end;
   // What has no room has the nearest sizes told, or none.
   const Question wide{"dragonscale", 8.6, 1.4, 0.4, false, Ring{7.0, 1.3}};
   EXPECT_FALSE(fit.fits(wide));
-  EXPECT_NEAR(fit.range(wide, Diameter::small_inner)->high, small->high, 2e-4 * 7.0);
-  EXPECT_FALSE(fit.range({"dragonscale", 8.6, 3.0, 0.4, false, Ring{5.6, 1.3}}, Diameter::small_inner));
+  EXPECT_NEAR(fit.fitting(wide).small_inner->high, small->high, 2e-6 * 7.0);
+  EXPECT_FALSE(fit.fitting({"dragonscale", 8.6, 3.0, 0.4, false, Ring{5.6, 1.3}}).small_inner);
   const Sheet sheet = of("dragonscale", 8.6, 1.2, 0.1, Ring{5.6, 1.1});
   ASSERT_EQ(sheet.ways.size(), 2U);
   EXPECT_TRUE(sheet.ways[0].stretch && sheet.ways[1].stretch);
@@ -135,8 +142,53 @@ TEST_F(Answers, CanBeWovenFromTheSmallestRatioOn)
   const RingFit fit = fit_of("european_4in1");
   EXPECT_TRUE(fit.fits({"european_4in1", 2.9810, 1.0, 0.4}));
   EXPECT_FALSE(fit.fits({"european_4in1", 2.9809, 1.0, 0.4}));
+  EXPECT_TRUE(fit.fits({"european_4in1", 3.578, 1.2, 0.4})) << "as printed";
+  EXPECT_EQ(fitting_text(fit.fitting({"european_4in1", 3.0, 1.2, 0.4})),
+            "rings from 3.578 mm on, or wire up to 1.006 mm");
   EXPECT_THROW(fit_of("threefold"), InputError);
   EXPECT_THROW(fit_of("no_such_weave"), InputError);
+}
+
+/// A faulty file of two sizes is not taken for rings that do not fit.
+TEST_F(Answers, OfTwoSizesNameWhatIsWrongInTheirFile)
+{
+  std::string error;
+  const std::string whole = library()("dragonscale", error).value();
+  const auto told = [&](const std::string& what, const std::string& instead) {
+    std::string text = whole;
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), instead);
+    const WeaveLookup lookup = [text](const std::string&, std::string&) { return std::optional(text); };
+    try {
+      const RingFit fit({read_weave("own", lookup), lookup, registry()});
+    } catch (const InputError& wrong) {
+      return std::string(wrong.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told("5.6", "5.5"), "");
+  EXPECT_NE(told("\"default\": 5.6, ", "").find("missing key 'default'"), std::string::npos);
+  EXPECT_NE(told("\"torus_union\"", "\"torus_onion\"").find("torus_onion"), std::string::npos);
+  EXPECT_NE(told("5.6", "7").find("overlap at rest"), std::string::npos);
+  EXPECT_NE(told("small_wire_diameter\": {", "small_wire\": {").find("not woven of plain rings"),
+            std::string::npos);
+}
+
+/// The volume of wire is that of rings.
+TEST_F(Answers, OfOtherElementsAreRefused)
+{
+  std::string error;
+  std::string text = library()("chain", error).value();
+  const std::string ring = "\"tori\": [{ \"name\": \"ring\" }]";
+  const std::size_t at = text.find(ring);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, ring.size(),
+               "\"tori\": [{ \"name\": \"ring\" }, { \"name\": \"other\", \"group\": \"ring\" }]");
+  const WeaveLookup lookup = [text](const std::string&, std::string&) { return std::optional(text); };
+  const RingFit fit({read_weave("own", lookup), lookup, registry()});
+  Progress quiet(Progress::Mode::quiet);
+  EXPECT_THROW(answer(fit, {"own", 8.0, 1.2, 0.4}, 1, quiet), InputError);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "document/json_text.hpp"
 #include "maker/job_limits.hpp"
 #include "maker/lattice_step.hpp"
+#include "run/confidence_marks.hpp"
 
 #include <fmt/format.h>
 #include <boost/json/parse.hpp>
@@ -53,6 +54,7 @@ RollAnswer of_rows(const Job& job, RollAnswer roll, unsigned threads, Progress& 
     const bool locked = limits[k].status == LimitStatus::locked;
     (up ? roll.up : roll.down) = locked ? std::optional(1.0 / std::abs(*limits[k].value)) : std::nullopt;
     (up ? roll.up_status : roll.down_status) = to_string(limits[k].status);
+    (up ? roll.up_confidence : roll.down_confidence) = limits[k].confidence.word;
     if (locked) roll.turns = std::max(roll.turns, turns(limits[k]));
     // What is no sheet any more has gone around, or in a radius below that of its rings.
     if (!locked) roll.turns = 1.0;
@@ -108,7 +110,8 @@ std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, cons
     for (int rows = fewest_rows; rows <= most_rows && !narrowing.is_done(); ++rows) {
       const Job job =
           prepare_job(registry, {label, strip_text(weave, question, axis->counts, rows), {}, lookup});
-      narrowing.add(of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, "", ""}, threads, progress));
+      narrowing.add(
+          of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, "", "", "", ""}, threads, progress));
     }
     out.push_back(narrowing.answer());
   }
@@ -120,12 +123,14 @@ std::string rolls_text(const std::vector<RollAnswer>& rolls)
   if (rolls.empty()) return "";
   std::string text = "wound onto a rod, the radius of the sheet's middle is at least\n";
   text += fmt::format("  {:<24}{:>14}{:>14}\n", "", "bent up", "bent down");
-  const auto radius = [](const std::optional<double>& r, const std::string& status) {
-    return r ? fmt::format("{:.2f} mm", *r) : status;
+  const auto radius = [](const std::optional<double>& r, const std::string& status,
+                         const std::string& confidence) {
+    return r ? fmt::format("{:.2f} mm{}", *r, confidence_mark(confidence)) : status;
   };
   for (const RollAnswer& roll : rolls) {
-    text += fmt::format("  {:<24}{:>14}{:>14}", roll.name, radius(roll.up, roll.up_status),
-                        radius(roll.down, roll.down_status));
+    text +=
+        fmt::format("  {:<24}{:>14}{:>14}", roll.name, radius(roll.up, roll.up_status, roll.up_confidence),
+                    radius(roll.down, roll.down_status, roll.down_confidence));
     if (roll.turns > most_turns) text += fmt::format("   ({} rows of cells close into a tube)", roll.rows);
     text += '\n';
   }
@@ -136,9 +141,14 @@ boost::json::array rolls_json(const std::vector<RollAnswer>& rolls)
 {
   boost::json::array out;
   for (const RollAnswer& roll : rolls) {
-    boost::json::object entry{{"name", roll.name},           {"direction_deg", roll.degrees},
-                              {"rows", roll.rows},           {"turns", roll.turns},
-                              {"up_status", roll.up_status}, {"down_status", roll.down_status}};
+    boost::json::object entry{{"name", roll.name},
+                              {"direction_deg", roll.degrees},
+                              {"rows", roll.rows},
+                              {"turns", roll.turns},
+                              {"up_status", roll.up_status},
+                              {"down_status", roll.down_status},
+                              {"up_confidence", roll.up_confidence},
+                              {"down_confidence", roll.down_confidence}};
     entry["up_radius_mm"] = roll.up ? boost::json::value(*roll.up) : nullptr;
     entry["down_radius_mm"] = roll.down ? boost::json::value(*roll.down) : nullptr;
     out.push_back(std::move(entry));

@@ -4,6 +4,7 @@
 #include "maker/job_limits.hpp"
 #include "maker/lattice_step.hpp"
 #include "maker/weave_roll.hpp"
+#include "run/confidence_marks.hpp"
 #include "tasks/job.hpp"
 
 #include <hauberk/error.hpp>
@@ -69,13 +70,15 @@ std::vector<WayAnswer> answers(const Job& job, const Weave& weave, unsigned thre
   const std::vector<LimitResult> limits = limits_of(job, threads, label, progress);
   std::vector<WayAnswer> out;
   for (const Weave::Way& way : weave.ways)
-    out.push_back({way.name, way.degrees, pitch_along(prepared.scene.lattice, way.degrees), {}, {}, "", ""});
+    out.push_back(
+        {way.name, way.degrees, pitch_along(prepared.scene.lattice, way.degrees), {}, {}, "", "", "", ""});
   for (std::size_t k = 0; k < limits.size(); ++k) {
     WayAnswer& way = out[k / 2];
     const bool stretches = tasks[k].sense == Sense::positive;
     const bool locked = limits[k].status == LimitStatus::locked;
     (stretches ? way.stretch : way.compress) = locked ? limits[k].value : std::nullopt;
     (stretches ? way.stretch_status : way.compress_status) = to_string(limits[k].status);
+    (stretches ? way.stretch_confidence : way.compress_confidence) = limits[k].confidence.word;
   }
   return out;
 }
@@ -91,19 +94,20 @@ std::string ways_text(const std::vector<WayAnswer>& ways)
   std::string text = fmt::format("  {:<24}{:>12}{:>22}{:>22}{:>18}\n", "", "at rest", "taut",
                                  "pushed together", "packed to taut");
   for (const WayAnswer& way : ways) {
-    const auto pitch = [&](const std::optional<double>& strain, const std::string& status) {
-      return strain && way.pitch > 0.0
-                 ? fmt::format("{:.3f} mm ({})", way.pitch * (1.0 + *strain), percent(strain, status))
-                 : percent(strain, status);
+    const auto pitch = [&](const std::optional<double>& strain, const std::string& status,
+                           const std::string& confidence) {
+      const std::string told = percent(strain, status) + (strain ? confidence_mark(confidence) : "");
+      return strain && way.pitch > 0.0 ? fmt::format("{:.3f} mm ({})", way.pitch * (1.0 + *strain), told)
+                                       : told;
     };
     const std::string whole =
         way.stretch && way.compress
             ? fmt::format("{:+.1f} %", 100.0 * ((1.0 + *way.stretch) / (1.0 + *way.compress) - 1.0))
             : "";
-    text +=
-        fmt::format("  {:<24}{:>12}{:>22}{:>22}{:>18}\n", way.name,
-                    way.pitch > 0.0 ? fmt::format("{:.3f} mm", way.pitch) : "",
-                    pitch(way.stretch, way.stretch_status), pitch(way.compress, way.compress_status), whole);
+    text += fmt::format("  {:<24}{:>12}{:>22}{:>22}{:>18}\n", way.name,
+                        way.pitch > 0.0 ? fmt::format("{:.3f} mm", way.pitch) : "",
+                        pitch(way.stretch, way.stretch_status, way.stretch_confidence),
+                        pitch(way.compress, way.compress_status, way.compress_confidence), whole);
   }
   return text;
 }
@@ -116,11 +120,24 @@ boost::json::array ways_json(const std::vector<WayAnswer>& ways)
     entry["pitch_mm"] = way.pitch > 0.0 ? boost::json::value(way.pitch) : nullptr;
     entry["stretch"] = way.stretch ? boost::json::value(*way.stretch) : nullptr;
     entry["stretch_status"] = way.stretch_status;
+    entry["stretch_confidence"] = way.stretch_confidence;
     entry["compress"] = way.compress ? boost::json::value(*way.compress) : nullptr;
     entry["compress_status"] = way.compress_status;
+    entry["compress_confidence"] = way.compress_confidence;
     out.push_back(std::move(entry));
   }
   return out;
+}
+
+/// The widest gap that the rings leave between each other, by halves.
+double largest_gap(const RingFit& fit, Question question)
+{
+  double low = 0.0, high = question.gap;
+  for (int k = 0; k < 40; ++k) {
+    question.gap = 0.5 * (low + high);
+    (fit.fits(thicker(question)) ? low : high) = question.gap;
+  }
+  return low;
 }
 
 /// Lowest and highest mm by diameter; null: none, and no end.
@@ -159,6 +176,7 @@ Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Pro
   if (question.roll && !sheet.chain)
     sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
   sheet.printable = fit.fits(thicker(question));
+  if (!sheet.printable) sheet.largest_gap = largest_gap(fit, question);
   if (!question.small && !sheet.printable)
     sheet.inner_of_gap = fit.fitting(thicker(question)).inner.value_or(Range()).low + question.gap;
   if (sheet.printable)
@@ -200,13 +218,20 @@ std::string sheet_text(const Sheet& sheet)
     separator = ", ";
   }
   text += "\n\n";
+  const std::string tables = ways_text(sheet.ways) + rolls_text(sheet.rolls) + ways_text(sheet.with_gap);
+  std::string marks = explained_marks(tables);
+  if (tables.find('!') != std::string::npos)
+    marks += "! contradicted by another limit; `hauberk run` of the experiment (-o) says by which\n";
   if (!sheet.printable) {
-    text += fmt::format("printed with a gap of {:g} mm it has no room", q.gap);
+    text += marks + (marks.empty() ? "" : "\n");
+    text += fmt::format("printed with a gap of {:g} mm it has no room; these rings leave {:.3f} mm", q.gap,
+                        std::floor(1e3 * sheet.largest_gap) / 1e3);
     if (q.small) return text + "\n";
     return text +
-           fmt::format(": that takes rings from {:.3f} mm on\n", std::ceil(1e3 * sheet.inner_of_gap) / 1e3);
+           fmt::format(", and it takes rings from {:.3f} mm on\n", std::ceil(1e3 * sheet.inner_of_gap) / 1e3);
   }
-  return text + fmt::format("printed, surfaces {:g} mm apart, every\n", q.gap) + ways_text(sheet.with_gap);
+  text += fmt::format("printed, surfaces {:g} mm apart, every\n", q.gap) + ways_text(sheet.with_gap);
+  return text + (marks.empty() ? "" : "\n") + marks;
 }
 
 boost::json::object sheet_json(const Sheet& sheet)
@@ -228,6 +253,7 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"grams", std::move(grams)},
                    {"gap_mm", q.gap},
                    {"printable", sheet.printable}};
+  if (!sheet.printable) out["largest_gap_mm"] = sheet.largest_gap;
   out["with_gap"] = ways_json(sheet.with_gap);
   if (q.small) out["small"] = json::object{{"inner_mm", q.small->inner}, {"wire_mm", q.small->wire}};
   return out;

@@ -23,6 +23,7 @@ struct WayAnswer {
   double pitch = 0.0;                       ///< at rest
   std::optional<double> stretch, compress;  ///< of the length at rest; none where there is no locked state
   std::string stretch_status, compress_status;
+  std::string stretch_confidence, compress_confidence;  ///< words of results
 };
 
 /// A strip of the sheet, wound onto a rod: bent along the way.
@@ -33,6 +34,7 @@ struct RollAnswer {
   double turns = 0.0;              ///< that they go around
   std::optional<double> up, down;  ///< smallest radius of the sheet's middle, mm; none without a locked state
   std::string up_status, down_status;
+  std::string up_confidence, down_confidence;
 };
 
 /// All answers.
@@ -42,6 +44,7 @@ struct Sheet {
   double ratio = 0.0;         ///< inner / wire, of two sizes of the large rings
   Fitting fitting;            ///< with which rings it can be woven
   double inner_of_gap = 0.0;  ///< of one size: with which it could be printed, this wire
+  double largest_gap = 0.0;   ///< that there is room for
   bool chain = false;
   double rings = 0.0;  ///< of all sizes, per dm^2 at rest, per metre of a chain
   double metal = 0.0;  ///< volume of the wire of these, mm^3; 2 pi^2 R r^2 is that of a ring

@@ -188,20 +188,27 @@ std::vector<std::string> loose_parts(const Assembly& assembly)
 std::string summary(const Assembly& assembly, const std::optional<Nearest>& nearest)
 {
   std::size_t triangles = 0;
-  double total = 0.0, lowest = std::numeric_limits<double>::infinity(), thin = lowest;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double total = 0.0, thin = none;
+  Vec3 lowest = Vec3::Constant(none), highest = -lowest;
   for (const auto& copy : assembly.copies) {
     const Mesh& mesh = assembly.meshes[copy.mesh];
     triangles += mesh.triangles.size();
     total += volume(mesh);
-    for (const Vec3& x : mesh.points)
-      lowest = std::min(lowest, copy.pose.position.z() + copy.pose.rotation.row(2).dot(x));
+    for (const Vec3& x : mesh.points) {
+      const Vec3 placed = copy.pose.position + copy.pose.rotation * x;
+      lowest = lowest.cwiseMin(placed);
+      highest = highest.cwiseMax(placed);
+    }
   }
   for (const auto& primitives : assembly.primitives) thin = std::min(thin, thinnest(primitives));
   const std::string& unit = assembly.unit;
   std::string text = fmt::format("{} of {}: {} elements, {} triangles, volume {:.6g} {}^3\n", assembly.state,
                                  assembly.name, assembly.copies.size(), triangles, total, unit);
-  text += fmt::format("thinnest wire {:.6g} {} across, lowest point z = {:.6g} {}\n", 2.0 * thin, unit,
-                      lowest, unit);
+  const Vec3 size = highest - lowest;
+  text +=
+      fmt::format("{:.6g} x {:.6g} x {:.6g} {}, thinnest wire {:.6g} {} across, lowest point z = {:.6g} {}\n",
+                  size.x(), size.y(), size.z(), unit, 2.0 * thin, unit, lowest.z(), unit);
   for (const std::string& line : loose_parts(assembly)) text += line;
   if (!nearest) return text + "no two elements are near each other\n";
   text += fmt::format("smallest gap {}{:.6g} {}: {} and {}\n", nearest->known ? "" : "at least ",

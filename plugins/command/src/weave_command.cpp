@@ -58,7 +58,8 @@ std::string no_room_text(const maker::RingFit& fit, const maker::Question& quest
   const maker::Weave& weave = fit.source().weave;
   const std::string ranges = maker::fitting_text(fit.fitting(question));
   const std::string way_out =
-      ranges.empty() ? "no other size of one of them alone would do" : "take " + ranges;
+      ranges.empty() ? "no other size of one of them alone would do"
+                     : (question.small ? "with the others as they are it takes " : "take ") + ranges;
   if (question.small)
     return fmt::format("{}: {} leave no room for each other; {}", weave.name, maker::rings_text(question),
                        way_out);

@@ -1,5 +1,7 @@
 #include "tasks/limits/limit_tables.hpp"
 
+#include "run/confidence_marks.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,10 +18,8 @@ std::string cell(const std::optional<double>& value) { return value ? fmt::forma
 /// Stretched fabrics are taut: one search is enough for them. Of others it is said that it was only one.
 std::string mark(const LimitResult& l)
 {
-  if (l.confidence.word == "contradicted") return "!";
-  if (l.confidence.word == "single") return "?";
-  if (l.confidence.word == "unsettled") return "~";
-  return l.better_state ? "*" : "";
+  const std::string by_confidence = confidence_mark(l.confidence.word);
+  return by_confidence.empty() && l.better_state ? "*" : by_confidence;
 }
 
 /// The value, or why there is none; what is not an answer is marked.
@@ -50,9 +50,7 @@ std::string limits_table(const Experiment& experiment, const RunResult& run)
                        [which](const LimitResult& l) { return l.value && mark(l) == which; });
   };
   if (marked("*")) text += "* further than where the first start from rest led\n";
-  if (marked("?")) text += "? one search alone ended there; more starts tell more\n";
-  if (marked("~"))
-    text += "~ many searches ended where no other did; more starts may find a state that is further\n";
+  text += explained_marks((marked("?") ? std::string("?") : "") + (marked("~") ? "~" : ""));
   if (marked("!")) {
     text += "! contradicted:\n";
     for (const LimitResult& l : run.limits) {

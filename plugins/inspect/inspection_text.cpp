@@ -83,8 +83,10 @@ std::string links_text(const Inspection& inspection)
   std::string out = fmt::format("links: {}; ", counted(inspection.links.size(), "pair", "pairs"));
   out += least == most ? fmt::format("every body is linked with {}", most)
                        : fmt::format("a body is linked with {} to {}", least, most);
-  out += inspection.pieces == 1 ? "; all hang together\n"
-                                : fmt::format("; falls into {} pieces\n", inspection.pieces);
+  out += inspection.pieces == 1
+             ? "; all hang together\n"
+             : fmt::format("; falls into {} pieces, unless they clasp each other without links\n",
+                           inspection.pieces);
   if (closed > 1 && !loose.empty()) {
     out += fmt::format("linked with nothing: {}\n", counted(loose.size(), "body", "bodies"));
     out += lines(loose, [](const InspectedBody* body) { return body->name; });

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <boost/json/parse.hpp>
+#include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,23 @@ double turns(const LimitResult& limit)
   return (high - low) / (2.0 * std::numbers::pi);
 }
 
+/// The rod that has room in a roll: what is nearest to the axis is a ring's wire, whose core is a circle.
+double rod_diameter(const SceneSpec& scene, const LimitResult& limit)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < scene.elements.size(); ++k) {
+    const Pose& pose = limit.poses[k];
+    const Shape& shape = *scene.types[scene.elements[k].type].shape;
+    for (const Primitive& ring : shape.primitives(scene.elements[k].parameters)) {
+      const auto& [R, r0, r1] = ring.size;
+      const double core = distance_from_axis(pose.position + pose.rotation * ring.position,
+                                             pose.rotation * ring.rotation, R, 1.0 / *limit.value);
+      nearest = std::min(nearest, core - std::max(r0, r1));
+    }
+  }
+  return 2.0 * std::max(nearest, 0.0);
+}
+
 /// Radii of a strip of so many rows, up and down.
 RollAnswer of_rows(const Job& job, RollAnswer roll, unsigned threads, Progress& progress)
 {
@@ -55,7 +73,10 @@ RollAnswer of_rows(const Job& job, RollAnswer roll, unsigned threads, Progress& 
     (up ? roll.up : roll.down) = locked ? std::optional(1.0 / std::abs(*limits[k].value)) : std::nullopt;
     (up ? roll.up_status : roll.down_status) = to_string(limits[k].status);
     (up ? roll.up_confidence : roll.down_confidence) = limits[k].confidence.word;
-    if (locked) roll.turns = std::max(roll.turns, turns(limits[k]));
+    if (locked) {
+      roll.turns = std::max(roll.turns, turns(limits[k]));
+      (up ? roll.up_rod : roll.down_rod) = rod_diameter(job.prepared->scene, limits[k]);
+    }
     // What is no sheet any more has gone around, or in a radius below that of its rings.
     if (!locked) roll.turns = 1.0;
   }
@@ -97,6 +118,26 @@ class Narrowing {
 
 }  // namespace
 
+double distance_from_axis(const Vec3& centre, const Mat3& axes, double R, double z)
+{
+  const auto distance = [&](double angle) {
+    const Vec3 x = centre + R * (std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1));
+    return std::hypot(x.y(), x.z() - z);
+  };
+  // Its square has at most two minima around the circle.
+  constexpr int samples = 64, bits = std::numeric_limits<double>::digits / 2;
+  constexpr double step = 2.0 * std::numbers::pi / samples;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < samples; ++k) {
+    const double angle = k * step;
+    const double here = distance(angle);
+    if (here > distance(angle - step) || here > distance(angle + step)) continue;
+    least = std::min(
+        least, boost::math::tools::brent_find_minima(distance, angle - step, angle + step, bits).second);
+  }
+  return least;
+}
+
 std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const std::vector<Vec3>& lattice,
                               const WeaveLookup& lookup, const std::shared_ptr<const Registry>& registry,
                               unsigned threads, Progress& progress)
@@ -110,8 +151,8 @@ std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, cons
     for (int rows = fewest_rows; rows <= most_rows && !narrowing.is_done(); ++rows) {
       const Job job =
           prepare_job(registry, {label, strip_text(weave, question, axis->counts, rows), {}, lookup});
-      narrowing.add(
-          of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, "", "", "", ""}, threads, progress));
+      narrowing.add(of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, 0.0, 0.0, "", "", "", ""},
+                            threads, progress));
     }
     out.push_back(narrowing.answer());
   }
@@ -121,16 +162,19 @@ std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, cons
 std::string rolls_text(const std::vector<RollAnswer>& rolls)
 {
   if (rolls.empty()) return "";
-  std::string text = "wound onto a rod, the radius of the sheet's middle is at least\n";
-  text += fmt::format("  {:<24}{:>14}{:>14}\n", "", "bent up", "bent down");
-  const auto radius = [](const std::optional<double>& r, const std::string& status,
+  std::string text =
+      "wound onto a rod, the radius of the sheet's middle is at least (and the rod's diameter)\n";
+  text += fmt::format("  {:<24}{:>24}{:>24}\n", "", "bent up", "bent down");
+  const auto radius = [](const std::optional<double>& r, double rod, const std::string& status,
                          const std::string& confidence) {
-    return r ? fmt::format("{:.2f} mm{}", *r, confidence_mark(confidence)) : status;
+    if (!r) return status;
+    const std::string around = rod > 0.0 ? fmt::format("{:.2f} mm", rod) : "none";
+    return fmt::format("{:.2f} mm{} ({})", *r, confidence_mark(confidence), around);
   };
   for (const RollAnswer& roll : rolls) {
-    text +=
-        fmt::format("  {:<24}{:>14}{:>14}", roll.name, radius(roll.up, roll.up_status, roll.up_confidence),
-                    radius(roll.down, roll.down_status, roll.down_confidence));
+    text += fmt::format("  {:<24}{:>24}{:>24}", roll.name,
+                        radius(roll.up, roll.up_rod, roll.up_status, roll.up_confidence),
+                        radius(roll.down, roll.down_rod, roll.down_status, roll.down_confidence));
     if (roll.turns > most_turns) text += fmt::format("   ({} rows of cells close into a tube)", roll.rows);
     text += '\n';
   }
@@ -150,6 +194,8 @@ boost::json::array rolls_json(const std::vector<RollAnswer>& rolls)
                               {"up_confidence", roll.up_confidence},
                               {"down_confidence", roll.down_confidence}};
     entry["up_radius_mm"] = roll.up ? boost::json::value(*roll.up) : nullptr;
+    entry["up_rod_mm"] = roll.up_rod;
+    entry["down_rod_mm"] = roll.down_rod;
     entry["down_radius_mm"] = roll.down ? boost::json::value(*roll.down) : nullptr;
     out.push_back(std::move(entry));
   }

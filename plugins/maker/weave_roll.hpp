@@ -5,6 +5,10 @@
 
 namespace hauberk::maker {
 
+/// Least distance of a circle of radius R from a line along x at the height z. `axes`: of the circle, its
+/// normal last.
+double distance_from_axis(const Vec3& centre, const Mat3& axes, double R, double z);
+
 /// Rolls along every way of the sheet, whose lattice at rest is given, that has a vector of it across, which
 /// the rod is along: of strips of two rows of cells, three and more, until one more row changes both radii by
 /// less than a hundredth, or strips close into tubes. Elements stay on the sheet, and slide along it. Throws

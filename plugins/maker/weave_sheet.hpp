@@ -33,6 +33,7 @@ struct RollAnswer {
   int rows = 0;                    ///< cells beside each other, along the way
   double turns = 0.0;              ///< that they go around
   std::optional<double> up, down;  ///< smallest radius of the sheet's middle, mm; none without a locked state
+  double up_rod = 0.0, down_rod = 0.0;  ///< diameter of the rod that there is room for then, mm; 0: of none
   std::string up_status, down_status;
   std::string up_confidence, down_confidence;
 };

@@ -1,3 +1,4 @@
+#include "maker/weave_roll.hpp"
 #include "maker/weave_sheet.hpp"
 #include "maker/wire_length.hpp"
 #include "run/weave_library.hpp"
@@ -37,6 +38,21 @@ TEST(WireLength, RefusesWhatIsNone)
   for (const char* text : {"", "8", "mm", "8furlong", "-8mm", "0mm", "1/0mm", "nanmm", "infmm", "1e400mm",
                            "18.5awg", "99swg", "8/0swg", "5/0awg"})
     EXPECT_THROW(millimetres(text, "--inner"), InputError) << text;
+}
+
+TEST(Rod, IsAsThickAsTheNearestRingLeaves)
+{
+  // A ring that lies flat below the axis is nearest where it crosses the plane through it.
+  const Mat3 flat = Mat3::Identity();
+  EXPECT_NEAR(distance_from_axis({1.0, 0.0, 0.0}, flat, 3.0, 7.0), 7.0, 1e-9);
+  EXPECT_NEAR(distance_from_axis({1.0, 4.0, 0.0}, flat, 3.0, 7.0), std::hypot(1.0, 7.0), 1e-9);
+  // One across the axis, beside it and around it.
+  Mat3 across;
+  across << 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
+  EXPECT_NEAR(distance_from_axis({0.0, 3.0, 3.0}, across, 3.0, 7.0), 5.0 - 3.0, 1e-9);
+  EXPECT_NEAR(distance_from_axis({0.0, 0.0, 6.0}, across, 3.0, 7.0), 3.0 - 1.0, 1e-9);
+  // A flat ring that the axis meets, in its plane.
+  EXPECT_NEAR(distance_from_axis({0.0, 1.0, 7.0}, flat, 3.0, 7.0), 0.0, 1e-6);
 }
 
 class Answers : public ::testing::Test {

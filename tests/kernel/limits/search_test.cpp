@@ -149,13 +149,11 @@ TEST(Search, ALoneLimitAsksItsNeighbours)
   for (const LimitResult& l : asked) EXPECT_GT(l.evaluations, 0);
   EXPECT_EQ(asked[0].direction.degrees(), -5.0);
   EXPECT_EQ(asked[2].direction.degrees(), -10.0);
-  // One that has company within half of that angle asks nobody else.
-  long alone = 0, together = 0;
-  s.settings.neighbours = 0.0;
-  for (const LimitResult& l : s.limits({50.0, 55.0})) alone += l.evaluations;
-  s.settings.neighbours = 10.0;
-  for (const LimitResult& l : s.limits({50.0, 55.0})) together += l.evaluations;
-  EXPECT_EQ(alone, together);
+  // One that has company within half of that angle on both sides asks nobody else, others on the free side.
+  s.limits({50.0, 55.0, 60.0}, observer);
+  std::vector<double> directions;
+  for (const LimitResult& l : asked) directions.push_back(l.direction.degrees());
+  EXPECT_EQ(directions, (std::vector<double>{45.0, 40.0, 65.0, 70.0}));
 }
 
 TEST(Search, TiltedLoadsLeadOutOfAPoorState)

@@ -193,6 +193,38 @@ const std::vector<Metal>& metals()
   return table;
 }
 
+namespace {
+
+/// Marks behind values of the page.
+std::string shown_marks(const Sheet& sheet)
+{
+  std::string out;
+  const auto add = [&out](const std::optional<double>& value, const std::string& confidence) {
+    if (value) out += confidence_mark(confidence);
+  };
+  for (const auto* ways : {&sheet.ways, &sheet.with_gap})
+    for (const WayAnswer& way : *ways) {
+      add(way.stretch, way.stretch_confidence);
+      add(way.compress, way.compress_confidence);
+    }
+  for (const RollAnswer& roll : sheet.rolls) {
+    add(roll.up, roll.up_confidence);
+    add(roll.down, roll.down_confidence);
+  }
+  return out;
+}
+
+std::string explained(const std::string& marks)
+{
+  const bool contradicted = marks.find('!') != std::string::npos;
+  return explained_marks(marks) +
+         (contradicted
+              ? "! contradicted by another limit; `hauberk run` of the experiment (-o) says by which\n"
+              : "");
+}
+
+}  // namespace
+
 std::string sheet_text(const Sheet& sheet)
 {
   const Question& q = sheet.question;
@@ -218,10 +250,7 @@ std::string sheet_text(const Sheet& sheet)
     separator = ", ";
   }
   text += "\n\n";
-  const std::string tables = ways_text(sheet.ways) + rolls_text(sheet.rolls) + ways_text(sheet.with_gap);
-  std::string marks = explained_marks(tables);
-  if (tables.find('!') != std::string::npos)
-    marks += "! contradicted by another limit; `hauberk run` of the experiment (-o) says by which\n";
+  const std::string marks = explained(shown_marks(sheet));
   if (!sheet.printable) {
     text += marks + (marks.empty() ? "" : "\n");
     text += fmt::format("printed with a gap of {:g} mm it has no room; these rings leave {:.3f} mm", q.gap,

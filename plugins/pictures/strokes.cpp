@@ -6,7 +6,7 @@ namespace hauberk::detail {
 
 Stroke distinct_stroke(std::size_t k)
 {
-  constexpr std::size_t count = 8;
+  constexpr std::size_t count = stroke_colours;
   static const std::array<Stroke, count> strokes{Stroke{"#1f4e79", 2.0, ""},
                                                  Stroke{"#c55a11", 2.0, "8,4"},
                                                  Stroke{"#2e7d32", 2.0, "2,3"},

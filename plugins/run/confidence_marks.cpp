@@ -9,11 +9,11 @@ std::string confidence_mark(const std::string& word)
   return word == "unsettled" ? "~" : "";
 }
 
-std::string explained_marks(const std::string& text)
+std::string explained_marks(const std::string& marks)
 {
   std::string out;
-  if (text.find('?') != std::string::npos) out += "? one search alone ended there; more starts tell more\n";
-  if (text.find('~') != std::string::npos)
+  if (marks.find('?') != std::string::npos) out += "? one search alone ended there; more starts tell more\n";
+  if (marks.find('~') != std::string::npos)
     out += "~ many searches ended where no other did; more starts may find a state that is further\n";
   return out;
 }

@@ -9,7 +9,7 @@ namespace hauberk {
 /// none.
 std::string confidence_mark(const std::string& word);
 
-/// Lines that explain those of the marks "?" and "~" that `text` has.
-std::string explained_marks(const std::string& text);
+/// Lines that explain those of the marks "?" and "~" that are among `marks`, one after the other.
+std::string explained_marks(const std::string& marks);
 
 }  // namespace hauberk

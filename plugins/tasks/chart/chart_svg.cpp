@@ -34,8 +34,10 @@ double cost_of(const PrecisionPoint& point, PrecisionCost cost)
 /// The line of a method, without points. Markers come round in another order than colours.
 DecadeLine method_line(const PrecisionChart& chart, std::size_t method)
 {
-  constexpr std::size_t colours = 8;
-  return {chart.methods[method].name, detail::distinct_stroke(method), method + method / colours, {}};
+  return {chart.methods[method].name,
+          detail::distinct_stroke(method),
+          method + method / detail::stroke_colours,
+          {}};
 }
 
 DecadePanel panel_of(const PrecisionChart& chart, std::size_t scene, PrecisionCost cost)

@@ -1,5 +1,7 @@
 #include "pictures/polar_panel.hpp"
 
+#include "pictures/angular_curve.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +17,9 @@ constexpr double title_height = 30.0;
 constexpr double label_margin = 28.0;  ///< room for the degrees around the rings
 constexpr double legend_line = 20.0;
 constexpr double longest_join_deg = 45.0;
+/// Of the median of the values, what the scale has room for; of the scale of what matters, what it has room for
+/// behind that.
+constexpr double far_beyond = 10.0, far_behind = 2.5;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -36,6 +41,9 @@ class Diagram {
     rings_ = largest > 0.0 ? static_cast<int>(std::ceil(largest / step_ * (1.0 - 1e-12))) : 5;
     rings_ = std::max(rings_, 1);
   }
+
+  /// The largest value that is drawn, and a little for rounding.
+  double rim() const { return rings_ * step_ * (1.0 + 1e-12); }
 
   void grid() const
   {
@@ -61,13 +69,18 @@ class Diagram {
   void curve(const Curve& curve) const
   {
     if (curve.joined) join(curve);
-    for (const Bar& bar : curve.bars)
+    for (const Bar& bar : curve.bars) {
+      if (bar.lowest > rim()) continue;
+      const double highest = std::min(bar.highest, rim());
       for (const double turn : {0.0, 180.0})
-        draw_bar(svg_, at(bar.degrees + turn, bar.lowest), at(bar.degrees + turn, bar.highest), curve.stroke);
+        draw_bar(svg_, at(bar.degrees + turn, bar.lowest), at(bar.degrees + turn, highest), curve.stroke);
+    }
     for (const auto& [degrees, value] : curve.points) {
       const bool hollow = std::find(curve.hollow.begin(), curve.hollow.end(), degrees) != curve.hollow.end();
       for (const double turn : {0.0, 180.0}) {
-        if (hollow)
+        if (value > rim())
+          beyond(degrees + turn, curve);
+        else if (hollow)
           svg_.circle(at(degrees + turn, value), 3.6, "#fff", {curve.stroke.colour, 1.4, ""});
         else
           draw_marker(svg_, at(degrees + turn, value), curve, outward(degrees + turn));
@@ -153,7 +166,18 @@ class Diagram {
     svg.line(across(bar), across(-bar), {colour, 2.2, ""});
   }
 
-  /// Joins neighbours around the circle, in runs without interruption.
+  /// An arrowhead on the rim: the value is farther out.
+  void beyond(double degrees, const Curve& curve) const
+  {
+    constexpr double half = 4.0, height = 9.0;
+    const Point2 p = at(degrees, rings_ * step_), u = outward(degrees);
+    const std::array<Point2, 3> corners{Point2{p.x - half * u.y, p.y + half * u.x},
+                                        Point2{p.x + half * u.y, p.y - half * u.x},
+                                        Point2{p.x + height * u.x, p.y + height * u.y}};
+    svg_.polygon(corners, curve.stroke.colour, {"#fff", 0.8, ""});
+  }
+
+  /// Joins neighbours around the circle, in runs without interruption, as far as the scale goes.
   void join(const Curve& curve) const
   {
     struct Entry {
@@ -176,14 +200,28 @@ class Diagram {
     std::size_t first = 0;  // just after an interruption, or anywhere when there is none
     while (first < n && joined_to_next((first + n - 1) % n)) ++first;
     const bool closed = first == n;
-    std::vector<Point2> run;
+    AngularValues run;
     for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t i = (first + k) % n;
-      if (!entries[i].hole) run.push_back(at(entries[i].degrees, entries[i].value));
-      if ((!closed && !joined_to_next(i)) || k + 1 == n) {
-        if (run.size() > 1) svg_.path(run, closed, curve.stroke);
+      const Entry& entry = entries[(first + k) % n];
+      const double turns = first + k < n ? 0.0 : 360.0;
+      if (!entry.hole) run.emplace_back(entry.degrees + turns, entry.value);
+      if ((!closed && !joined_to_next((first + k) % n)) || k + 1 == n) {
+        if (run.size() > 1) draw_run(run, closed, curve.stroke);
         run.clear();
       }
+    }
+  }
+
+  void draw_run(const AngularValues& run, bool closed, const Stroke& stroke) const
+  {
+    const AngularValues smooth = angular_curve(run, closed);
+    std::vector<AngularValues> parts = within(smooth, rim());
+    const bool whole = parts.size() == 1 && parts.front().size() == smooth.size();
+    if (whole && closed) parts.front().pop_back();  // the path closes itself
+    for (const AngularValues& part : parts) {
+      std::vector<Point2> points;
+      for (const auto& [degrees, value] : part) points.push_back(at(degrees, value));
+      if (points.size() > 1) svg_.path(points, whole && closed, stroke);
     }
   }
 
@@ -193,22 +231,55 @@ class Diagram {
   int rings_ = 5;
 };
 
-void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves)
+double largest_value(const Curve& curve)
+{
+  double largest = 0.0;
+  for (const auto& [degrees, value] : curve.points) largest = std::max(largest, value);
+  for (const Bar& bar : curve.bars) largest = std::max(largest, bar.highest);
+  return largest;
+}
+
+std::string remark(const Curve& curve, double rim)
+{
+  std::string out;
+  const double largest = largest_value(curve);
+  if (largest > rim) out += fmt::format(" (beyond the scale: up to {:.3g})", largest);
+  if (!curve.endless.empty()) out += " (\u221e: no limit)";
+  if (!curve.hollow.empty()) out += " (hollow: in doubt)";
+  return out;
+}
+
+void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves, double rim)
 {
   double y = corner.y;
   for (const Curve& curve : curves) {
     if (curve.joined) svg.line({corner.x, y}, {corner.x + 44.0, y}, curve.stroke);
     if (!curve.bars.empty()) Diagram::draw_bar(svg, {corner.x + 10.0, y}, {corner.x + 34.0, y}, curve.stroke);
     Diagram::draw_marker(svg, {corner.x + 22.0, y}, curve, Diagram::outward(90.0));
-    svg.text({corner.x + 54.0, y + 4.0},
-             curve.label + (curve.endless.empty() ? "" : " (\u221e: no limit)") +
-                 (curve.hollow.empty() ? "" : " (hollow: in doubt)"),
-             12);
+    svg.text({corner.x + 54.0, y + 4.0}, curve.label + remark(curve, rim), 12);
     y += legend_line;
   }
 }
 
 }  // namespace
+
+double scale_of(const std::vector<Curve>& curves)
+{
+  std::vector<double> values;
+  double before = 0.0, behind = 0.0;
+  for (const Curve& curve : curves) {
+    double& largest = curve.behind ? behind : before;
+    largest = std::max(largest, largest_value(curve));
+    if (curve.behind) continue;
+    for (const auto& [degrees, value] : curve.points)
+      if (value > 0.0) values.push_back(value);
+  }
+  if (values.empty()) return std::max(before, behind);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double scale = std::min(before, far_beyond * *middle);
+  return behind <= far_behind * scale ? std::max(scale, behind) : scale;
+}
 
 double panel_height(std::size_t entries)
 {
@@ -217,22 +288,18 @@ double panel_height(std::size_t entries)
 
 void draw_panel(Svg& svg, Point2 corner, const Panel& panel)
 {
-  double largest = 0.0;
-  for (const Curve& curve : panel.curves) {
-    for (const auto& [degrees, value] : curve.points) largest = std::max(largest, value);
-    for (const Bar& bar : curve.bars) largest = std::max(largest, bar.highest);
-  }
   const Point2 centre{corner.x + panel_width / 2.0, corner.y + title_height + label_margin + radius};
   svg.text({centre.x, corner.y + 14.0}, panel.title, 14, "middle");
   if (!panel.subtitle.empty()) svg.text({centre.x, corner.y + 30.0}, panel.subtitle, 12, "middle");
-  const Diagram diagram(svg, centre, largest);
+  const Diagram diagram(svg, centre, scale_of(panel.curves));
   diagram.grid();
   for (const Curve& curve : panel.curves) diagram.curve(curve);
   int row = 0;
   for (const Curve& curve : panel.curves)
     if (!curve.endless.empty()) diagram.endless(curve, row++);
   diagram.ring_labels();
-  draw_legend(svg, {centre.x - radius + 30.0, centre.y + radius + label_margin + 14.0}, panel.curves);
+  draw_legend(svg, {centre.x - radius + 30.0, centre.y + radius + label_margin + 14.0}, panel.curves,
+              diagram.rim());
 }
 
 }  // namespace hauberk::detail

@@ -29,7 +29,13 @@ struct Curve {
   std::vector<double> endless;
   std::vector<double> hollow;  ///< directions whose markers are hollow: values that are in doubt
   std::vector<Bar> bars;       ///< drawn along their directions, with ends across them
+  bool behind = false;         ///< shown for comparison: may leave the scale that the others need
 };
+
+/// The largest value of a panel's scale: of what is not behind, but where a value is more than ten times the
+/// median of these, ten times that median; and of what is behind, as far as two and a half times that. 0 where
+/// there is no value.
+double scale_of(const std::vector<Curve>& curves);
 
 struct Panel {
   std::string title;

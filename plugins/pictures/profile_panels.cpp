@@ -94,6 +94,7 @@ void add(Panel& panel, const RunResult& run, const PlotLabels& labels, Quantity 
     before.stroke.colour = "#999";
     before.stroke.width = 1.3;
     before.marker = Curve::Marker::none;
+    before.behind = true;
     fill(before, profile_of(run.design->initial_limits), quantity);
     if (!before.points.empty()) panel.curves.push_back(std::move(before));
   }
@@ -124,7 +125,8 @@ Curve style(const char* colour, double width, const char* dash, Curve::Marker ma
           .holes = {},
           .endless = {},
           .hollow = {},
-          .bars = {}};
+          .bars = {},
+          .behind = false};
 }
 
 }  // namespace
@@ -140,7 +142,8 @@ void add_marks(Panel& panel, const std::string& label, Curve::Marker marker, con
               .holes = {},
               .endless = {},
               .hollow = {},
-              .bars = {}};
+              .bars = {},
+          .behind = false};
   for (const auto& [degrees, value] : values) marks.points.emplace_back(reduced(degrees), std::abs(value));
   if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
 }

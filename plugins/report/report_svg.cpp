@@ -16,8 +16,6 @@ using detail::Panel;
 constexpr std::size_t panels_per_row = 3;
 constexpr double header = 46.0, margin = 16.0;
 constexpr double row_gap = 14.0;
-/// Initial values this many times as large as everything else are not drawn.
-constexpr double far_beyond = 2.5;
 
 std::string subtitle(const ReportEntry& entry)
 {
@@ -41,7 +39,8 @@ Curve published_curve(const std::string& label, const char* dash, bool joined)
           .holes = {},
           .endless = {},
           .hollow = {},
-          .bars = {}};
+          .bars = {},
+          .behind = true};
 }
 
 /// Behind ours: the published profile as a dotted curve, what was measured of printed samples as bars.
@@ -79,27 +78,6 @@ void add_published(Panel& panel, const ReportDesign& design)
   }
 }
 
-/// Initial values all of which are far beyond everything else would leave no room for what matters: then
-/// the legend says what they are.
-void spare_initial(Panel& panel, const std::string& before)
-{
-  double others = 0.0;
-  const auto is_initial = [&before](const Curve& curve) { return curve.label.ends_with(", " + before); };
-  for (const Curve& curve : panel.curves) {
-    for (const auto& [degrees, value] : curve.points)
-      others = std::max(others, is_initial(curve) ? 0.0 : value);
-  }
-  for (Curve& curve : panel.curves) {
-    if (!is_initial(curve) || !(others > 0.0)) continue;
-    const auto [least, most] =
-        std::minmax_element(curve.points.begin(), curve.points.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (!(least->second > others && most->second > far_beyond * others)) continue;
-    curve.label += fmt::format(": {:.3g} to {:.3g}, off the scale", least->second, most->second);
-    curve.points.clear();
-  }
-}
-
 Panel panel_of(const ReportEntry& entry, const std::string& name)
 {
   PlotLabels labels;
@@ -114,7 +92,6 @@ Panel panel_of(const ReportEntry& entry, const std::string& name)
   out.subtitle = subtitle(entry);
   if (!entry.design) return out;
   add_published(out, *entry.design);
-  spare_initial(out, labels.before);
   return out;
 }
 

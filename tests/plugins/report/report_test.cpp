@@ -282,8 +282,8 @@ TEST(Report, PageHasAPanelForEachResult)
   EXPECT_EQ(count(">bent|sheet (d)</text>"), 4U);
   EXPECT_EQ(count(">published</text>"), 4U);
   EXPECT_EQ(count("r=\"5.00\" fill=\"#c00000\""), 36U) << "four targets twice, and the legend";
-  // Ten times as large as what matters: said, not drawn.
-  EXPECT_EQ(count(">up, initial: 0.2 to 0.4, off the scale</text>"), 4U);
+  // Ten times as large as what matters: not a reason for another scale.
+  EXPECT_EQ(count(">up, initial (beyond the scale: up to 0.4)</text>"), 4U);
   EXPECT_EQ(svg.find("<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"1290\""),
             svg.find("<svg "))
       << "three in a row";
@@ -296,7 +296,7 @@ TEST(Report, InitialValuesThatFitAreDrawn)
   for (json::value& limit : document.at_pointer("/design/initial/limits").as_array())
     limit.at("value") = 0.05;
   const std::string svg = report_svg(std::vector{read_report_entry(document, "d")});
-  EXPECT_EQ(svg.find("off the scale"), std::string::npos);
+  EXPECT_EQ(svg.find("beyond the scale"), std::string::npos);
   EXPECT_NE(svg.find(">up, initial</text>"), std::string::npos);
 }
 

@@ -233,9 +233,15 @@ class Computation {
     if (!best) return std::nullopt;
     const std::optional<State> start = donors.state(donor, best->locked);
     if (!start) return std::nullopt;
-    std::optional<long> allowed;
-    if (!further && is_taut(model_, tasks_[task])) allowed = searches_.allowance_of(task);
-    return searches_.begun_from(task, *start, learnt_from(donors, donor), best->seed, allowed);
+    const std::string place = learnt_from(donors, donor);
+    if (further || !is_taut(model_, tasks_[task]))
+      return searches_.begun_from(task, *start, place, best->seed);
+    std::optional<FoundState> out =
+        searches_.begun_from(task, *start, place, best->seed, searches_.allowance_of(task));
+    // What was further when its allowance was spent is worth more.
+    if (out && searches_.gave_up_further(task, *out))
+      out = searches_.begun_from(task, *start, place, best->seed);
+    return out;
   }
 
   /// A limit that was stopped among what follows its starts is no answer: a run that goes on has to ask
@@ -262,7 +268,7 @@ class Computation {
     searches_.find_states(needed, threads);
   }
 
-  /// Limits whose searches do not agree have more of them.
+  /// Limits whose searches do not settle them have more.
   void search_on(FurtherSearches& further, unsigned threads)
   {
     // Results that came with the call tell whether starts agree as long as nothing else was learnt.
@@ -278,20 +284,28 @@ class Computation {
     total_ += starts.size();
     if (observer_.on_start && !starts.empty()) observer_.on_start(done_, total_);
     std::vector<Attempt> found(starts.size());
+    std::vector<std::optional<FoundState>> tilted(starts.size());
     parallel_for(starts.size(), threads, [&](std::size_t i) {
       if (!going()) return;
-      found[i] = searches_.attempt(starts[i].task, starts[i].number);
+      const FurtherSearch& s = starts[i];
+      if (s.tilt > 0.0)
+        tilted[i] = searches_.from_tilted_load(s.task, s.tilt, s.number);
+      else
+        found[i] = searches_.attempt(s.task, s.number);
       const std::lock_guard lock(mutex_);
       ++done_;
       if (observer_.on_start) observer_.on_start(done_, total_);
     });
     if (!going()) {
-      for (const std::size_t k : undecided)
-        stopped(k, "its searches do not agree, and further ones were not done");
+      for (const std::size_t k : undecided) stopped(k, "searches beyond the first were not done");
       return;
     }
-    for (std::size_t i = 0; i < starts.size(); ++i)
-      searches_.enter(starts[i].task, starts[i].number, found[i]);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      if (tilted[i])
+        searches_.of(starts[i].task).further.push_back(std::move(*tilted[i]));
+      else if (!(starts[i].tilt > 0.0))
+        searches_.enter(starts[i].task, starts[i].number, found[i]);
+    }
     for (const std::size_t k : undecided) look_again(k);
   }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Searches beyond the first: of limits whose searches from rest do not agree.
+/// Searches beyond the first: of limits whose searches from rest do not agree, and of stretches that elements
+/// bear which are not linked with each other.
 
 #include "limits/task_searches.hpp"
 
@@ -18,17 +19,26 @@ namespace hauberk {
 /// failed counts as one that ended alone.
 bool searches_agree(const LimitResult& result);
 
+/// Whether forces between elements that are not linked with each other are more than three tenths of all
+/// contact forces. Links that are drawn taut hold whatever the way there; elements that clasp each other let
+/// go of some and not of others, and which of them meet depends on the way.
+bool is_jammed(const Model& model, const LimitResult& result);
+
 /// One search beyond the first.
 struct FurtherSearch {
   std::size_t task = 0;
-  /// Of a start from rest, beyond the first; of a random load, its seed beyond that of the settings.
+  /// Of a start from rest, beyond the first; of a random or tilted load, its seed beyond that of the
+  /// settings.
   std::size_t number = 0;
-  /// Where a random load folds the fabric again; null: a start from rest. Of the plan that it is of.
+  /// Where a random load folds the fabric again; null: it begins from rest. Of the plan that it is of.
   const State* from = nullptr;
+  /// Degrees by which the load is tilted that leads from rest to where the limit's own begins; 0: there is
+  /// none.
+  double tilt = 0.0;
 };
 
 /// Which limits are searched on, and from where. A limit whose first searches agree is not, unless others
-/// lead it further. Not thread safe.
+/// lead it further; one that is taut is where it is jammed, under tilted loads. Not thread safe.
 class FurtherSearches {
  public:
   /// `searches` outlives it; of its tasks those that are asked for are searched on.
@@ -37,10 +47,10 @@ class FurtherSearches {
   /// Whether this is of a task that may be searched on.
   bool may_go_on(std::size_t task) const { return searches_.of(task).further_starts > 0; }
 
-  /// Tasks whose searches from rest do not agree, by the results of these. None that nothing stops: others
-  /// would say no more.
+  /// Tasks whose searches from rest do not agree, by the results of these, and taut ones that are jammed.
+  /// None that nothing stops: others would say no more.
   std::vector<std::size_t> undecided(const std::vector<LimitResult>& results);
-  /// Their starts from rest.
+  /// Their searches from rest: starts, of taut tasks under tilted loads.
   std::vector<FurtherSearch> from_rest(const std::vector<std::size_t>& undecided) const;
 
   /// Tasks that may be folded again: undecided ones, and others that came further since.

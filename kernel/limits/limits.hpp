@@ -80,6 +80,10 @@ State start_state(const Model& model, const LimitSettings& settings);
 /// loads (the dual of that of steps). Deterministic in `seed`.
 Vector tilted(const Model& model, const Vector& load, const LimitSettings& settings, std::uint64_t seed);
 
+/// Locks a task from where the load that is tilted by `settings.tilt` locks; what that is where it does not.
+Locked limit_from_tilted_load(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                              std::uint64_t seed, const KeepGoing& keep_going = {});
+
 /// Locked state of one task from a state that another search has found, free of collisions. Stages begin
 /// with the second: the first would let the state go back to where it came from.
 /// Where they end less far than the state is, and it keeps what the task holds, narrower stages begin once

@@ -23,7 +23,8 @@ struct RestSearches {
   std::size_t starts = 1;
   bool narrow = false;           ///< the last of the starts is that without the widest stage
   std::size_t random_loads = 0;  ///< so many before it begin under a random load
-  /// Where they do not agree: as many more starts, and random loads from the furthest state at a time
+  /// Where they do not agree: as many more starts, and random loads from the furthest state at a time; of
+  /// taut limits, where elements that are not linked with each other bear it, loads that are tilted
   /// (further_searches.hpp).
   std::size_t further_starts = 0;
   /// Starts from this one on may not cost more than the `allowance`: of the taut limits in whose company it

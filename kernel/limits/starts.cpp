@@ -148,6 +148,17 @@ Locked limit_refolded(const Model& m, const LimitTask& task, const LimitSettings
   return with_cost_of(folded, lock_from(m, task, settings, folded.state, keep_going));
 }
 
+Locked limit_from_tilted_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                              std::uint64_t seed, const KeepGoing& keep_going)
+{
+  const MacroLoad load = macro_load(m, task.direction, task.sense);
+  const State from = perturbed(m, start_state(m, settings), settings.perturbation, seed, Copies::apart);
+  Locked elsewhere = hauberk::lock(m, from, tilted(m, load.pull, settings, seed), settings.contact,
+                                   settings.schedule, keep_going);
+  if (elsewhere.status != LockStatus::locked) return elsewhere;
+  return with_cost_of(elsewhere, limit_from_state(m, task, settings, elsewhere.state, keep_going));
+}
+
 Locked limit_from_state(const Model& m, const LimitTask& task, const LimitSettings& settings,
                         const State& from, const KeepGoing& keep_going)
 {

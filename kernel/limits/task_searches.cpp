@@ -310,6 +310,28 @@ bool TaskSearches::enter_if_further(std::size_t task, FoundState found, double t
   return false;
 }
 
+std::optional<FoundState> TaskSearches::from_tilted_load(std::size_t task, double degrees, std::size_t number)
+{
+  LimitSettings settings = within(allowance_of(task));
+  settings.tilt = degrees;
+  const std::uint64_t seed = settings_.seed + number;
+  const std::string name = fmt::format("limit {} load {} tilted by {}", task, seed, degrees);
+  return guarded(task, "under a tilted load", [&](double& seconds) {
+    const auto search = [&] {
+      return limit_from_tilted_load(model_, tasks_[task], settings, seed, [this] { return going(); });
+    };
+    return FoundState{searched(name, seconds, search), "tilt", seed};
+  });
+}
+
+bool TaskSearches::gave_up_further(std::size_t task, const FoundState& found) const
+{
+  if (found.locked.status != LockStatus::stalled) return false;
+  const std::optional<FoundState> best = furthest_of(task);
+  return best && reached(model_, tasks_[task], found.locked.state) >
+                     reached(model_, tasks_[task], best->locked.state) + further_than(settings_);
+}
+
 std::optional<FoundState> TaskSearches::refolded(std::size_t task, const State& furthest, std::size_t number)
 {
   const std::uint64_t seed = settings_.seed + number;

@@ -91,6 +91,10 @@ class TaskSearches {
   /// seed of the settings; null: it threw, which the task remarks.
   std::optional<FoundState> refolded(std::size_t task, const State& furthest, std::size_t number);
 
+  /// Locked state of a task from where its load leads, tilted by so many degrees, of that number beyond the
+  /// seed of the settings, each within the allowance of a taut task; null: it threw, which the task remarks.
+  std::optional<FoundState> from_tilted_load(std::size_t task, double degrees, std::size_t number);
+
   /// Enters a start beyond those that a task begins with.
   void enter(std::size_t task, std::size_t start, const Attempt& found);
 
@@ -111,6 +115,9 @@ class TaskSearches {
 
   /// The result that these states give.
   LimitResult result_of(std::size_t task, const KeepGoing& keep_going) const;
+
+  /// Whether a search of a task stalled in a state that is further than where the task's furthest one locked.
+  bool gave_up_further(std::size_t task, const FoundState& found) const;
 
   /// What a search may have that begins again for a taut task.
   long allowance_of(std::size_t task) const;

@@ -28,8 +28,7 @@ AngularValues around(const AngularValues& values)
 {
   const std::size_t n = values.size();
   AngularValues out;
-  for (std::size_t k = n - wrapped; k < n; ++k)
-    out.emplace_back(values[k].first - 360.0, values[k].second);
+  for (std::size_t k = n - wrapped; k < n; ++k) out.emplace_back(values[k].first - 360.0, values[k].second);
   out.insert(out.end(), values.begin(), values.end());
   for (std::size_t k = 0; k <= wrapped; ++k) out.emplace_back(values[k].first + 360.0, values[k].second);
   return out;

@@ -17,8 +17,8 @@ constexpr double title_height = 30.0;
 constexpr double label_margin = 28.0;  ///< room for the degrees around the rings
 constexpr double legend_line = 20.0;
 constexpr double longest_join_deg = 45.0;
-/// Of the median of the values, what the scale has room for; of the scale of what matters, what it has room for
-/// behind that.
+/// Of the median of the values, what the scale has room for; of the scale of what matters, what it has room
+/// for behind that.
 constexpr double far_beyond = 10.0, far_behind = 2.5;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }

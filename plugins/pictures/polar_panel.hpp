@@ -33,8 +33,8 @@ struct Curve {
 };
 
 /// The largest value of a panel's scale: of what is not behind, but where a value is more than ten times the
-/// median of these, ten times that median; and of what is behind, as far as two and a half times that. 0 where
-/// there is no value.
+/// median of these, ten times that median; and of what is behind, as far as two and a half times that. 0
+/// where there is no value.
 double scale_of(const std::vector<Curve>& curves);
 
 struct Panel {

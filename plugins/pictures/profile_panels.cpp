@@ -143,7 +143,7 @@ void add_marks(Panel& panel, const std::string& label, Curve::Marker marker, con
               .endless = {},
               .hollow = {},
               .bars = {},
-          .behind = false};
+              .behind = false};
   for (const auto& [degrees, value] : values) marks.points.emplace_back(reduced(degrees), std::abs(value));
   if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
 }

@@ -4,6 +4,7 @@
 
 #include "limits/confidence.hpp"
 #include "limits/search_memory.hpp"
+#include "model/links.hpp"
 #include "thin_sheet.hpp"
 
 #include <gtest/gtest.h>
@@ -192,6 +193,80 @@ TEST(Refolding, IsPartOfALimit)
 
 /// Whoever wants to know whether a limit is further than something needs no search beyond the first that
 /// shows it; the first searches from rest are made in any case, so that this depends on nothing else.
+/// A stretch whose contacts bear so much between elements that are linked, and between others.
+LimitResult borne(const Model& m, double linked, double unlinked)
+{
+  LimitResult out = ended({5});
+  out.value = 0.5;
+  const Link& link = m.links.front();
+  ContactForce force;
+  force.force = linked;
+  // As it is seen from the second element.
+  force.elements = {element_of_cycle(m, link.b), element_of_cycle(m, link.a)};
+  force.image = {-link.image[0], -link.image[1], -link.image[2]};
+  out.contacts.push_back(force);
+  force.force = unlinked;
+  force.image = {7, 0, 0};
+  out.contacts.push_back(force);
+  force.wall = "floor";
+  force.force = 100.0;
+  out.contacts.push_back(force);
+  return out;
+}
+
+/// A stretch that links bear is done with its searches from rest; one that is borne by others has tilted
+/// loads.
+TEST(FurtherSearches, OfStretchesAreTiltedLoadsWhereElementsClasp)
+{
+  const ThinSheet s;
+  const LimitsObserver observer;
+  TaskSearches searches(s.model, s.scene, {{s.task.direction, Sense::positive}}, s.settings, observer);
+  EXPECT_FALSE(is_jammed(s.model, borne(s.model, 0.71, 0.29)));
+  EXPECT_TRUE(is_jammed(s.model, borne(s.model, 0.69, 0.31)));
+  EXPECT_FALSE(is_jammed(s.model, ended({5}))) << "no forces are known";
+
+  FurtherSearches further(s.model, searches);
+  EXPECT_TRUE(further.undecided({borne(s.model, 0.71, 0.29)}).empty());
+  ASSERT_EQ(further.undecided({borne(s.model, 0.69, 0.31)}), std::vector<std::size_t>{0});
+  std::set<std::size_t> numbers;
+  for (const FurtherSearch& search : further.from_rest({0})) {
+    EXPECT_EQ(search.tilt, 40.0);
+    EXPECT_EQ(search.from, nullptr);
+    numbers.insert(search.number);
+  }
+  EXPECT_EQ(numbers, (std::set<std::size_t>{0, 1, 2, 3, 4, 5}));
+  EXPECT_TRUE(further.unfolded({borne(s.model, 0.69, 0.31)}).empty()) << "random loads are for what folds";
+
+  LimitSettings few = s.settings;
+  few.most_starts = 1;
+  TaskSearches looks(s.model, s.scene, {{s.task.direction, Sense::positive}}, few, observer);
+  EXPECT_TRUE(FurtherSearches(s.model, looks).undecided({borne(s.model, 0.69, 0.31)}).empty());
+}
+
+/// A search whose allowance was spent in a state that is further than all that locked is made once more.
+TEST(TaskSearches, TellWhatGaveUpFurther)
+{
+  const ThinSheet s;
+  const LimitsObserver observer;
+  const LimitTask task{s.task.direction, Sense::positive};
+  TaskSearches searches(s.model, s.scene, {task}, s.settings, observer);
+  FoundState found;
+  found.locked.status = LockStatus::stalled;
+  found.locked.state = rest_state(s.model);
+  found.locked.state.macro[0] = 0.01;
+  EXPECT_FALSE(searches.gave_up_further(0, found)) << "nothing locked";
+
+  Attempt locked;
+  locked.locked = limit_from_start(s.model, task, s.settings, 0, uninterrupted);
+  ASSERT_EQ(locked.locked->status, LockStatus::locked);
+  searches.enter(0, 0, locked);
+  EXPECT_FALSE(searches.gave_up_further(0, found)) << "it is not as far";
+  found.locked.state.macro[0] = locked.locked->state.macro[0] + 0.01;
+  EXPECT_TRUE(searches.gave_up_further(0, found));
+  found.locked.status = LockStatus::locked;
+  EXPECT_FALSE(searches.gave_up_further(0, found));
+}
+
 TEST(FurtherSearches, AreNotMadeWhereWhatWasFoundIsEnough)
 {
   const ThinSheet s;

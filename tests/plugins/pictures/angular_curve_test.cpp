@@ -105,7 +105,8 @@ TEST(AngularCurve, WhatIsAboveTheLargestIsCutThere)
 Curve curve_of(std::vector<double> values, bool behind)
 {
   Curve out;
-  for (std::size_t k = 0; k < values.size(); ++k) out.points.emplace_back(10.0 * static_cast<double>(k), values[k]);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    out.points.emplace_back(10.0 * static_cast<double>(k), values[k]);
   out.behind = behind;
   return out;
 }

@@ -8,7 +8,7 @@
 namespace hauberk::detail {
 namespace {
 
-constexpr double longest_step_deg = 2.0;
+constexpr double longest_step_deg = 2.0, widest_of_curve_deg = 15.0;
 /// As many as the cubic needs to have its slope where the circle closes.
 constexpr std::size_t wrapped = 2;
 constexpr std::size_t fewest_of_cubic = 4;
@@ -49,7 +49,8 @@ AngularValues angular_curve(const AngularValues& values, bool closed)
     if (k + 1 == ends.size()) break;
     const auto [from, a] = ends[k];
     const auto [to, b] = ends[k + 1];
-    const int steps = static_cast<int>(std::ceil((to - from) / longest_step_deg));
+    const bool near = to - from <= widest_of_curve_deg + 1e-9;
+    const int steps = near ? static_cast<int>(std::ceil((to - from) / longest_step_deg)) : 1;
     for (int i = 1; i < steps; ++i) {
       const double t = static_cast<double>(i) / steps;
       const double degrees = from + t * (to - from);

@@ -10,10 +10,12 @@ namespace hauberk::detail {
 using AngularValues = std::vector<std::pair<double, double>>;
 
 /// Through the values a curve in steps of at most two degrees, which has them among its points and lies
-/// nowhere beyond the two between which it is: a monotone piecewise cubic in the angle (F. N. Fritsch and J.
-/// Butland, A method for constructing local monotone piecewise cubic interpolants, SIAM J. Sci. Stat. Comput.
-/// 5, 1984). So equal values lie on a circle. Fewer than four are joined by straight lines in the angle.
-/// `closed`: the last is joined to the first, 360 degrees on, with which the curve ends.
+/// nowhere beyond the two between which it is: a monotone piecewise cubic in the angle (F. N. Fritsch and
+/// J. Butland, A method for constructing local monotone piecewise cubic interpolants, SIAM J. Sci. Stat.
+/// Comput. 5, 1984), so that equal values lie on a circle. Profiles have cusps: values more than 15 degrees
+/// apart say nothing about what is between them, and have no points between them. Fewer than four values are
+/// joined by what is straight in the angle. `closed`: the last is joined to the first, 360 degrees on, with
+/// which the curve ends.
 AngularValues angular_curve(const AngularValues& values, bool closed);
 
 /// The parts of a curve where it is not above `largest`, with their ends there.

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <span>
@@ -106,22 +107,47 @@ void move_to_limit(const JsonPlace& limit, Fabric& fabric)
                               direction ? fmt::format(" at {:g} degrees", direction->number()) : "");
 }
 
-/// The limit "limit:K" speaks of.
+/// Names of limits at angles: "stretch:0, compress:0".
+std::string names_of(const std::vector<JsonPlace>& limits)
+{
+  std::vector<std::string> names;
+  for (const JsonPlace& limit : limits)
+    if (const auto degrees = limit.optional_number("direction_deg"))
+      names.push_back(fmt::format("{}:{:g}", limit.at("sense").text(), *degrees));
+  constexpr std::size_t most = 12;
+  const std::size_t more = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(", and {} more", more) : "");
+}
+
+/// The limit that "limit:K" or "SENSE:DEGREES" speaks of.
 JsonPlace limit_of(const JsonPlace& document, const std::string& file, const std::string& state)
 {
   const auto limits = document.find("limits");
   const std::vector<JsonPlace> all = limits ? limits->items() : std::vector<JsonPlace>{};
-  std::size_t number = 0, used = 0;
-  const std::string digits = state.substr(6);
-  try {
-    number = std::stoul(digits, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != digits.size() || number >= all.size())
+  const std::size_t colon = state.find(':');
+  const std::string kind = state.substr(0, colon), text = state.substr(colon + 1);
+  double number = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number =
+      read.ec == std::errc{} && read.ptr == text.data() + text.size() && std::isfinite(number);
+  if (kind == "limit") {
+    if (is_number && number >= 0.0 && number < static_cast<double>(all.size()) &&
+        number == std::floor(number))
+      return all[static_cast<std::size_t>(number)];
     throw InputError(fmt::format("--state {}: {} has {} limits{}", state, file, all.size(),
                                  all.empty() ? "" : fmt::format(", limit:0 to limit:{}", all.size() - 1)));
-  return all[number];
+  }
+  constexpr double same_direction = 1e-6;  // degrees; directions and their opposites are one
+  for (const JsonPlace& limit : all) {
+    const auto degrees = limit.optional_number("direction_deg");
+    if (is_number && degrees && limit.at("sense").text() == kind &&
+        std::abs(std::remainder(*degrees - number, 180.0)) < same_direction)
+      return limit;
+  }
+  const std::string there = names_of(all);
+  throw InputError(fmt::format("--state {}: {} has no such limit{}", state, file,
+                               there.empty() ? "; give limit:K" : ", it has " + there));
 }
 
 /// What tells primitives apart: numbers that make the same surface are equal.
@@ -232,12 +258,13 @@ Fabric fabric_in_results(const boost::json::value& results, const std::string& f
   fabric.name = experiment.at("name").text();
   fabric.unit = experiment.at("length_unit").text();
   fabric.state = state;
-  const bool is_limit = state.starts_with("limit:");
+  const bool is_limit = state.find(':') != std::string::npos;
   if (state != "rest" && state != "initial" && state != "final" && !is_limit)
-    throw InputError(fmt::format("--state {}: expected rest, initial, final or limit:K", state));
+    throw InputError(fmt::format(
+        "--state {}: expected rest, initial, final, limit:K or SENSE:DEGREES, as stretch:0", state));
   if ((state == "initial" || state == "final") && !design)
-    throw InputError(
-        fmt::format("--state {}: {} holds no design; its states are rest and limit:K", state, file));
+    throw InputError(fmt::format(
+        "--state {}: {} holds no design; its states are rest, limit:K and SENSE:DEGREES", state, file));
   const JsonPlace place = state == "initial" ? design->at("initial").at("scene") : document.at("scene");
   read_scene(place, scene, fabric);
   if (is_limit) {
@@ -275,8 +302,9 @@ std::vector<ShownContact> contacts_of(const JsonPlace& limit)
 std::vector<ShownContact> contacts_in_results(const boost::json::value& results, const std::string& file,
                                               const std::string& state)
 {
-  if (!state.starts_with("limit:"))
-    throw InputError(fmt::format("--state {}: only a limit has contact forces; give limit:K", state));
+  if (state.find(':') == std::string::npos)
+    throw InputError(
+        fmt::format("--state {}: only a limit has contact forces; give limit:K or SENSE:DEGREES", state));
   return contacts_of(limit_of(JsonPlace(results, file), file, state));
 }
 
@@ -312,6 +340,26 @@ Fabric with_design_values(const Fabric& initial, const JsonPlace& variables, con
   }
   for (Fabric::Element& element : out.elements)
     element.primitives = type_of(element, scene)->shape->primitives(element.parameters);
+  return out;
+}
+
+std::array<int, 3> cells_that_fill(const Fabric& fabric, const Outline& outline)
+{
+  std::array<int, 3> out{1, 1, 1};
+  if (fabric.lattice.empty() || fabric.lattice.size() > 2) return out;
+  const bool chain = fabric.lattice.size() == 1;
+  for (std::size_t v = 0; v < fabric.lattice.size(); ++v) {
+    // Rows of cells lie between lines along the other vector.
+    const Vec3& along = fabric.lattice[v];
+    const Vec3 across = chain ? along : Vec3(fabric.lattice[1 - v].cross(Vec3::UnitZ()));
+    const Vec3 normal = across.normalized();
+    const double half = outline.radius > 0.0 ? outline.radius
+                                             : outline.half_sides[0] * std::abs(normal.x()) +
+                                                   outline.half_sides[1] * std::abs(normal.y());
+    constexpr double most = 1e6;  // `assemble` refuses fewer
+    const double rows = std::ceil(2.0 * half / std::abs(normal.dot(along)));
+    out[v] = 2 + static_cast<int>(std::min(rows, most));
+  }
   return out;
 }
 

@@ -34,8 +34,9 @@ struct Fabric {
 Fabric fabric_of(const SceneSpec& scene, const std::string& name, const std::string& unit);
 
 /// A state of results: "rest", "initial" (of a design), "final" (of a design: its last rest state),
-/// "limit:K". `scene` is that of the experiment in them, which knows the shapes; parameters and poses are
-/// read. `file` is named in messages. Throws InputError naming the state and what there is.
+/// "limit:K", or "SENSE:DEGREES", the first limit of that sense and direction. `scene` is that of the
+/// experiment in them, which knows the shapes; parameters and poses are read. `file` is named in messages.
+/// Throws InputError naming the state and what there is.
 Fabric fabric_in_results(const boost::json::value& results, const std::string& file, const SceneSpec& scene,
                          const std::string& state);
 
@@ -53,8 +54,7 @@ struct ShownContact {
 /// The contacts of a limit in results. Throws InputError where they are damaged.
 std::vector<ShownContact> contacts_of(const detail::JsonPlace& limit);
 
-/// The same of "limit:K", K being the number of one of the limits of results. Throws InputError where it is
-/// not.
+/// The same of "limit:K" or "SENSE:DEGREES". Throws InputError where results have no such limit.
 std::vector<ShownContact> contacts_in_results(const boost::json::value& results, const std::string& file,
                                               const std::string& state);
 
@@ -69,6 +69,10 @@ struct Outline {
   double radius = 0.0;                 ///< of a disk; 0: a rectangle
   std::array<double, 2> half_sides{};  ///< of a rectangle
 };
+
+/// Copies of a fabric's cell along its vectors that fill an outline about their middle; of a patch and of a
+/// solid 1 each.
+std::array<int, 3> cells_that_fill(const Fabric& fabric, const Outline& outline);
 
 /// Surfaces once, and their copies.
 struct Assembly {

@@ -1,6 +1,7 @@
 #include "export/page.hpp"
 
 #include "document/json_place.hpp"
+#include "document/markup.hpp"
 #include "document/plain_text.hpp"
 #include "document/read_file.hpp"
 #include "export/formats.hpp"
@@ -27,21 +28,11 @@ namespace {
 namespace json = boost::json;
 using detail::JsonPlace;
 
-/// RFC 4648.
+/// The bytes of numbers, least first, in base64.
 template <class Number>
-std::string base64(const std::vector<Number>& numbers)
+std::string packed(const std::vector<Number>& numbers)
 {
-  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<unsigned char> bytes(numbers.size() * sizeof(Number));
-  if (!numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  std::string out;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < 3; ++i) word = word << 8 | (i < left ? bytes[k + i] : 0U);
-    for (std::size_t i = 0; i < 4; ++i) out += i <= left ? letters[word >> (18 - 6 * i) & 63U] : '=';
-  }
-  return out;
+  return base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
 }
 
 json::object mesh_json(const Assembly& assembly, std::size_t k)
@@ -52,7 +43,7 @@ json::object mesh_json(const Assembly& assembly, std::size_t k)
   std::vector<std::uint32_t> corners;
   for (const auto& t : assembly.meshes[k].triangles)
     for (const int corner : t) corners.push_back(static_cast<std::uint32_t>(corner));
-  return {{"name", assembly.mesh_names[k]}, {"points", base64(points)}, {"triangles", base64(corners)}};
+  return {{"name", assembly.mesh_names[k]}, {"points", packed(points)}, {"triangles", packed(corners)}};
 }
 
 json::array pose_json(const Pose& pose)
@@ -208,10 +199,8 @@ json::object blank_entry(const std::string& name, const std::string& unit, const
                    {"targets", json::array{}},
                    {"facts", json::array{json::array{"unit", unit}}}};
   json::array& figures = out["figures"].emplace_array();
-  for (const Figure& figure : view.figures) {
-    const std::vector<char> bytes(figure.svg.begin(), figure.svg.end());
-    figures.push_back(json::object{{"name", figure.name}, {"svg", base64(bytes)}});
-  }
+  for (const Figure& figure : view.figures)
+    figures.push_back(json::object{{"name", figure.name}, {"svg", base64(figure.svg)}});
   out["fabrics"].emplace_array();
   return out;
 }

@@ -101,6 +101,20 @@ struct Seen {
   std::vector<Vec3> points, normals;
 };
 
+/// Lowest and highest coordinates as the camera sees them.
+std::pair<Vec3, Vec3> extent(const Assembly& assembly, const Camera& camera)
+{
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& copy : assembly.copies) {
+    for (const Vec3& x : assembly.meshes[copy.mesh].points) {
+      const Vec3 p = camera.project(copy.pose.position + copy.pose.rotation * x);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  return {low, high};
+}
+
 Seen seen_by(const Camera& camera, const Mesh& mesh, const std::vector<Vec3>& normals, const Pose& pose)
 {
   Seen out;
@@ -130,23 +144,21 @@ View view_of(const std::string& text)
       "--view {}: expected top, front, side, iso, or AZIMUTH,ELEVATION in degrees, as 30,35", text));
 }
 
-Raster render(const Assembly& assembly, const View& view, int width, int height)
+double scale_that_fits(const Assembly& assembly, const View& view, int width, int height)
+{
+  const auto [low, high] = extent(assembly, Camera(view));
+  constexpr double margin = 0.04, least = 1e-300;
+  return (1.0 - 2.0 * margin) *
+         std::min(width / std::max(high.x() - low.x(), least), height / std::max(high.y() - low.y(), least));
+}
+
+Raster render(const Assembly& assembly, const View& view, int width, int height, double scale)
 {
   const Camera camera(view);
   std::vector<std::vector<Vec3>> normals;
   for (const Mesh& mesh : assembly.meshes) normals.push_back(point_normals(mesh));
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const auto& copy : assembly.copies) {
-    for (const Vec3& x : assembly.meshes[copy.mesh].points) {
-      const Vec3 p = camera.project(copy.pose.position + copy.pose.rotation * x);
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
-  constexpr double margin = 0.04;
-  const double scale =
-      (1.0 - 2.0 * margin) * samples *
-      std::min(width / std::max(high.x() - low.x(), 1e-300), height / std::max(high.y() - low.y(), 1e-300));
+  const auto [low, high] = extent(assembly, camera);
+  scale *= samples;
   const Vec3 middle = 0.5 * (low + high), light = Vec3(-0.35, 0.5, 0.8).normalized();
   const double depth = std::max(high.z() - low.z(), 1e-300);
   Canvas canvas(width, height);

@@ -24,9 +24,13 @@ struct Raster {
   std::vector<std::uint8_t> rgb;
 };
 
-/// All of the assembly, with a margin, on white. Light comes over the left shoulder; depth dims. Each pixel
-/// is the mean of four. Deterministic and thread safe.
-Raster render(const Assembly& assembly, const View& view, int width, int height);
+/// Pixels per unit of length with which all of the assembly is in the picture, with a margin.
+double scale_that_fits(const Assembly& assembly, const View& view, int width, int height);
+
+/// The assembly about its middle, on white; what is beyond the picture is cut off. `scale`: pixels per unit
+/// of length. Light comes over the left shoulder; depth dims. Each pixel is the mean of four. Deterministic
+/// and thread safe.
+Raster render(const Assembly& assembly, const View& view, int width, int height, double scale);
 
 /// A PNG file. Throws InputError where the program was built without libpng.
 std::string png(const Raster& raster);

@@ -23,7 +23,7 @@ struct Question {
   std::string weave;            ///< name in the library, or path of a weave file
   double inner = 0.0;           ///< inner diameter of the rings, of two sizes of the large ones
   double wire = 0.0;            ///< diameter of their wire
-  double gap = 0.4;             ///< that a printer needs between surfaces
+  double gap = 0.4;             ///< that a printer needs between surfaces; 0: nobody prints it
   bool roll = false;            ///< whether to tell how tightly it is wound onto a rod
   std::optional<Ring> small{};  ///< the small rings of a weave of two sizes
 

@@ -3,6 +3,7 @@
 #include "document/json_text.hpp"
 #include "maker/job_limits.hpp"
 #include "maker/lattice_step.hpp"
+#include "maker/sheet_shape.hpp"
 #include "maker/weave_roll.hpp"
 #include "run/confidence_marks.hpp"
 #include "tasks/job.hpp"
@@ -61,17 +62,26 @@ Question thicker(const Question& question)
   return out;
 }
 
-/// Limits of all ways, both senses.
-std::vector<WayAnswer> answers(const Job& job, const Weave& weave, unsigned threads, Progress& progress,
-                               const std::string& label)
+/// What limits of all ways, both senses, say.
+std::vector<WayAnswer> answers(const Job& job, const Weave& weave, const std::vector<LimitResult>& limits)
 {
   const Prepared& prepared = *job.prepared;
   const std::vector<LimitTask> tasks = job.task->limit_tasks();
-  const std::vector<LimitResult> limits = limits_of(job, threads, label, progress);
   std::vector<WayAnswer> out;
   for (const Weave::Way& way : weave.ways)
-    out.push_back(
-        {way.name, way.degrees, pitch_along(prepared.scene.lattice, way.degrees), {}, {}, "", "", "", ""});
+    out.push_back({way.name,
+                   way.degrees,
+                   pitch_along(prepared.scene.lattice, way.degrees),
+                   {},
+                   {},
+                   "",
+                   "",
+                   "",
+                   "",
+                   {},
+                   {},
+                   {},
+                   {}});
   for (std::size_t k = 0; k < limits.size(); ++k) {
     WayAnswer& way = out[k / 2];
     const bool stretches = tasks[k].sense == Sense::positive;
@@ -79,13 +89,11 @@ std::vector<WayAnswer> answers(const Job& job, const Weave& weave, unsigned thre
     (stretches ? way.stretch : way.compress) = locked ? limits[k].value : std::nullopt;
     (stretches ? way.stretch_status : way.compress_status) = to_string(limits[k].status);
     (stretches ? way.stretch_confidence : way.compress_confidence) = limits[k].confidence.word;
+    if (!locked || weave.ways.size() == 1) continue;
+    (stretches ? way.stretch_across : way.compress_across) = strain_across(limits[k], way.degrees);
+    (stretches ? way.stretch_thickness : way.compress_thickness) = thickness(prepared.scene, limits[k].poses);
   }
   return out;
-}
-
-std::string percent(const std::optional<double>& value, const std::string& status)
-{
-  return value ? fmt::format("{:+.1f} %", 100.0 * *value) : status;
 }
 
 /// Lines of a table of ways.
@@ -96,7 +104,7 @@ std::string ways_text(const std::vector<WayAnswer>& ways)
   for (const WayAnswer& way : ways) {
     const auto pitch = [&](const std::optional<double>& strain, const std::string& status,
                            const std::string& confidence) {
-      const std::string told = percent(strain, status) + (strain ? confidence_mark(confidence) : "");
+      const std::string told = strain_text(strain, status, confidence);
       return strain && way.pitch > 0.0 ? fmt::format("{:.3f} mm ({})", way.pitch * (1.0 + *strain), told)
                                        : told;
     };
@@ -112,6 +120,25 @@ std::string ways_text(const std::vector<WayAnswer>& ways)
   return text;
 }
 
+/// How wide and thick the sheet is in the states of its ways; nothing of a chain.
+std::string shapes_text(const Sheet& sheet)
+{
+  if (sheet.chain) return "";
+  std::string text = fmt::format("  {:<40}{:>12}{:>12}\n  {:<40}{:>12}{:>9.2f} mm\n", "", "sideways", "thick",
+                                 "the sheet at rest", "", sheet.thickness);
+  for (const WayAnswer& way : sheet.ways) {
+    const auto line = [&](const char* what, const std::optional<double>& across,
+                          const std::optional<double>& thick) {
+      if (!across || !thick) return;
+      text += fmt::format("  {:<40}{:>12}{:>9.2f} mm\n", fmt::format("{} {}", what, way.name),
+                          fmt::format("{:+.1f} %", 100.0 * *across), *thick);
+    };
+    line("taut", way.stretch_across, way.stretch_thickness);
+    line("pushed together", way.compress_across, way.compress_thickness);
+  }
+  return text + "\n";
+}
+
 boost::json::array ways_json(const std::vector<WayAnswer>& ways)
 {
   boost::json::array out;
@@ -124,6 +151,11 @@ boost::json::array ways_json(const std::vector<WayAnswer>& ways)
     entry["compress"] = way.compress ? boost::json::value(*way.compress) : nullptr;
     entry["compress_status"] = way.compress_status;
     entry["compress_confidence"] = way.compress_confidence;
+    for (const auto& [key, value] : {std::pair{"stretch_across", way.stretch_across},
+                                     {"compress_across", way.compress_across},
+                                     {"stretch_thickness_mm", way.stretch_thickness},
+                                     {"compress_thickness_mm", way.compress_thickness}})
+      if (value) entry[key] = *value;
     out.push_back(std::move(entry));
   }
   return out;
@@ -156,6 +188,12 @@ boost::json::object fitting_json(const Fitting& fitting)
 
 }  // namespace
 
+std::string strain_text(const std::optional<double>& value, const std::string& status,
+                        const std::string& confidence)
+{
+  return value ? fmt::format("{:+.1f} %{}", 100.0 * *value, confidence_mark(confidence)) : status;
+}
+
 Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Progress& progress)
 {
   const auto& [weave, lookup, registry] = fit.source();
@@ -165,23 +203,27 @@ Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Pro
   sheet.ratio = question.inner / question.wire;
   sheet.fitting = fit.fitting(question);
   sheet.chain = weave.ways.size() == 1;
-  const Job job = job_of(weave, question, 0.0, lookup, registry);
+  Job job = job_of(weave, question, 0.0, lookup, registry);
   const SceneSpec& scene = job.prepared->scene;
   const double cells = sheet.chain
                            ? metre / pitch_along(scene.lattice, weave.ways[0].degrees)
                            : square_decimetre / std::abs(scene.lattice[0].cross(scene.lattice[1]).z());
   sheet.rings = cells * static_cast<double>(scene.elements.size());
   for (const PlacedElement& element : scene.elements) sheet.metal += cells * wire_volume(scene, element);
-  sheet.ways = answers(job, weave, threads, progress, "limits");
+  std::vector<LimitResult> limits = limits_of(job, threads, "limits", progress);
+  sheet.ways = answers(job, weave, limits);
+  if (!sheet.chain) sheet.thickness = thickness(scene);
   if (question.roll && !sheet.chain)
     sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
-  sheet.printable = fit.fits(thicker(question));
-  if (!sheet.printable) sheet.largest_gap = largest_gap(fit, question);
-  if (!question.small && !sheet.printable)
+  sheet.printable = question.gap > 0.0 && fit.fits(thicker(question));
+  if (question.gap > 0.0 && !sheet.printable) sheet.largest_gap = largest_gap(fit, question);
+  if (question.gap > 0.0 && !question.small && !sheet.printable)
     sheet.inner_of_gap = fit.fitting(thicker(question)).inner.value_or(Range()).low + question.gap;
-  if (sheet.printable)
-    sheet.with_gap = answers(job_of(weave, question, question.gap, lookup, registry), weave, threads,
-                             progress, "limits with the gap");
+  if (sheet.printable) {
+    const Job apart = job_of(weave, question, question.gap, lookup, registry);
+    sheet.with_gap = answers(apart, weave, limits_of(apart, threads, "limits with the gap", progress));
+  }
+  sheet.job = std::make_shared<const Job>(solved(std::move(job), std::move(limits)));
   return sheet;
 }
 
@@ -193,9 +235,6 @@ const std::vector<Metal>& metals()
   return table;
 }
 
-namespace {
-
-/// Marks behind values of the page.
 std::string shown_marks(const Sheet& sheet)
 {
   std::string out;
@@ -214,7 +253,7 @@ std::string shown_marks(const Sheet& sheet)
   return out;
 }
 
-std::string explained(const std::string& marks)
+std::string explained_marks_of_sheets(const std::string& marks)
 {
   const bool contradicted = marks.find('!') != std::string::npos;
   return explained_marks(marks) +
@@ -222,8 +261,6 @@ std::string explained(const std::string& marks)
               ? "! contradicted by another limit; `hauberk run` of the experiment (-o) says by which\n"
               : "");
 }
-
-}  // namespace
 
 std::string sheet_text(const Sheet& sheet)
 {
@@ -240,7 +277,8 @@ std::string sheet_text(const Sheet& sheet)
         "rings of {:.4g} mm inner diameter, wire of {:.4g} mm: ratio {:.3f}, at least {:.3f} is needed\n"
         "  it takes {}\n\n",
         q.inner, q.wire, sheet.ratio, sheet.weave.smallest_ratio, fitting_text(sheet.fitting));
-  text += "the pattern repeats itself every\n" + ways_text(sheet.ways) + "\n" + rolls_text(sheet.rolls);
+  text += "the pattern repeats itself every\n" + ways_text(sheet.ways) + "\n" + shapes_text(sheet) +
+          rolls_text(sheet.rolls);
   const double weight = 1e-3 * sheet.metal;  // cm^3 per dm^2 or metre
   const char* per = sheet.chain ? "m" : "dm^2";
   text += fmt::format("{:.1f} rings per {} at rest; grams per {}:", sheet.rings, per, per);
@@ -250,7 +288,8 @@ std::string sheet_text(const Sheet& sheet)
     separator = ", ";
   }
   text += "\n\n";
-  const std::string marks = explained(shown_marks(sheet));
+  const std::string marks = explained_marks_of_sheets(shown_marks(sheet));
+  if (!(q.gap > 0.0)) return text + marks;
   if (!sheet.printable) {
     text += marks + (marks.empty() ? "" : "\n");
     text += fmt::format("printed with a gap of {:g} mm it has no room; these rings leave {:.3f} mm", q.gap,
@@ -277,13 +316,16 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"fitting", fitting_json(sheet.fitting)},
                    {"ways", ways_json(sheet.ways)},
                    {"rolls", rolls_json(sheet.rolls)},
+                   {"thickness_mm", sheet.chain ? json::value(nullptr) : json::value(sheet.thickness)},
                    {"rings", sheet.rings},
                    {"per", sheet.chain ? "m" : "dm2"},
-                   {"grams", std::move(grams)},
-                   {"gap_mm", q.gap},
-                   {"printable", sheet.printable}};
-  if (!sheet.printable) out["largest_gap_mm"] = sheet.largest_gap;
-  out["with_gap"] = ways_json(sheet.with_gap);
+                   {"grams", std::move(grams)}};
+  if (q.gap > 0.0) {
+    out["gap_mm"] = q.gap;
+    out["printable"] = sheet.printable;
+    if (!sheet.printable) out["largest_gap_mm"] = sheet.largest_gap;
+    out["with_gap"] = ways_json(sheet.with_gap);
+  }
   if (q.small) out["small"] = json::object{{"inner_mm", q.small->inner}, {"wire_mm", q.small->wire}};
   return out;
 }

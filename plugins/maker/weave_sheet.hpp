@@ -4,6 +4,7 @@
 #include "limits/limit_result.hpp"
 #include "maker/weave_rings.hpp"
 #include "run/progress.hpp"
+#include "tasks/job.hpp"
 
 #include <hauberk/host/registry.hpp>
 
@@ -24,6 +25,8 @@ struct WayAnswer {
   std::optional<double> stretch, compress;  ///< of the length at rest; none where there is no locked state
   std::string stretch_status, compress_status;
   std::string stretch_confidence, compress_confidence;  ///< words of results
+  /// Of a sheet in these states: strain across the way, and mm from the lowest to the highest point.
+  std::optional<double> stretch_across, compress_across, stretch_thickness, compress_thickness;
 };
 
 /// A strip of the sheet, wound onto a rod: bent along the way.
@@ -47,12 +50,14 @@ struct Sheet {
   double inner_of_gap = 0.0;  ///< of one size: with which it could be printed, this wire
   double largest_gap = 0.0;   ///< that there is room for
   bool chain = false;
-  double rings = 0.0;  ///< of all sizes, per dm^2 at rest, per metre of a chain
-  double metal = 0.0;  ///< volume of the wire of these, mm^3; 2 pi^2 R r^2 is that of a ring
+  double thickness = 0.0;  ///< at rest, mm; 0 of a chain
+  double rings = 0.0;      ///< of all sizes, per dm^2 at rest, per metre of a chain
+  double metal = 0.0;      ///< volume of the wire of these, mm^3; 2 pi^2 R r^2 is that of a ring
   std::vector<WayAnswer> ways;
   std::vector<RollAnswer> rolls;    ///< none of a chain
   bool printable = false;           ///< whether the weave has room for the gap
   std::vector<WayAnswer> with_gap;  ///< what the gap leaves; none where it has no room
+  std::shared_ptr<const Job> job;   ///< that `ways` are of, solved: two limits of each, stretch first
 };
 
 /// Computes the answers to a question that fits. Limits are those of the load's direction with the shear
@@ -67,6 +72,14 @@ struct Metal {
   double density;
 };
 const std::vector<Metal>& metals();
+
+/// A strain in percent with the mark of its confidence; without one the status.
+std::string strain_text(const std::optional<double>& value, const std::string& status,
+                        const std::string& confidence);
+/// Marks behind the values of a sheet, one after the other.
+std::string shown_marks(const Sheet& sheet);
+/// What such marks say, a line each.
+std::string explained_marks_of_sheets(const std::string& marks);
 
 /// As a page for people, and as a document for programs.
 std::string sheet_text(const Sheet& sheet);

@@ -1,6 +1,6 @@
 #include "pictures/svg.hpp"
 
-#include "document/plain_text.hpp"
+#include "document/markup.hpp"
 
 #include <fmt/format.h>
 
@@ -15,30 +15,6 @@ std::string attributes(const Stroke& stroke)
 }
 
 }  // namespace
-
-std::string xml_escape(std::string_view text)
-{
-  std::string out;
-  for (const char c : plain_text(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 Svg::Svg(double width, double height)
 {

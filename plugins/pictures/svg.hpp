@@ -38,7 +38,4 @@ class Svg {
   std::string body_;
 };
 
-/// Text with the characters that mean something in XML replaced.
-std::string xml_escape(std::string_view text);
-
 }  // namespace hauberk::detail

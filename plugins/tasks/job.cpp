@@ -4,6 +4,7 @@
 #include "document/json_writer.hpp"
 #include "results/timings.hpp"
 #include "run/plan_text.hpp"
+#include "tasks/limits/limits_task.hpp"
 #include "tasks/table.hpp"
 
 #include <hauberk/error.hpp>
@@ -22,6 +23,12 @@ Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource
         job.plan = make_plan(prepared.model, job.task->limit_tasks(), prepared.settings);
         job.task->check_plan(job.plan, diagnostics);
       });
+  return job;
+}
+
+Job solved(Job job, std::vector<LimitResult> limits)
+{
+  job.task = solved_limits(*job.prepared, std::move(limits));
   return job;
 }
 

@@ -21,6 +21,9 @@ struct Job {
 /// Throws ReportedProblems with a line per problem, InputError when a file cannot be read.
 Job prepare_job(std::shared_ptr<const Registry> registry, const ExperimentSource& source);
 
+/// A job of the task `limits` that is done, with the limits that it asks for: its results can be written.
+Job solved(Job job, std::vector<LimitResult> limits);
+
 /// The plan of results.json.
 boost::json::object plan_document(const Job& job);
 

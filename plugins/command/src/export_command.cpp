@@ -153,7 +153,9 @@ std::string content_of(const std::string& format, const Assembly& assembly, cons
   std::vector<int> size{800, 600};
   if (options.has("size")) size = counts_of(options, "size", 8000, "800,600");
   if (size.size() != 2) throw UsageError("--size: expected width and height, as 800,600", options.usage());
-  return png(render(assembly, view, size[0], size[1]));
+  const double scale =
+      options.has("scale") ? positive(options, "scale") : scale_that_fits(assembly, view, size[0], size[1]);
+  return png(render(assembly, view, size[0], size[1], scale));
 }
 
 /// Refuses copies that are nearer than asked for. What differs from that in digits that are not printed is as
@@ -247,11 +249,15 @@ Description export_description()
            {.name = "state",
             .takes = Takes::text,
             .value = "S",
-            .help = "`rest` (default), `limit:K` of results, `initial` or `final` of a design"},
+            .help =
+                "`rest` (default), of results `limit:K` or SENSE:DEGREES, as `stretch:90`, `initial` or `final` of a "
+                "design"},
            {.name = "repeat",
             .takes = Takes::text,
             .value = "M,N",
-            .help = "copies of the cell along its vectors; default 1, of a page about two dozen elements"},
+            .help =
+                "copies of the cell along its vectors; default 1, of a page about two dozen elements, with "
+                "--outline as many as fill it"},
            {.name = "outline",
             .takes = Takes::text,
             .value = "SHAPE",
@@ -269,12 +275,17 @@ Description export_description()
             .help = "of .3mf: an object for each kind of element and an item for each copy, which slicers "
                     "lay on the bed one by one; default: one object, so that what is linked stays so"},
            {.name = "forces",
-            .help = "with `--state limit:K`, of .vtu: contact points with their forces and gaps"},
+            .help = "with `--state` of a limit, of .vtu: contact points with their forces and gaps"},
            {.name = "view",
             .takes = Takes::text,
             .value = "V",
             .help = "of a picture: `top`, `front`, `side`, `iso` (default), or AZIMUTH,ELEVATION in degrees"},
-           {.name = "size", .takes = Takes::text, .value = "W,H", .help = "of a picture; default 800,600"}},
+           {.name = "size", .takes = Takes::text, .value = "W,H", .help = "of a picture; default 800,600"},
+           {.name = "scale",
+            .takes = Takes::real,
+            .value = "X",
+            .help = "of a picture: pixels per unit of length, as pictures to be compared have to have it; "
+                    "default: all of it fits"}},
           experiment_options())};
 }
 
@@ -299,15 +310,23 @@ int export_command(const std::vector<std::string>& words)
     refuse_existing_file(file, "give another name with -o, or --force, which replaces it");
   if (options.has("forces") && (format != ".vtu" || !options.has("state")))
     throw UsageError(
-        "--forces: only of a limit (--state limit:K), and only .vtu holds them; a page shows them anyway",
+        "--forces: only of a limit (--state limit:K or SENSE:DEGREES), and only .vtu holds them; a page shows them anyway",
         options.usage());
   if (options.has("separate") && format != ".3mf")
     throw UsageError("--separate: only .3mf has objects and items", options.usage());
+  if (format != ".png")
+    for (const char* name : {"view", "size", "scale"})
+      if (options.has(name))
+        throw UsageError(fmt::format("--{}: only of a picture (.png)", name), options.usage());
   if (format == ".html" && options.has("state"))
     throw UsageError("--state: a page has all states; leave it out", options.usage());
   const Opened opened = open_fabric(options);
   const bool is_page = format == ".html";
-  const auto cells = is_page && !options.has("repeat") ? shown_cells(opened.fabric) : repeat;
+  auto cells = repeat;
+  if (!options.has("repeat") && outline)
+    cells = cells_that_fill(opened.fabric, *outline);
+  else if (!options.has("repeat") && is_page)
+    cells = shown_cells(opened.fabric);
   const Assembly assembly = assemble(opened.fabric, cells, outline, chord);
   const auto nearest = nearest_copies(assembly, std::numeric_limits<double>::infinity());
   require_gap(assembly, nearest, gap);

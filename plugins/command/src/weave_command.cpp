@@ -2,26 +2,24 @@
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
 #include "experiment_options.hpp"
-#include "maker/weave_sheet.hpp"
+#include "maker/weave_comparison.hpp"
 #include "maker/wire_length.hpp"
 #include "run/interrupt.hpp"
 #include "run/machine.hpp"
 #include "run/weave_library.hpp"
 #include "say.hpp"
+#include "weave_files.hpp"
 
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <filesystem>
 #include <optional>
 
 namespace hauberk::command {
 namespace {
-
-constexpr std::array<const char*, 2> sheet_files{"weave.txt", "weave.json"};
 
 double length_option(const Options& options, const char* name, const char* fallback)
 {
@@ -69,20 +67,66 @@ std::string no_room_text(const maker::RingFit& fit, const maker::Question& quest
       way_out);
 }
 
+/// `weave all`: those that are woven of plain rings, of two sizes where small ones are given.
+int compare_weaves(const Options& options, const maker::Question& asked)
+{
+  for (const char* name : {"output", "roll", "gap"})
+    if (options.has(name))
+      throw UsageError(fmt::format("--{}: of one weave; leave it out, or name the weave", name),
+                       options.usage());
+  const WeaveLookup lookup = weave_lookup("weave.json");
+  const std::shared_ptr<const Registry> registry = open_registry(options);
+  std::vector<maker::Compared> all;
+  Progress progress(Progress::detect(true));
+  for (const std::string& name : library_weaves()) {
+    maker::Question question = asked;
+    question.weave = name;
+    question.gap = 0.0;
+    maker::Compared one;
+    try {
+      one.weave = maker::read_weave(name, lookup);
+    } catch (const InputError&) {  // not woven of plain rings
+      continue;
+    }
+    if (one.weave.two_sizes && !options.has("small-inner")) {
+      one.why_not = "rings of two sizes; give the inner diameter of the small ones with --small-inner";
+      all.push_back(std::move(one));
+      continue;
+    }
+    if (one.weave.two_sizes) question.small = small_rings(options, one.weave, question.wire);
+    const maker::RingFit fit({one.weave, lookup, registry});
+    if (fit.fits(question)) {
+      one.sheet = maker::answer(fit, question, available_processors(), progress);
+    } else {
+      const std::string ranges = maker::fitting_text(fit.fitting(question));
+      one.why_not = ranges.empty() ? "no room" : "no room; take " + ranges;
+    }
+    all.push_back(std::move(one));
+  }
+  if (options.has("json"))
+    say_json(write_json(maker::comparison_json(all)));
+  else
+    say("{}", maker::comparison_text(all, asked));
+  return exit_done;
+}
+
 }  // namespace
 
 Description weave_description()
 {
   return {
       .name = "weave",
-      .form = "NAME --inner LENGTH --wire LENGTH",
+      .form = "{NAME | all} --inner LENGTH --wire LENGTH",
       .line = "a maker's answers: room, stretch, weight of a weave",
-      .synopsis = "weave NAME --inner LENGTH --wire LENGTH [options]",
+      .synopsis = "weave {NAME | all} --inner LENGTH --wire LENGTH [options]",
       .summary =
           "Says whether a weave can be made of rings of this inner diameter and wire, for which it could, how long it "
           "is at rest, taut and pushed together, what it weighs, and what a printer's gap leaves of it. "
           "Lengths as 8mm, 0.8cm, 5/16in, 18awg (American) or 18swg (British gauge).",
-      .more = "Exit code 1 where the rings leave no room for each other.",
+      .more =
+          "Weaves are box, byzantine, chain, dragonscale, european_4in1, european_6in1, full_persian_6in1, "
+          "half_persian_3in1, half_persian_4in1, japanese_4in1, japanese_6in1, or a file of one's own; `all` "
+          "compares those of the library. Exit code 1 where the rings of one leave no room for each other.",
       .arguments = {{.name = "NAME", .optional = true}},
       .options = {
           {.name = "inner", .takes = Takes::text, .value = "LENGTH", .help = "inner diameter of the rings"},
@@ -128,6 +172,7 @@ int weave_command(const std::vector<std::string>& words)
   question.weave = options.positional();
   question.inner = length_option(options, "inner", nullptr);
   question.wire = length_option(options, "wire", nullptr);
+  if (question.weave == "all") return compare_weaves(options, question);
   question.gap = length_option(options, "gap", "0.4mm");
   question.roll = options.has("roll");
   const WeaveLookup lookup = weave_lookup("weave.json");
@@ -141,21 +186,22 @@ int weave_command(const std::vector<std::string>& words)
         options.usage());
   const bool kept = options.has("output");
   const std::filesystem::path folder = kept ? options.get<std::string>("output") : "";
-  if (kept) prepare_output_directory(folder, options.has("force"), sheet_files);
+  const std::vector<const char*> names = weave_file_names();
+  if (kept) prepare_output_directory(folder, options.has("force"), names);
   Progress progress(Progress::detect(true));
-  const maker::Sheet sheet = maker::answer(fit, question, available_processors(), progress);
-  const std::string text = maker::sheet_text(sheet), json = write_json(maker::sheet_json(sheet));
+  const unsigned threads = available_processors();
+  const maker::Sheet sheet = maker::answer(fit, question, threads, progress);
   if (options.has("json"))
-    say_json(json);
+    say_json(write_json(maker::sheet_json(sheet)));
   else
-    say("{}", text);
+    say("{}", maker::sheet_text(sheet));
   if (!kept) return exit_done;
-  write_files_atomically(folder,
-                         {{"weave.txt", text},
-                          {"weave.json", json},
-                          {"experiment.json", maker::experiment_text(weave, question, 0.0)}},
-                         sheet_files);
-  if (!options.has("json")) say("\nwritten to {}; experiment.json runs again\n", folder.string());
+  write_files_atomically(folder, weave_files(sheet, folder, threads), names);
+  drop_previous(folder, names);
+  if (!options.has("json"))
+    say("\nwritten to {0}: weave.html is this page with pictures; `hauberk export {0} -o {1}.3mf` prints it, and "
+        "experiment.json runs again\n",
+        folder.string(), weave.name);
   return exit_done;
 }
 

@@ -21,6 +21,11 @@ class LimitsTask final : public TaskRun {
     run_.scene = prepared.scene;
   }
 
+  LimitsTask(const Prepared& prepared, std::vector<LimitResult> solved) : LimitsTask(prepared)
+  {
+    take(std::move(solved));
+  }
+
   std::vector<LimitTask> limit_tasks() const override { return tasks_; }
 
   std::string check_line(const Plan& plan) const override { return limits_check_line(plan, tasks_.size()); }
@@ -103,6 +108,11 @@ class LimitsTask final : public TaskRun {
 std::unique_ptr<TaskRun> prepare_limits(const Prepared& prepared, Diagnostics& /*diagnostics*/)
 {
   return std::make_unique<LimitsTask>(prepared);
+}
+
+std::unique_ptr<TaskRun> solved_limits(const Prepared& prepared, std::vector<LimitResult> limits)
+{
+  return std::make_unique<LimitsTask>(prepared, std::move(limits));
 }
 
 }  // namespace hauberk

@@ -7,4 +7,7 @@ namespace hauberk {
 
 std::unique_ptr<TaskRun> prepare_limits(const Prepared& prepared, Diagnostics& diagnostics);
 
+/// A run of this task that is done: `limits` are what was asked for, in its order.
+std::unique_ptr<TaskRun> solved_limits(const Prepared& prepared, std::vector<LimitResult> limits);
+
 }  // namespace hauberk

@@ -167,11 +167,57 @@ TEST(Assembly, OutlineKeepsWhatIsWithinAndRefusesToLeaveNothing)
   EXPECT_THROW(assemble(patch, {2, 1, 1}, std::nullopt, 0.1), InputError);
 }
 
+/// One row of cells more on every side adds nothing within.
+TEST(Assembly, AnOutlineIsFilled)
+{
+  for (const double skew : {0.0, 3.7, -40.0}) {
+    Fabric sheet = chain();
+    sheet.lattice = {Vec3(12.0, 0.0, 0.0), Vec3(skew, 7.0, 0.0)};
+    sheet.rest_lattice = sheet.lattice;
+    for (const Outline& outline : {Outline{31.0, {}}, Outline{0.0, {40.0, 12.5}}}) {
+      const std::array<int, 3> cells = cells_that_fill(sheet, outline);
+      const auto kept = [&](int more) {
+        return assemble(sheet, {cells[0] + more, cells[1] + more, 1}, outline, 0.5).copies.size();
+      };
+      EXPECT_EQ(kept(0), kept(2)) << skew;
+      // Every cell of 84 square millimetres has two.
+      const double area = outline.radius > 0.0 ? pi * outline.radius * outline.radius
+                                               : 4.0 * outline.half_sides[0] * outline.half_sides[1];
+      EXPECT_NEAR(static_cast<double>(kept(0)), 2.0 * area / 84.0, 12.0) << skew;
+    }
+  }
+  Fabric row = chain();
+  row.lattice.resize(1);
+  row.rest_lattice.resize(1);
+  EXPECT_EQ(assemble(row, cells_that_fill(row, Outline{0.0, {33.0, 1.0}}), Outline{0.0, {33.0, 1.0}}, 0.5)
+                .copies.size(),
+            12U);
+  row.lattice.clear();
+  EXPECT_EQ(cells_that_fill(row, Outline{100.0, {}}), (std::array<int, 3>{1, 1, 1}))
+      << "a patch is what it is";
+}
+
+TEST(Picture, HasTheScaleThatIsAskedFor)
+{
+  Fabric one = chain();
+  one.elements.resize(1);
+  const Assembly ring = assemble(one, {1, 1, 1}, std::nullopt, 1e-2);
+  EXPECT_NEAR(scale_that_fits(ring, view_of("top"), 300, 200), 0.92 * 200.0 / 11.4, 0.02);
+  for (const double scale : {5.0, 10.0}) {
+    const Raster raster = render(ring, view_of("top"), 300, 200, scale);
+    int width = 0;
+    for (int x = 0; x < 300; ++x) width += raster.rgb[3 * (100 * 300 + x)] < 250 ? 1 : 0;
+    EXPECT_NEAR(width, 2.0 * 1.4 * scale, 3.0) << "both sides of the tube on the middle row";
+  }
+}
+
 TEST(Picture, ShowsARingFromAboveAsARing)
 {
   Fabric one = chain();
   one.elements.resize(1);
-  const Raster raster = render(assemble(one, {1, 1, 1}, std::nullopt, 1e-2), view_of("top"), 200, 200);
+  const Assembly ring = assemble(one, {1, 1, 1}, std::nullopt, 1e-2);
+  const View top = view_of("top");
+  const Raster raster = render(ring, top, 200, 200, scale_that_fits(ring, top, 200, 200));
   const auto covered = [&](int x, int y) { return raster.rgb[3 * (y * 200 + x)] < 250; };
   EXPECT_FALSE(covered(100, 100)) << "the hole";
   EXPECT_FALSE(covered(2, 2));

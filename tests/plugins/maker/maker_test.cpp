@@ -1,3 +1,6 @@
+#include "maker/sheet_shape.hpp"
+#include "maker/weave_comparison.hpp"
+#include "maker/weave_page.hpp"
 #include "maker/weave_roll.hpp"
 #include "maker/weave_sheet.hpp"
 #include "maker/wire_length.hpp"
@@ -95,6 +98,78 @@ TEST_F(Answers, OfAChainAreThoseOfTheClosedForm)
   // Two rings in every pitch of the rest, and the weight of their wire.
   EXPECT_NEAR(sheet.rings, 2000.0 / sheet.ways[0].pitch, 1e-9);
   EXPECT_NEAR(sheet.metal / sheet.rings, std::numbers::pi * 0.36 * std::numbers::pi * 9.2, 1e-11);
+}
+
+TEST(SheetShape, StrainAcrossIsThatAtRightAngles)
+{
+  LimitResult limit;
+  limit.macro = {{"exx", 0.1}, {"eyy", -0.2}, {"exy", 0.05}};
+  EXPECT_NEAR(strain_across(limit, 0.0), -0.2, 1e-15);
+  EXPECT_NEAR(strain_across(limit, 90.0), 0.1, 1e-15);
+  EXPECT_NEAR(strain_across(limit, 45.0), -0.1, 1e-15);
+  EXPECT_NEAR(strain_across(limit, 135.0), 0.0, 1e-15);
+}
+
+/// Upright rings reach as high as their outer diameter, taut along the rows as at rest.
+TEST_F(Answers, OfASheetTellWidthAndThickness)
+{
+  const Sheet sheet = of("japanese_4in1", 8.0, 1.2, 0.0);
+  EXPECT_NEAR(sheet.thickness, 10.4, 1e-9);
+  const WayAnswer& rows = sheet.ways[0];
+  ASSERT_TRUE(rows.stretch_thickness && rows.stretch_across && rows.compress_across);
+  EXPECT_NEAR(*rows.stretch_thickness, 10.4, 1e-3) << "a small lean changes nothing at first order";
+  // Pulled along a diagonal the squares close.
+  const WayAnswer& diagonal = sheet.ways[1];
+  EXPECT_GT(*diagonal.stretch, 0.3);
+  EXPECT_LT(*diagonal.stretch_across, -0.3);
+  EXPECT_TRUE(sheet.with_gap.empty());
+  const std::string text = sheet_text(sheet);
+  EXPECT_NE(text.find("the sheet at rest"), std::string::npos);
+  EXPECT_EQ(text.find("printed"), std::string::npos) << "nobody prints it";
+  EXPECT_EQ(of("chain", 8.0, 1.2, 0.0).thickness, 0.0);
+}
+
+/// The job of a sheet has the limits of its ways, as `hauberk run` writes them.
+TEST_F(Answers, CarryTheResultsThatTheyRestOn)
+{
+  const Sheet sheet = of("japanese_4in1", 8.0, 1.2, 0.0);
+  boost::json::object results;
+  sheet.job->task->enter(results);
+  const boost::json::array& limits = results.at("limits").as_array();
+  ASSERT_EQ(limits.size(), 4U);
+  EXPECT_EQ(limits[2].at("value").to_number<double>(), *sheet.ways[1].stretch);
+  EXPECT_EQ(limits[3].at("value").to_number<double>(), *sheet.ways[1].compress);
+  EXPECT_EQ(limits[0].at("poses").as_array().size(), sheet.job->prepared->scene.elements.size());
+  EXPECT_FALSE(sheet.job->task->failed());
+}
+
+TEST_F(Answers, AsAPageStandAlone)
+{
+  Sheet sheet = of("chain", 8.0, 1.2, 0.0);
+  sheet.weave.description = "a < b & c";
+  const std::string page = sheet_page(sheet, {{"at rest <1>", std::string("\x89PNG\0", 5)}});
+  EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORwA=\""), std::string::npos);
+  EXPECT_NE(page.find("<figcaption>at rest &lt;1&gt;</figcaption>"), std::string::npos);
+  EXPECT_NE(page.find("chain: a &lt; b &amp; c\n"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+}
+
+TEST_F(Answers, OfSeveralWeavesAreOneTable)
+{
+  const Question question{"all", 8.0, 1.2, 0.0};
+  std::vector<Compared> all(2);
+  all[0].sheet = of("chain", 8.0, 1.2, 0.0);
+  all[0].weave = all[0].sheet->weave;
+  all[1].weave = read_weave("full_persian_6in1", library());
+  all[1].why_not = "no room; take rings from 9 mm on";
+  const std::string text = comparison_text(all, question);
+  EXPECT_NE(text.find("ratio 6.667"), std::string::npos);
+  EXPECT_NE(text.find("chain                  2.000  along the chain"), std::string::npos) << text;
+  EXPECT_NE(text.find("full_persian_6in1      5.051  no room; take rings from 9 mm on"), std::string::npos)
+      << text;
+  const boost::json::array documents = comparison_json(all);
+  EXPECT_EQ(documents[0].at("ways").as_array().size(), 1U);
+  EXPECT_EQ(documents[1].at("why_not"), "no room; take rings from 9 mm on");
 }
 
 TEST_F(Answers, OfASquareWeaveHangAlongItsRowsLikeChains)

@@ -177,9 +177,10 @@ std::string certificate_of(const Model& m, const Locked& l, double gap)
 void fill_without_limit(LimitResult& r, const Model& m, const Locked& l)
 {
   fill_state(r, m, l.state);
-  r.message = l.message +
-              "; contact does not stop this patch before: it needs thicker tubes, smaller rings or shorter "
-              "distances between linked elements";
+  r.message =
+      l.message +
+      "; contact does not stop this patch before: it needs thicker tubes, smaller rings, more rows or shorter "
+      "distances between linked elements";
   r.certificate = certificate_of(m, l, *r.min_gap);
   if (r.links_kept && *r.min_gap > 0.0) return;
   r.status = LimitStatus::failed;

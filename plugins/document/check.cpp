@@ -1,5 +1,6 @@
 #include "document/check.hpp"
 
+#include "document/json_writer.hpp"
 #include "document/jsonc.hpp"
 #include "document/merge_fields.hpp"
 
@@ -85,9 +86,18 @@ class Checker {
   Problems& problems_;
   const ExtraFieldsOf& extra_;
 
+  /// Of text that was meant as an expression how one is written: those that begin with $ or = are numbers
+  /// here.
+  static std::string hint_of_expression(const Node& node)
+  {
+    const bool meant = node.is(Type::string) && node.string.find('$') != std::string::npos;
+    return meant ? "; an expression begins with = or $: " + quote_json("=" + node.string) : "";
+  }
+
   bool mismatch(const Node& node, const Field& field, const std::string& hint = "")
   {
-    problems_.add(node, "expected " + describe_expected(field) + ", found " + describe_found(node) + hint);
+    problems_.add(node, "expected " + describe_expected(field) + ", found " + describe_found(node) +
+                            (hint.empty() ? hint_of_expression(node) : hint));
     return false;
   }
 

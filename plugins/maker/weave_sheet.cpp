@@ -298,7 +298,7 @@ std::string sheet_text(const Sheet& sheet)
     return text +
            fmt::format(", and it takes rings from {:.3f} mm on\n", std::ceil(1e3 * sheet.inner_of_gap) / 1e3);
   }
-  text += fmt::format("printed, surfaces {:g} mm apart, every\n", q.gap) + ways_text(sheet.with_gap);
+  text += fmt::format("with surfaces {:g} mm apart at all times, every\n", q.gap) + ways_text(sheet.with_gap);
   return text + (marks.empty() ? "" : "\n") + marks;
 }
 

@@ -32,9 +32,32 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/experiments/" DESTINATION "${CMAK
         FILES_MATCHING PATTERN "*.json")
 install(FILES "${PROJECT_SOURCE_DIR}/share/schema/experiment.schema.json"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/hauberk/schema")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/doc/" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+# Documents lie as in the sources, with the files that they link to, the experiments that they run, and the plugins
+# as examples.
+foreach(
+  document
+  README.md
+  LICENSE
+  CHANGELOG.md
+  CITATION.cff
+  CONTRIBUTING.md
+  kernel/api/hauberk/shape.hpp
+  kernel/api/hauberk/solid.hpp
+  kernel/geometry/pair_frame.hpp
+  share/cmake/FindPagmo.cmake
+  share/doc
+  share/experiments
+  share/python/notebooks)
+  get_filename_component(folder "${document}" DIRECTORY)
+  if(IS_DIRECTORY "${PROJECT_SOURCE_DIR}/${document}")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/${document}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}")
+  else()
+    install(FILES "${PROJECT_SOURCE_DIR}/${document}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}")
+  endif()
+endforeach()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/shapes" "${PROJECT_SOURCE_DIR}/loadcases" "${PROJECT_SOURCE_DIR}/optimizers"
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+        PATTERN test EXCLUDE)
 
 # cpack -G DEB: one package with the command, its plugins, and what plugins built elsewhere need.
 set(CPACK_PACKAGE_NAME hauberk)

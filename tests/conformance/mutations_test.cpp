@@ -134,6 +134,7 @@ const std::vector<Mistake> of_solids = {
     {"reach_times_2"},
     {"said_to_be_convex"},
     {"change_of_a_sphere"},
+    {"jump_of_curvature_not_told"},
     {"distance_by_r_sign"},
     {"distance_by_R_nearly_right"},
     {"probe_by_r_forgets_z"},

@@ -93,7 +93,7 @@ Usage:
       a fabric to print, to look at or to compute with
   hauberk inspect MODEL.{stl,obj,3mf} [--gap X] [--json]
       what a printed model is: bodies, gaps, links
-  hauberk weave NAME --inner LENGTH --wire LENGTH
+  hauberk weave {NAME | all} --inner LENGTH --wire LENGTH
       a maker's answers: room, stretch, weight of a weave
   hauberk plugins [list | describe ID | conform FILE.so | new NAME DIR]
       shapes, load cases and optimizers that are found

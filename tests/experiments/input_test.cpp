@@ -87,6 +87,15 @@ TEST(BadInput, Numbers)
                  "it closes the hole of torus 'ring'");
 }
 
+/// Text that was meant as a formula is no number and no reason to suspect anything else.
+TEST(BadInput, FormulasWithoutASign)
+{
+  expect_refused(
+      "[6, 0, 0]", R"(["-$pitch", 0, 0])",
+      "10: /cell/place/1/position/0: expected a number, found \"-$pitch\"; an expression begins with = or $: "
+      "\"=-$pitch\"");
+}
+
 TEST(BadInput, OverlapAtRest)
 {
   expect_refused(
@@ -126,7 +135,8 @@ TEST(BadInput, Plugins)
 {
   expect_refused(R"("torus_union")", R"("torus_unoin")",
                  "4: /elements/link/shape: no shape 'torus_unoin' found; did you mean 'torus_union'? "
-                 "(searched: " HAUBERK_BINARY_DIR "/lib/hauberk/plugins)");
+                 "(searched: " HAUBERK_BINARY_DIR
+                 "/lib/hauberk/plugins; other folders with --plugin-path or HAUBERK_PLUGIN_PATH)");
   expect_refused(R"("in_plane_periodic")", R"("torus_union")",
                  "11: /load_case/plugin: 'torus_union' is a shape, not a load case");
 }

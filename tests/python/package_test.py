@@ -50,6 +50,39 @@ class Package(unittest.TestCase):
             passed, text = ours.verify()
             self.assertTrue(passed, text)
 
+    def test_a_sweep_is_a_table_and_its_rows_are_results(self):
+        study = {
+            "name": "study", "task": "sweep", "length_unit": "mm",
+            "elements": {"ring": {"shape": "torus_union", "tori": [{"name": "ring"}],
+                                  "parameters": {"ring.R": 5, "ring.r0": 0.7, "ring.r1": 0.7}}},
+            "cell": {"vectors": [[12, 0], [0, 100]],
+                     "place": [{"element": "ring", "position": [0, 0, 0], "rotation": {"axis": [1, 0, 0], "degrees": 90}},
+                               {"element": "ring", "position": [6, 0, 0]}]},
+            "load_case": {"plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"]},
+            "sweep": {"vary": [{"name": "R", "pointers": ["/elements/ring/parameters/ring.R"], "values": [5, 5.2, 0.1]}]}}
+        results = hauberk.Experiment(study).run()
+        rows = results.rows
+        self.assertEqual(rows.dtype.names, ("R", "stretch 0", "status"))
+        self.assertEqual(list(rows["R"]), [5, 5.2, 0.1])
+        for k, radius in enumerate((5, 5.2)):  # the closed form of a chain
+            self.assertAlmostEqual(rows["stretch 0"][k], (4 * radius - 2.8) / 12 - 1, delta=1e-8)
+            self.assertEqual(results.row(k).value(0, "stretch"), rows["stretch 0"][k])
+        self.assertTrue(numpy.isnan(rows["stretch 0"][2]))
+        with self.assertRaisesRegex(hauberk.InputError, "row 2: it has no result .refused"):
+            results.row(2)
+        with self.assertRaisesRegex(hauberk.InputError, "row 3: the sweep has 3 rows"):
+            results.row(3)
+        with self.assertRaisesRegex(KeyError, "row.0."):
+            results.value(0, "stretch")
+        with self.assertRaisesRegex(hauberk.InputError, "no results of a sweep"):
+            results.row(0).rows
+
+    def test_plugin_path_is_one_folder_or_several(self):
+        for folders in (self.folder.name, [self.folder.name], (pathlib.Path(self.folder.name),)):
+            self.assertEqual(hauberk.Experiment(EXPERIMENTS / "chain.json", plugin_path=folders).check(), [])
+        with self.assertRaisesRegex(hauberk.InputError, "is not a folder"):
+            hauberk.Experiment(EXPERIMENTS / "chain.json", plugin_path="/no/such").plan()
+
     def test_a_chain_has_its_exact_value_and_poses(self):
         results = hauberk.Experiment(EXPERIMENTS / "chain.json").run(threads=1)
         self.assertAlmostEqual(results.value(0, "stretch"), 13 / 30, delta=1e-9)

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace hauberk::command {
@@ -24,6 +25,18 @@ std::shared_ptr<const Registry> open_registry(const Options& options)
 std::shared_ptr<const Registry> registry_of(const std::vector<std::filesystem::path>& folders)
 {
   return std::make_shared<Registry>(plugin_search_path(folders));
+}
+
+std::vector<std::string> named_plugin_folders(const std::vector<std::filesystem::path>& by_hand)
+{
+  const std::vector<std::filesystem::path> all = plugin_search_path(by_hand), own = own_plugin_folders();
+  std::vector<std::string> out;
+  for (const std::filesystem::path& folder : all) {
+    std::error_code unknown;
+    const bool named = std::find(own.begin(), own.end(), folder) == own.end();
+    if (named && std::filesystem::is_directory(folder, unknown)) out.push_back(folder.string());
+  }
+  return out;
 }
 
 std::string shadow_text(const std::string& id, const std::filesystem::path& used,

@@ -11,6 +11,10 @@ std::shared_ptr<const Registry> open_registry(const Options& options);
 /// The same for folders that come before HAUBERK_PLUGIN_PATH.
 std::shared_ptr<const Registry> registry_of(const std::vector<std::filesystem::path>& folders);
 
+/// Folders for plugins that are named by hand or by HAUBERK_PLUGIN_PATH and exist, absolute, in the order in
+/// which they are searched: what another process needs as its --plugin-path.
+std::vector<std::string> named_plugin_folders(const std::vector<std::filesystem::path>& by_hand);
+
 /// "of the plugin 'ID' the file 'A' is used, and 'B' is not".
 std::string shadow_text(const std::string& id, const std::filesystem::path& used,
                         const std::filesystem::path& shadowed);

@@ -103,6 +103,33 @@ struct Opened {
   Fabric fabric;
 };
 
+/// Results, of a sweep those of the row that is asked for.
+boost::json::value row_of(boost::json::value results, const Options& options, const std::string& file)
+{
+  const detail::JsonPlace document(results, file);
+  const auto sweep = document.find("sweep");
+  if (!options.has("row")) {
+    if (sweep && options.has("state") && options.get<std::string>("state") != "rest")
+      throw InputError(
+          fmt::format("--state {}: {} are results of a sweep, whose rows have limits; give --row K",
+                      options.get<std::string>("state"), file));
+    return results;
+  }
+  const int number = options.get<int>("row");
+  if (!sweep)
+    throw InputError(fmt::format("--row {}: {} are no results of a sweep; leave it out", number, file));
+  const std::vector<detail::JsonPlace> rows = sweep->at("rows").items();
+  if (number < 0 || static_cast<std::size_t>(number) >= rows.size())
+    throw InputError(fmt::format("--row {}: {} has {} rows, 0 to {}", number, file, rows.size(),
+                                 static_cast<int>(rows.size()) - 1));
+  const detail::JsonPlace row = rows[static_cast<std::size_t>(number)];
+  const auto result = row.find("result");
+  if (!result)
+    throw InputError(fmt::format("--row {}: it has no result: {}, {}", number, row.at("status").text(),
+                                 row.at("message").text()));
+  return result->value();
+}
+
 /// Of an experiment, of results, or of a folder of results.
 Opened open_fabric(const Options& options)
 {
@@ -113,6 +140,7 @@ Opened open_fabric(const Options& options)
   const std::string text = read_whole_file(file, largest_results);
   const bool is_results = text.find("\"hauberk-results/") != std::string::npos;
   if (!is_results) {
+    if (options.has("row")) throw InputError("--row: an experiment has none; run it, and give its results");
     if (state != "rest")
       throw InputError(fmt::format("--state {}: an experiment has only its rest; run it, and give its {}",
                                    state, results_file));
@@ -122,7 +150,7 @@ Opened open_fabric(const Options& options)
     return {file, nullptr, std::move(job), std::move(fabric)};
   }
   if (!options.list("set").empty()) throw InputError("--set: results are as they are; give an experiment");
-  boost::json::value results = parse_json(text, file);
+  boost::json::value results = row_of(parse_json(text, file), options, file);
   Job job = job_of_results(open_registry(options), results, file);
   Fabric fabric = fabric_in_results(results, file, job.prepared->scene, state);
   return {file, std::move(results), std::move(job), std::move(fabric)};
@@ -252,6 +280,10 @@ Description export_description()
             .help =
                 "`rest` (default), of results `limit:K` or SENSE:DEGREES, as `stretch:90`, `initial` or `final` of a "
                 "design"},
+           {.name = "row",
+            .takes = Takes::integer,
+            .value = "K",
+            .help = "of results of a sweep: its K-th row, counted from 0 in the order of sweep.csv"},
            {.name = "repeat",
             .takes = Takes::text,
             .value = "M,N",

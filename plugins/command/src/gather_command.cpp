@@ -72,11 +72,22 @@ void check_conflicts(const SearchLogs& logs, std::size_t& told)
               texts(conflicts[told]));
 }
 
-Job open_division(const Division& division, const std::string& experiment)
+Job open_division(const Division& division, const std::string& experiment,
+                  const std::vector<std::string>& by_hand)
 {
-  std::vector<fs::path> folders(division.libraries.begin(), division.libraries.end());
+  std::vector<fs::path> folders(by_hand.begin(), by_hand.end());
+  folders.insert(folders.end(), division.libraries.begin(), division.libraries.end());
   return prepare_job(registry_of(folders),
                      {experiment, read_text_file(experiment), division.set, weave_lookup(experiment)});
+}
+
+/// The command that computes a part, as its folder of parts knows it.
+std::string part_command(const Division& division, const fs::path& folder)
+{
+  std::string out = "hauberk run " + division.experiment;
+  for (const std::string& set : division.set) out += fmt::format(" --set '{}'", set);
+  for (const std::string& library : division.libraries) out += " --plugin-path " + library;
+  return out + fmt::format(" --part K/{} -o {}", division.count, folder.string());
 }
 
 }  // namespace
@@ -112,7 +123,8 @@ Description gather_description()
            .value = "N",
            .help = "threads to use; default: all processors that the process may use"},
           {.name = "html", .help = "leave also `report.html` (see `run`)"},
-          {.name = "quiet", .help = "show no progress"}}};
+          {.name = "quiet", .help = "show no progress"},
+          plugin_path_option()}};
 }
 
 int gather_command(const std::vector<std::string>& words)
@@ -130,7 +142,7 @@ int gather_command(const std::vector<std::string>& words)
       options.has("experiment") ? options.get<std::string>("experiment") : division.experiment;
   Job job = [&] {
     const NothingToLose scope;
-    return open_division(division, experiment);
+    return open_division(division, experiment, options.list("plugin-path"));
   }();
   refuse_whole(job);
   SearchLogs logs(identity_of(job), [](const std::string& warning) { say_error("hauberk: {}\n", warning); });
@@ -141,11 +153,9 @@ int gather_command(const std::vector<std::string>& words)
     return exit_done;
   }
   if (!there.missing.empty())
-    throw ComputationError(fmt::format(
-        "{}: {} of {} parts missing: {}; compute each with `hauberk run {} --part K/{} -o {}`, with the --set that "
-        "the others had",
-        request.folder.string(), there.missing.size(), division.count, missing, division.experiment,
-        division.count, request.folder.string()));
+    throw ComputationError(fmt::format("{}: {} of {} parts missing: {}; compute each with `{}`",
+                                       request.folder.string(), there.missing.size(), division.count, missing,
+                                       part_command(division, request.folder)));
   std::size_t told = 0;
   check_conflicts(logs, told);
   warn_of_plugins(*job.prepared);

@@ -36,8 +36,10 @@ Division division_of(const Options& options, const Job& job, std::size_t count)
              std::filesystem::absolute(options.positional()).lexically_normal().string(),
              options.list("set"),
              {}};
-  for (const std::string& folder : options.list("plugin-path"))
-    d.libraries.push_back(std::filesystem::absolute(folder).lexically_normal().string());
+  // Nodes do not have this process's environment.
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& folder : options.list("plugin-path")) folders.emplace_back(folder);
+  d.libraries = named_plugin_folders(folders);
   return d;
 }
 

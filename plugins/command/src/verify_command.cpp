@@ -14,6 +14,7 @@
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <system_error>
@@ -43,20 +44,33 @@ json::object as_json(const VerifyReport& report)
   return out;
 }
 
+/// Lines that had nothing to check, as those of scenes whose plugins are not there.
+std::size_t unchecked_lines(const VerifyReport& report)
+{
+  return static_cast<std::size_t>(
+      std::ranges::count_if(report.lines, [](const VerifyLine& line) { return !line.checked; }));
+}
+
 }  // namespace
 
 Description verify_description()
 {
-  return {.name = "verify",
-          .form = "RESULTS.json",
-          .line = "recheck a result from its file alone",
-          .synopsis = "verify RESULTS.json",
-          .summary =
-              "Rechecks a result from its file alone: gaps, links, force balance, values. A line per "
-              "limit; exits with 1 when anything fails. A folder stands for the results.json in it. Of "
-              "solids it asks the plugins of their shapes where the surface is.",
-          .arguments = {{.name = "RESULTS.json", .offer = Offer::results}},
-          .options = {json_option(), plugin_path_option()}};
+  return {
+      .name = "verify",
+      .form = "RESULTS.json",
+      .line = "recheck a result from its file alone",
+      .synopsis = "verify RESULTS.json",
+      .summary =
+          "Rechecks a result from its file alone: gaps, links, force balance, values. A line per "
+          "limit; exits with 1 when anything fails. A folder stands for the results.json in it. Of "
+          "solids it asks the plugins of their shapes where the surface is.",
+      .arguments = {{.name = "RESULTS.json", .offer = Offer::results}},
+      .options = {
+          {.name = "strict",
+           .help = "exit with 1 also where a line had nothing to check, as that of a scene whose plugin is "
+                   "not there"},
+          json_option(),
+          plugin_path_option()}};
 }
 
 int verify_command(const std::vector<std::string>& words)
@@ -72,7 +86,12 @@ int verify_command(const std::vector<std::string>& words)
     say_json(write_json(as_json(report)));
   else
     say("{}", report.text());
-  return report.ok ? exit_done : exit_failed;
+  const std::size_t unchecked = unchecked_lines(report);
+  if (unchecked > 0)
+    say_error("hauberk: warning: {} of {} lines had nothing to check (NONE)\n", unchecked,
+              report.lines.size());
+  const bool passed = report.ok && (unchecked == 0 || !options.has("strict"));
+  return passed ? exit_done : exit_failed;
 }
 
 }  // namespace hauberk::command

@@ -286,6 +286,66 @@ class SolidCheck {
     }
   }
 
+  /// A line on the surface between two places of the chart, and its principal curvatures there, in order.
+  struct Stretch {
+    double u = 0.0, v = 0.0, du = 0.0, dv = 0.0;
+    double length = 0.0;  ///< of the shortest way on the surface, at most
+    double change = 0.0;  ///< of either curvature from end to end
+    double per_length() const { return length > 0.0 ? change / length : 0.0; }
+  };
+
+  Stretch stretch(double u, double v, double du, double dv, double bend) const
+  {
+    const Vec3 from = solid_.surface_point(angles(u, v)), to = solid_.surface_point(angles(u + du, v + dv));
+    const SolidDistance a = solid_.distance(from), b = solid_.distance(to);
+    const auto [least_a, most_a] = std::minmax(a.bend_along, a.bend_across);
+    const auto [least_b, most_b] = std::minmax(b.bend_along, b.bend_across);
+    // A way that bends by `bend` at most is no longer than the circle of that curvature over its chord.
+    const double half = 0.5 * bend * (to - from).norm();
+    const double length = half < 1.0 ? 2.0 / bend * std::asin(half) : std::numeric_limits<double>::infinity();
+    return {u, v, du, dv, length, std::max(std::abs(least_a - least_b), std::abs(most_a - most_b))};
+  }
+
+  /// Along any way on the surface either principal curvature changes by at most the bound times its length:
+  /// the derivative of the second fundamental form is symmetric in all three of its arguments (Codazzi), so
+  /// that no value of it on unit vectors is larger than the largest on one vector thrice (S. Banach, Ueber
+  /// homogene Polynome in (L2), Studia Math. 7, 1938). Lines of the chart are halved towards where they
+  /// change most: a jump shows at any distance from the samples.
+  void jumps_of_curvature(const SolidSmoothness& s)
+  {
+    constexpr int pieces = 48, halvings = 14;
+    constexpr double step = 2.0 * pi / pieces;
+    const double bend = std::max(s.convex, s.reach > 0.0 ? 1.0 / s.reach : s.convex);
+    const double floor = coarse / solid_.thickness();
+    const auto keep = [&](const Stretch& one) {
+      require(
+          !(one.change > s.change * one.length * (1.0 + 1e-3) + floor),
+          "a principal curvature of '{}' changes by {:.6g} within {:.3g} along its surface, near u = {:.6g}, v = "
+          "{:.6g}; its smoothness allows {:.6g} there (where curvature jumps, say so)",
+          name_, one.change, one.length, one.u, one.v, s.change * one.length);
+    };
+    for (int k = 0; k < searches; ++k) {
+      const double u = angle(), v = angle();
+      for (const bool along_u : {true, false}) {
+        const double du = along_u ? step : 0.0, dv = along_u ? 0.0 : step;
+        Stretch worst;
+        for (int i = 0; i < pieces; ++i) {
+          const Stretch one = stretch(u + i * du, v + i * dv, du, dv, bend);
+          keep(one);
+          if (one.per_length() > worst.per_length()) worst = one;
+        }
+        for (int i = 0; i < halvings && worst.length > 0.0; ++i) {
+          const double hu = 0.5 * worst.du, hv = 0.5 * worst.dv;
+          const Stretch a = stretch(worst.u, worst.v, hu, hv, bend),
+                        b = stretch(worst.u + hu, worst.v + hv, hu, hv, bend);
+          keep(a);
+          keep(b);
+          worst = a.per_length() > b.per_length() ? a : b;
+        }
+      }
+    }
+  }
+
   void smoothness()
   {
     const SolidSmoothness s = solid_.smoothness();
@@ -319,7 +379,9 @@ class SolidCheck {
       }
     }
     worst_curvature(s);
-    if (!jumps_) change_of_curvature(s.change);
+    if (jumps_) return;
+    change_of_curvature(s.change);
+    jumps_of_curvature(s);
   }
 
   const std::string& name_;

@@ -126,7 +126,7 @@ const char* union_text =
     "it by 30 degrees about the element's z axis. Each is from -180 to 180. Designs and sweeps may vary places and turns like any\n"
     "other parameter. Primitives are called `eye.ring` and `shank.strut_0`. Of parts that nothing joins, which\n"
     "move as one all the same, `check`, `run` and `export` warn. Parts that overlap may close loops together, by which\n"
-    "elements are linked. `share/experiments/hook_and_eye.json` is a chain of unions, and in `bent_links.json` a turn is designed.\n";
+    "elements are linked. `share/experiments/hook_and_eye.json` is a chain of unions, `frame_links.json` one of frames whose sides are struts of their own, and in `bent_links.json` a turn is designed.\n";
 
 }  // namespace
 

@@ -193,7 +193,8 @@ void Registry::report_missing(PluginKind kind, std::string_view id) const
   message += suggestion(id, known);
   std::vector<std::string> searched;
   for (const fs::path& folder : directories_) searched.push_back(folder.native());
-  message += fmt::format(" (searched: {})", fmt::join(searched, ", "));
+  message += fmt::format(" (searched: {}; other folders with --plugin-path or HAUBERK_PLUGIN_PATH)",
+                         fmt::join(searched, ", "));
   // It may be in one of these.
   for (const std::string& problem : unusable) message += "; " + problem;
   throw InputError(message);

@@ -61,6 +61,11 @@ std::vector<fs::path> plugin_search_path(std::span<const fs::path> command_line)
                             fs::canonical(boost::dll::program_location()));
 }
 
+std::vector<fs::path> own_plugin_folders()
+{
+  return plugin_search_path({}, nullptr, fs::canonical(boost::dll::program_location()));
+}
+
 fs::path shared_data_folder()
 {
   return fs::canonical(boost::dll::program_location()).parent_path().parent_path() / "share" / "hauberk";

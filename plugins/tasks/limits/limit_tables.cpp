@@ -37,7 +37,10 @@ std::string limits_table(const Experiment& experiment, const RunResult& run)
 {
   const auto names = experiment.load_case->sense_names();
   const bool strain = experiment.load_case->value_length_power() == 0;
-  std::string text = fmt::format("{:>10} {:>15} {:>15}", "direction", names.first, names.second);
+  // Only curvatures have a unit beside strains.
+  const std::string unit = strain ? "" : fmt::format(", 1/{}", experiment.length_unit);
+  std::string text =
+      fmt::format("{:>10} {:>15} {:>15}", "direction", names.first + unit, names.second + unit);
   text += strain ? fmt::format(" {:>10}\n", "eta") : "\n";
   for (const ProfilePoint& p : run.profiles) {
     text += fmt::format("{:>10g} {:>15} {:>15}", p.direction_deg,

@@ -37,10 +37,15 @@ class Problem:
         return f"{place}{self.pointer or '/'}: {self.message}"
 
 
+def _folders(plugin_path):
+    """Folders as a list: one path is one folder."""
+    return [os.fspath(plugin_path)] if isinstance(plugin_path, (str, os.PathLike)) else [os.fspath(one) for one in plugin_path]
+
+
 class Experiment:
     """An experiment: a dict, a path, or text of a file (JSON with comments).
 
-    `plugin_path`: folders that are searched for plugins first. Immutable: `set` gives another experiment.
+    `plugin_path`: a folder, or several, that are searched for plugins first. Immutable: `set` gives another experiment.
     """
 
     def __init__(self, what, plugin_path=()):
@@ -55,7 +60,7 @@ class Experiment:
         else:
             self._text, self._file = what, "experiment"
         self._overrides = []
-        self._folders = [os.fspath(folder) for folder in plugin_path]
+        self._folders = _folders(plugin_path)
 
     def set(self, pointer, value):
         """The same experiment with `value` (anything JSON has) at a JSON pointer, as `hauberk run --set` puts it."""
@@ -112,7 +117,7 @@ class Results:
     def __init__(self, raw, text=None, failed=None, summary="", plugin_path=()):
         self.raw, self.failed, self.summary = raw, failed, summary
         self._text = json.dumps(raw) if text is None else text
-        self._folders = list(plugin_path)
+        self._folders = _folders(plugin_path)
 
     @property
     def limits(self):
@@ -124,17 +129,51 @@ class Results:
                  (limit.get("confidence") or {}).get("word", "")) for limit in self.raw["limits"]]
         return numpy.array(rows, dtype=kinds)
 
+    @property
+    def rows(self):
+        """A structured array of a sweep: a column per quantity that is varied, one per measure (NaN where there is none), status.
+
+        Raises InputError where the results are no sweep's."""
+        sweep = self._sweep()
+        varied, measured = ([entry["name"] for entry in sweep[key]] for key in ("axes", "measures"))
+        # A quantity may be varied and measured under one name.
+        names = varied + [name if name not in varied else f"measured {name}" for name in measured]
+        kinds = [(name, float) for name in names] + [("status", "U16")]
+        rows = [(*(_number(row["values"][name]) for name in varied),
+                 *(_number((row["measured"] or {}).get(name)) for name in measured), row["status"]) for row in sweep["rows"]]
+        return numpy.array(rows, dtype=kinds)
+
+    def row(self, number):
+        """Results of one row of a sweep, as a run of it alone would have given them. Raises InputError where it has none."""
+        rows = self._sweep()["rows"]
+        if not 0 <= number < len(rows):
+            raise InputError(f"row {number}: the sweep has {len(rows)} rows, 0 to {len(rows) - 1}")
+        if rows[number]["result"] is None:
+            raise InputError(f"row {number}: it has no result ({rows[number]['status']}: {rows[number]['message']})")
+        return Results(rows[number]["result"], plugin_path=self._folders)
+
+    def _sweep(self):
+        if not self.raw.get("sweep"):
+            raise InputError("these are no results of a sweep")
+        return self.raw["sweep"]
+
     def to_pandas(self):
-        """`limits` as a DataFrame; needs pandas."""
-        import pandas  # pylint: disable=import-outside-toplevel
-        return pandas.DataFrame(self.limits)
+        """`limits`, of a sweep `rows`, as a DataFrame. Raises ImportError where pandas is not installed."""
+        try:
+            import pandas  # pylint: disable=import-outside-toplevel
+        except ModuleNotFoundError:
+            raise ImportError("to_pandas() needs pandas (Debian's python3-pandas); `limits` and `rows` are numpy arrays") from None
+        return pandas.DataFrame(self.rows if self.raw.get("sweep") else self.limits)
 
     def _limit(self, direction_deg, sense):
         for limit in self.raw["limits"]:
             if limit["sense"] == sense and limit.get("direction_deg") == direction_deg:
                 return limit
         known = ", ".join(f"{limit['sense']} at {limit.get('direction_deg')}" for limit in self.raw["limits"])
-        raise KeyError(f"no limit {sense} at {direction_deg}; there are {known}")
+        there = f"there are {known}" if known else "there is none"
+        if not known and self.raw.get("sweep"):
+            there = "limits of a sweep are those of its rows: row(0)"
+        raise KeyError(f"no limit {sense} at {direction_deg}; {there}")
 
     def value(self, direction_deg, sense):
         """The value of a limit; NaN where it has none."""
@@ -165,7 +204,9 @@ class Results:
         return numpy.array([tuple(_number(row[name]) for name, _ in kinds) for row in self.raw["profiles"]], dtype=kinds)
 
     def verify(self):
-        """(passed, text): the independent check, as `hauberk verify` makes it."""
+        """(passed, text): the independent check, as `hauberk verify` makes it; passed: nothing failed.
+
+        Lines of the text that begin with NONE had nothing to check, as those of scenes whose plugins are not there."""
         source = _hauberk.Source("", "", [], self._folders, str(_root))
         return _hauberk.verify(self._text, "results", source)
 
@@ -175,8 +216,8 @@ class Results:
             file.write(self._text)
 
 
-def load(path):
-    """Results from a results.json, or from a folder with one."""
+def load(path, plugin_path=()):
+    """Results from a results.json, or from a folder with one. `plugin_path`: where `verify` looks for plugins first."""
     path = pathlib.Path(path)
     if path.is_dir():
         path /= "results.json"
@@ -187,24 +228,26 @@ def load(path):
         raise InputError(f"cannot read '{path}': {error}") from None
     if not str(raw.get("format", "")).startswith("hauberk-results/"):
         raise InputError(f"'{path}' is no results.json of Hauberk")
-    return Results(raw, text)
+    return Results(raw, text, plugin_path=plugin_path)
 
 
 def export(source, target, state=None, repeat=None, outline=None, chord=None, require_gap=None, force=False,
-           separate=False):
+           separate=False, row=None, plugin_path=()):
     """Writes a fabric as `hauberk export` does: the ending of `target` says in which format. Returns what it says of gaps
     and volume.
 
     `source`: a file of an experiment or of results, or a folder of results. `repeat`: copies along the cell's vectors.
-    `separate`: of .3mf, an object for each kind of element and an item for each copy instead of one object. Runs the
-    command beside the package. Raises InputError, and ComputationError where a gap is smaller than required.
+    `separate`: of .3mf, an object for each kind of element and an item for each copy instead of one object. `row`: of a
+    sweep. Runs the command beside the package. Raises InputError, and ComputationError where a gap is smaller than required.
     """
     words = [str(_root / "bin" / "hauberk"), "export", os.fspath(source), "-o", os.fspath(target)]
     repeated = None if repeat is None else ",".join(str(n) for n in repeat)
     for name, value in (("state", state), ("repeat", repeated), ("outline", outline), ("chord", chord),
-                        ("require-gap", require_gap)):
+                        ("require-gap", require_gap), ("row", row)):
         if value is not None:
             words += [f"--{name}", str(value)]
+    for folder in _folders(plugin_path):
+        words += ["--plugin-path", folder]
     words += [word for word, given in (("--force", force), ("--separate", separate)) if given]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode == 0:

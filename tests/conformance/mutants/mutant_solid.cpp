@@ -5,6 +5,7 @@
 /// torus of R and r + d, with the principal curvatures 1/(r + d) and cos v/(R + (r + d) cos v).
 
 #include "defect.hpp"
+#include "shapes/strut_frame/capsule.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -158,6 +159,43 @@ class Torus final : public Solid {
   std::vector<double> sizes_;
 };
 
+/// A straight strut whose curvature is said not to jump where its cylinder meets its caps.
+class SmoothStrut final : public Solid {
+ public:
+  SmoothStrut(double h, double r) : strut_(h, r) {}
+
+  std::string kind() const override { return strut_.kind(); }
+  std::vector<std::string> size_names() const override { return strut_.size_names(); }
+  const std::vector<double>& sizes() const override { return strut_.sizes(); }
+  double radius() const override { return strut_.radius(); }
+  double thickness() const override { return strut_.thickness(); }
+  int probe_dimension() const override { return strut_.probe_dimension(); }
+  double offset() const override { return strut_.offset(); }
+  Fold fold() const override { return strut_.fold(); }
+  ProbeDerivatives probe(const ProbeAngles& at) const override { return strut_.probe(at); }
+  ProbeBounds probe_bounds(double u, double v, double half_u, double half_v) const override
+  {
+    return strut_.probe_bounds(u, v, half_u, half_v);
+  }
+  Vec3 surface_point(const ProbeAngles& at) const override { return strut_.surface_point(at); }
+  SolidDistance distance(const Vec3& x) const override { return strut_.distance(x); }
+  SolidSmoothness smoothness() const override
+  {
+    SolidSmoothness s = strut_.smoothness();
+    s.change = 1e-11;
+    return s;
+  }
+  void distance_sizes(const Vec3& x, std::span<double> out) const override { strut_.distance_sizes(x, out); }
+  void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override
+  {
+    strut_.probe_sizes(at, n, out);
+  }
+  std::vector<std::vector<Vec3>> cores() const override { return strut_.cores(); }
+
+ private:
+  Capsule strut_;
+};
+
 /// One torus.
 class Mutant final : public Shape {
  public:
@@ -174,6 +212,8 @@ class Mutant final : public Shape {
     torus.name = "torus";
     torus.kind = PrimitiveKind::solid;
     torus.solid = std::make_shared<const Torus>(defect_, p[0], p[1]);
+    if (defect_ == "jump_of_curvature_not_told")
+      torus.solid = std::make_shared<const SmoothStrut>(p[0], p[1]);
     out.push_back(torus);
   }
   void do_jacobians(std::span<const double>, std::vector<PrimitiveJacobian>& out) const override

@@ -33,8 +33,8 @@ class RegistryTest : public testing::Test {
   TemporaryFolder folder_;
   fs::path one_ = folder_.folder("one"), two_ = folder_.folder("two");
   Registry registry_{{folder_ / "absent", one_, two_}};
-  std::string searched_ =
-      " (searched: " + (folder_ / "absent").native() + ", " + one_.native() + ", " + two_.native() + ")";
+  std::string searched_ = " (searched: " + (folder_ / "absent").native() + ", " + one_.native() + ", " +
+                          two_.native() + "; other folders with --plugin-path or HAUBERK_PLUGIN_PATH)";
 };
 
 std::string find_message(const Registry& registry, const std::string& id)
@@ -182,8 +182,8 @@ TEST(Registry, NamesLibrariesOfSeveralThatCannotBeUsed)
   EXPECT_EQ(entries[0].id, "pair");
   EXPECT_NE(entries[0].problem.find("interface revision 999"), std::string::npos);
   EXPECT_EQ(find_message(registry, "several_revision_ring"),
-            "no shape 'several_revision_ring' found (searched: " + folder.path().native() + "); " +
-                entries[0].problem);
+            "no shape 'several_revision_ring' found (searched: " + folder.path().native() +
+                "; other folders with --plugin-path or HAUBERK_PLUGIN_PATH); " + entries[0].problem);
   EXPECT_EQ(find_message(registry, "pair"), entries[0].problem);
 }
 
@@ -202,7 +202,9 @@ TEST_F(RegistryTest, CurrentDirectoryIsNotSearched)
   const std::string message =
       message_of<InputError>([] { Registry({"/absent"}).find(PluginKind::shape, "good_shape"); });
   fs::current_path(before);
-  EXPECT_EQ(message, "no shape 'good_shape' found (searched: /absent)");
+  EXPECT_EQ(
+      message,
+      "no shape 'good_shape' found (searched: /absent; other folders with --plugin-path or HAUBERK_PLUGIN_PATH)");
 }
 
 TEST_F(RegistryTest, ThreadsGetTheSameTable)

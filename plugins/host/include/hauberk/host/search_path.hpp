@@ -19,6 +19,9 @@ std::vector<std::filesystem::path> plugin_search_path(std::span<const std::files
 /// The same with this process's environment and executable.
 std::vector<std::filesystem::path> plugin_search_path(std::span<const std::filesystem::path> command_line);
 
+/// Those of them that this process searches whatever its command line and environment are.
+std::vector<std::filesystem::path> own_plugin_folders();
+
 /// ../share/hauberk seen from the folder of this process's executable: data that belong to the program.
 std::filesystem::path shared_data_folder();
 

@@ -69,6 +69,24 @@ std::map<Kind, std::string> names_of_kinds(const SceneSpec& scene)
   return out;
 }
 
+/// The experiment as one of limits, without sections of tasks and what they are expected to give, which
+/// belong to the file as it was.
+json::object scene_alone(json::object experiment)
+{
+  const json::value* name = experiment.if_contains("name");
+  experiment["name"] =
+      (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
+  experiment["task"] = "limits";
+  constexpr std::array kept{"$schema", "name",     "description", "task",      "length_unit",
+                            "seed",    "elements", "cell",        "load_case", "solver"};
+  json::object out;
+  for (json::key_value_pair& member : experiment) {
+    if (std::find(kept.begin(), kept.end(), member.key()) != kept.end())
+      out[member.key()] = std::move(member.value());
+  }
+  return out;
+}
+
 }  // namespace
 
 json::object designed_experiment(const std::string& experiment_json, const SceneSpec& scene)
@@ -106,19 +124,27 @@ json::object designed_experiment(const std::string& experiment_json, const Scene
   }
   cell["place"] = std::move(place);
 
-  const json::value* name = out.if_contains("name");
-  out["name"] =
-      (name && name->is_string() ? std::string(name->get_string()) : std::string("scene")) + "_designed";
-  out["task"] = "limits";
-  // Sections of tasks and what they are expected to give belong to the file as it was.
-  constexpr std::array kept{"$schema", "name",     "description", "task",      "length_unit",
-                            "seed",    "elements", "cell",        "load_case", "solver"};
-  json::object scene_only;
-  for (json::key_value_pair& member : out) {
-    if (std::find(kept.begin(), kept.end(), member.key()) != kept.end())
-      scene_only[member.key()] = std::move(member.value());
+  return scene_alone(std::move(out));
+}
+
+std::optional<json::object> designed_fabric(const std::string& experiment_json, const SceneSpec& scene)
+{
+  json::object out = parse_json(experiment_json, "resolved experiment").as_object();
+  const std::map<Kind, std::string> names = names_of_kinds(scene);
+  json::object& elements = out.at("elements").as_object();
+  std::set<int> seen;
+  for (const auto& [kind, name] : names)
+    if (!seen.insert(kind.first).second) return std::nullopt;
+  json::object& cell = out.at("cell").as_object();
+  for (const json::value& place : cell.at("place").as_array())
+    if (place.as_object().contains("parameters")) return std::nullopt;
+  const json::object old_elements = elements;
+  for (const PlacedElement& element : scene.elements) {
+    const ElementType& type = scene.types.at(static_cast<std::size_t>(element.type));
+    elements[type.name] = own_entry(old_elements, type, element);
   }
-  return scene_only;
+  cell["relax"] = true;
+  return scene_alone(std::move(out));
 }
 
 }  // namespace hauberk

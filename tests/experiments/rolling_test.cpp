@@ -280,6 +280,23 @@ TEST(StripRolling, CanBeDesigned)
   const Outcome designed = run_program({"run", folder / "out/designed.json", "-o", folder / "again"});
   ASSERT_EQ(designed.code, 0) << designed.err;
   EXPECT_NEAR(number_at(read_results(folder / "again"), "/limits/0/value"), 0.07, 7e-4);
+  // The same as a strip, and with more rows, as another file extends it.
+  const Outcome same = run_program({"run", folder / "out/designed_fabric.json", "-o", folder / "fabric"});
+  ASSERT_EQ(same.code, 0) << same.err;
+  EXPECT_NEAR(number_at(read_results(folder / "fabric"), "/limits/0/value"), 0.07, 7e-4);
+  const std::string wider =
+      R"({ "extends": "out/designed_fabric.json", "name": "wider", "cell": { "strip": { "rows": 3 } } })";
+  ASSERT_EQ(run_program({"run", folder.write("wider.json", wider), "-o", folder / "wider"}).code, 0);
+  EXPECT_EQ(read_results(folder / "wider").at_pointer("/scene/elements").as_array().size(),
+            3 * read_results(folder / "out").at_pointer("/scene/elements").as_array().size() / 2);
+  // The other load of the sheet that the strip was cut from.
+  const std::string sheet =
+      R"({ "extends": "out/designed_fabric.json", "name": "sheet", "cell": { "strip": null },
+    "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"], "hold": [] } })";
+  const Outcome stretched = run_program({"run", folder.write("sheet.json", sheet), "-o", folder / "sheet"});
+  ASSERT_EQ(stretched.code, 0) << stretched.err;
+  EXPECT_EQ(read_results(folder / "sheet").at_pointer("/scene/elements/0/parameters/ring.r0"),
+            read_results(folder / "out").at_pointer("/scene/elements/0/parameters/ring.r0"));
 }
 
 TEST(StripRolling, SaysWhatIsNoStrip)

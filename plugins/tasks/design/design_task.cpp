@@ -209,6 +209,9 @@ class DesignTask final : public TaskRun {
     const std::string written = write_json(in_folder(experiment_.expanded, experiment_, folder.string()));
     out.push_back({finished ? "designed" : "best_so_far", finished ? designed_file : best_so_far_file,
                    write_json(designed_experiment(written, run_.scene))});
+    if (!finished) return out;
+    if (const auto fabric = designed_fabric(written, run_.scene))
+      out.push_back({"designed_fabric", designed_fabric_file, write_json(*fabric)});
     return out;
   }
 

@@ -8,7 +8,7 @@
 
 namespace hauberk {
 
-inline constexpr std::array design_file_names{designed_file, best_so_far_file};
+inline constexpr std::array design_file_names{designed_file, designed_fabric_file, best_so_far_file};
 
 /// An interrupted search is repeated from the evaluations in the output folder (evaluation_log.hpp): what
 /// comes out is the same as of one run.

@@ -239,8 +239,14 @@ class Computation {
     std::optional<FoundState> out =
         searches_.begun_from(task, *start, place, best->seed, searches_.allowance_of(task));
     // What was further when its allowance was spent is worth more.
-    if (out && searches_.gave_up_further(task, *out))
+    if (out && searches_.gave_up_further(task, *out)) {
+      const Locked first = std::move(out->locked);
       out = searches_.begun_from(task, *start, place, best->seed);
+      if (out) {
+        out->locked.iterations += first.iterations;
+        out->locked.evaluations += first.evaluations;
+      }
+    }
     return out;
   }
 
@@ -271,10 +277,12 @@ class Computation {
   /// Limits whose searches do not settle them have more.
   void search_on(FurtherSearches& further, unsigned threads)
   {
-    // Results that came with the call tell whether starts agree as long as nothing else was learnt.
+    // Results that came with the call tell whether starts agree as long as nothing else was learnt, and
+    // nothing of forces, on which stretches depend.
     std::vector<std::size_t> learnt;
     for (std::size_t k = 0; k < asked_; ++k)
-      if (further.may_go_on(k) && searches_.of(k).known && results_[k].confidence.is_final())
+      if (further.may_go_on(k) && searches_.of(k).known &&
+          (results_[k].confidence.is_final() || is_taut(model_, tasks_[k])))
         learnt.push_back(k);
     if (going()) searches_.find_states(learnt, threads);
     for (const std::size_t k : learnt) look_again(k);

@@ -90,7 +90,8 @@ std::vector<FurtherSearch> FurtherSearches::from_rest(const std::vector<std::siz
     const TaskState& t = searches_.of(k);
     const bool taut = is_taut(model_, searches_.tasks()[k]);
     for (std::size_t j = 0; j < t.further_starts; ++j)
-      out.push_back({k, taut ? j : t.starts.size() + j, nullptr, taut ? tilt_of_jammed : 0.0});
+      out.push_back({k, (taut ? static_cast<std::size_t>(searches_.settings().tilts) : t.starts.size()) + j,
+                     nullptr, taut ? tilt_of_jammed : 0.0});
   }
   return out;
 }

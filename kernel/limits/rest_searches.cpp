@@ -21,8 +21,8 @@ constexpr std::size_t times_further = 2;
 /// which starts come to it once in 24 or not at all.
 constexpr std::size_t tilts_of_jammed = 6;
 
-/// Starts of a taut limit that begins again, at least, in cells of so many elements at most: a large
-/// perturbation at times leads further than the small one of the first.
+/// Starts of a taut limit that begins again, at least, in cells of so many elements at most, which also have
+/// the tilted loads: a large perturbation at times leads further than the small one of the first.
 constexpr int taut_starts = 2, cell_of_taut_starts = 16;
 
 /// LimitSettings::fold_starts, fewer in large cells, where each is expensive.
@@ -70,9 +70,11 @@ RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSet
   const bool folds = may_fold(model, task);
   const int starts_of_folds = fold_starts(model, settings);
   if (folds) fold(out, model, at_most(std::max(starts, starts_of_folds)));
-  if (starts_of_folds == 1 || settings.most_starts > 0) return out;
-  if (folds) out.further_starts = times_further * static_cast<std::size_t>(starts_of_folds);
-  if (is_taut(model, task) && begins_again(model, task, settings.contact))
+  if (settings.most_starts > 0) return out;
+  if (folds && starts_of_folds > 1)
+    out.further_starts = times_further * static_cast<std::size_t>(starts_of_folds);
+  if (is_taut(model, task) && begins_again(model, task, settings.contact) &&
+      model.element_count() <= cell_of_taut_starts)
     out.further_starts = tilts_of_jammed;
   return out;
 }

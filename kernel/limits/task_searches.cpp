@@ -320,7 +320,7 @@ std::optional<FoundState> TaskSearches::from_tilted_load(std::size_t task, doubl
     const auto search = [&] {
       return limit_from_tilted_load(model_, tasks_[task], settings, seed, [this] { return going(); });
     };
-    return FoundState{searched(name, seconds, search), "tilt", seed};
+    return FoundState{searched(name, seconds, search), fmt::format("tilt of {} degrees", degrees), seed};
   });
 }
 

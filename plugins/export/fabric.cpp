@@ -171,10 +171,11 @@ bool within(const Outline& outline, const Vec3& x)
   return std::abs(x.x()) <= outline.half_sides[0] && std::abs(x.y()) <= outline.half_sides[1];
 }
 
+/// At rest, so that all states show the same piece.
 Vec3 middle_of(const std::vector<Assembly::Copy>& copies)
 {
   Vec3 sum = Vec3::Zero();
-  for (const auto& copy : copies) sum += copy.pose.position;
+  for (const auto& copy : copies) sum += copy.rest.position;
   return copies.empty() ? sum : Vec3(sum / static_cast<double>(copies.size()));
 }
 
@@ -182,7 +183,7 @@ void keep_within(Assembly& assembly, const Outline& outline)
 {
   const Vec3 middle = middle_of(assembly.copies);
   std::erase_if(assembly.copies,
-                [&](const Assembly::Copy& c) { return !within(outline, c.pose.position - middle); });
+                [&](const Assembly::Copy& c) { return !within(outline, c.rest.position - middle); });
   if (assembly.copies.empty())
     throw InputError("--outline: no element's middle lies within; give a larger one, or --repeat more cells");
 }
@@ -350,14 +351,20 @@ std::array<int, 3> cells_that_fill(const Fabric& fabric, const Outline& outline)
   const bool chain = fabric.lattice.size() == 1;
   for (std::size_t v = 0; v < fabric.lattice.size(); ++v) {
     // Rows of cells lie between lines along the other vector.
-    const Vec3& along = fabric.lattice[v];
-    const Vec3 across = chain ? along : Vec3(fabric.lattice[1 - v].cross(Vec3::UnitZ()));
+    const Vec3& along = fabric.rest_lattice[v];
+    const Vec3 across = chain ? along : Vec3(fabric.rest_lattice[1 - v].cross(Vec3::UnitZ()));
     const Vec3 normal = across.normalized();
     const double half = outline.radius > 0.0 ? outline.radius
                                              : outline.half_sides[0] * std::abs(normal.x()) +
                                                    outline.half_sides[1] * std::abs(normal.y());
     constexpr double most = 1e6;  // `assemble` refuses fewer
-    const double rows = std::ceil(2.0 * half / std::abs(normal.dot(along)));
+    // Elements of one cell may lie apart.
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Fabric::Element& element : fabric.elements) {
+      low = std::min(low, normal.dot(element.rest.position));
+      high = std::max(high, normal.dot(element.rest.position));
+    }
+    const double rows = std::ceil((2.0 * half + std::max(0.0, high - low)) / std::abs(normal.dot(along)));
     out[v] = 2 + static_cast<int>(std::min(rows, most));
   }
   return out;
@@ -376,8 +383,8 @@ Assembly assemble(const Fabric& fabric, std::array<int, 3> repeat, const std::op
   double copies = static_cast<double>(fabric.elements.size());
   for (const int n : repeat) copies *= n;
   if (copies > static_cast<double>(most_copies))
-    throw InputError(
-        fmt::format("--repeat: {:.3g} elements, more than {}; repeat less", copies, most_copies));
+    throw InputError(fmt::format("{:.3g} elements, more than {}; give a smaller --repeat or --outline",
+                                 copies, most_copies));
   Assembly assembly;
   assembly.name = fabric.name;
   assembly.unit = fabric.unit;

@@ -64,7 +64,7 @@ std::vector<ShownContact> contacts_in_results(const boost::json::value& results,
 Fabric with_design_values(const Fabric& initial, const detail::JsonPlace& variables,
                           const detail::JsonPlace& values, const SceneSpec& scene);
 
-/// Which part of a periodic fabric is kept: elements whose middle is within, about the middle of all.
+/// Which part of a periodic fabric is kept: elements whose middle is within at rest, about the middle of all.
 struct Outline {
   double radius = 0.0;                 ///< of a disk; 0: a rectangle
   std::array<double, 2> half_sides{};  ///< of a rectangle

@@ -50,8 +50,10 @@ class Canvas {
         (p[1] - p[0]).head<2>().x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (area == 0.0) return;
     const auto range = [](double low, double high, int most) {
-      return std::pair{std::max(0, static_cast<int>(std::ceil(low - 0.5))),
-                       std::min(most - 1, static_cast<int>(std::floor(high - 0.5)))};
+      // Beyond the picture numbers may be larger than any integer.
+      const double first = std::clamp(std::ceil(low - 0.5), 0.0, static_cast<double>(most)),
+                   last = std::clamp(std::floor(high - 0.5), -1.0, most - 1.0);
+      return std::pair{static_cast<int>(first), static_cast<int>(last)};
     };
     const auto [x0, x1] =
         range(std::min({p[0].x(), p[1].x(), p[2].x()}), std::max({p[0].x(), p[1].x(), p[2].x()}), width_);

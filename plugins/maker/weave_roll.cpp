@@ -4,6 +4,9 @@
 #include "maker/job_limits.hpp"
 #include "maker/lattice_step.hpp"
 #include "run/confidence_marks.hpp"
+#include "run/interrupt.hpp"
+
+#include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 #include <boost/json/parse.hpp>
@@ -148,11 +151,16 @@ std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, cons
     const std::optional<LatticeStep> axis = step_along(lattice, way.degrees + 90.0);
     if (!axis) continue;
     Narrowing narrowing;
-    for (int rows = fewest_rows; rows <= most_rows && !narrowing.is_done(); ++rows) {
-      const Job job =
-          prepare_job(registry, {label, strip_text(weave, question, axis->counts, rows), {}, lookup});
-      narrowing.add(of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, 0.0, 0.0, "", "", "", ""},
-                            threads, progress));
+    try {
+      for (int rows = fewest_rows; rows <= most_rows && !narrowing.is_done(); ++rows) {
+        const Job job =
+            prepare_job(registry, {label, strip_text(weave, question, axis->counts, rows), {}, lookup});
+        narrowing.add(of_rows(job, {way.name, way.degrees, rows, 0.0, {}, {}, 0.0, 0.0, "", "", "", ""},
+                              threads, progress));
+      }
+    } catch (const ComputationError&) {
+      if (!interrupted()) throw;
+      return out;  // ways that are done stay
     }
     out.push_back(narrowing.answer());
   }

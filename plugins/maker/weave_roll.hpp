@@ -11,8 +11,8 @@ double distance_from_axis(const Vec3& centre, const Mat3& axes, double R, double
 
 /// Rolls along every way of the sheet, whose lattice at rest is given, that has a vector of it across, which
 /// the rod is along: of strips of two rows of cells, three and more, until one more row changes both radii by
-/// less than a hundredth, or strips close into tubes. Elements stay on the sheet, and slide along it. Throws
-/// as `answer` does.
+/// less than a hundredth, or strips close into tubes. Elements stay on the sheet, and slide along it.
+/// Interrupted, it gives the ways that are done. Throws as `answer` does.
 std::vector<RollAnswer> rolls(const Weave& weave, const Question& question, const std::vector<Vec3>& lattice,
                               const WeaveLookup& lookup, const std::shared_ptr<const Registry>& registry,
                               unsigned threads, Progress& progress);

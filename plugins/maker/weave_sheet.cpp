@@ -1,11 +1,13 @@
 #include "maker/weave_sheet.hpp"
 
 #include "document/json_text.hpp"
+#include "equilibrium/gaps.hpp"
 #include "maker/job_limits.hpp"
 #include "maker/lattice_step.hpp"
 #include "maker/sheet_shape.hpp"
 #include "maker/weave_roll.hpp"
 #include "run/confidence_marks.hpp"
+#include "run/interrupt.hpp"
 #include "tasks/job.hpp"
 
 #include <hauberk/error.hpp>
@@ -19,6 +21,7 @@
 namespace hauberk::maker {
 namespace {
 
+constexpr double far = 4.0;                            // of gaps that are looked for, in ring radii
 constexpr double square_decimetre = 1e4, metre = 1e3;  // mm^2, mm
 
 /// How far a lattice repeats itself along a direction; 0 where it does not.
@@ -213,8 +216,8 @@ Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Pro
   std::vector<LimitResult> limits = limits_of(job, threads, "limits", progress);
   sheet.ways = answers(job, weave, limits);
   if (!sheet.chain) sheet.thickness = thickness(scene);
-  if (question.roll && !sheet.chain)
-    sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
+  sheet.rest_gap =
+      smallest_gap(job.prepared->model, rest_state(job.prepared->model), far) * job.prepared->model.length;
   sheet.printable = question.gap > 0.0 && fit.fits(thicker(question));
   if (question.gap > 0.0 && !sheet.printable) sheet.largest_gap = largest_gap(fit, question);
   if (question.gap > 0.0 && !question.small && !sheet.printable)
@@ -223,6 +226,10 @@ Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Pro
     const Job apart = job_of(weave, question, question.gap, lookup, registry);
     sheet.with_gap = answers(apart, weave, limits_of(apart, threads, "limits with the gap", progress));
   }
+  // Last, as it takes longest: what is known by then stays.
+  if (question.roll && !sheet.chain)
+    sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
+  sheet.cut_short = interrupted();
   sheet.job = std::make_shared<const Job>(solved(std::move(job), std::move(limits)));
   return sheet;
 }
@@ -281,7 +288,8 @@ std::string sheet_text(const Sheet& sheet)
           rolls_text(sheet.rolls);
   const double weight = 1e-3 * sheet.metal;  // cm^3 per dm^2 or metre
   const char* per = sheet.chain ? "m" : "dm^2";
-  text += fmt::format("{:.1f} rings per {} at rest; grams per {}:", sheet.rings, per, per);
+  text += fmt::format("{:.1f} rings per {} at rest{}, {:.3f} mm apart at least; grams per {}:", sheet.rings,
+                      per, q.small ? ", as many of each size" : "", sheet.rest_gap, per);
   const char* separator = " ";
   for (const Metal& metal : metals()) {
     text += fmt::format("{}{} {:.1f}", separator, metal.name, weight * metal.density);
@@ -317,6 +325,7 @@ boost::json::object sheet_json(const Sheet& sheet)
                    {"ways", ways_json(sheet.ways)},
                    {"rolls", rolls_json(sheet.rolls)},
                    {"thickness_mm", sheet.chain ? json::value(nullptr) : json::value(sheet.thickness)},
+                   {"rest_gap_mm", sheet.rest_gap},
                    {"rings", sheet.rings},
                    {"per", sheet.chain ? "m" : "dm2"},
                    {"grams", std::move(grams)}};

@@ -51,10 +51,12 @@ struct Sheet {
   double largest_gap = 0.0;   ///< that there is room for
   bool chain = false;
   double thickness = 0.0;  ///< at rest, mm; 0 of a chain
+  double rest_gap = 0.0;   ///< smallest distance of two rings' surfaces at rest, mm
   double rings = 0.0;      ///< of all sizes, per dm^2 at rest, per metre of a chain
   double metal = 0.0;      ///< volume of the wire of these, mm^3; 2 pi^2 R r^2 is that of a ring
   std::vector<WayAnswer> ways;
   std::vector<RollAnswer> rolls;    ///< none of a chain
+  bool cut_short = false;           ///< rolls were interrupted: those that are missing were asked for
   bool printable = false;           ///< whether the weave has room for the gap
   std::vector<WayAnswer> with_gap;  ///< what the gap leaves; none where it has no room
   std::shared_ptr<const Job> job;   ///< that `ways` are of, solved: two limits of each, stretch first
@@ -63,7 +65,7 @@ struct Sheet {
 /// Computes the answers to a question that fits. Limits are those of the load's direction with the shear
 /// held, in the plane (of a chain free to leave it). Throws what preparing and computing an experiment
 /// throws; InputError where elements are no single rings of round or oval wire; ComputationError where it is
-/// interrupted.
+/// interrupted, but for rolls, which come last.
 Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Progress& progress);
 
 /// Grams per cubic centimetre.

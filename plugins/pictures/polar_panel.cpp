@@ -265,20 +265,21 @@ void draw_legend(Svg& svg, Point2 corner, const std::vector<Curve>& curves, doub
 
 double scale_of(const std::vector<Curve>& curves)
 {
-  std::vector<double> values;
   double before = 0.0, behind = 0.0;
   for (const Curve& curve : curves) {
-    double& largest = curve.behind ? behind : before;
-    largest = std::max(largest, largest_value(curve));
-    if (curve.behind) continue;
+    double largest = largest_value(curve);
+    std::vector<double> values;
     for (const auto& [degrees, value] : curve.points)
-      if (value > 0.0) values.push_back(value);
+      if (value > 0.0 && curve.joined) values.push_back(value);
+    if (!values.empty() && !curve.behind && curve.bars.empty()) {
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      largest = std::min(largest, far_beyond * *middle);
+    }
+    double& of_all = curve.behind ? behind : before;
+    of_all = std::max(of_all, largest);
   }
-  if (values.empty()) return std::max(before, behind);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const double scale = std::min(before, far_beyond * *middle);
-  return behind <= far_behind * scale ? std::max(scale, behind) : scale;
+  return before > 0.0 && behind > far_behind * before ? before : std::max(before, behind);
 }
 
 double panel_height(std::size_t entries)

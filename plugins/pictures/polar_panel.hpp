@@ -32,9 +32,9 @@ struct Curve {
   bool behind = false;         ///< shown for comparison: may leave the scale that the others need
 };
 
-/// The largest value of a panel's scale: of what is not behind, but where a value is more than ten times the
-/// median of these, ten times that median; and of what is behind, as far as two and a half times that. 0
-/// where there is no value.
+/// The largest value of a panel's scale: of every curve that is not behind, but at most ten times its median;
+/// of marks that are not joined; and of what is behind, unless that is more than two and a half times these.
+/// 0 where there is no value.
 double scale_of(const std::vector<Curve>& curves);
 
 struct Panel {

@@ -135,6 +135,7 @@ const std::vector<Mistake> of_solids = {
     {"said_to_be_convex"},
     {"change_of_a_sphere"},
     {"jump_of_curvature_not_told"},
+    {"jump_of_a_thin_strut_not_told"},
     {"distance_by_r_sign"},
     {"distance_by_R_nearly_right"},
     {"probe_by_r_forgets_z"},

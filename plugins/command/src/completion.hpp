@@ -24,6 +24,8 @@ std::vector<std::string> first_words(const Description& about);
 
 /// In single quotes, as all three shells read it.
 std::string shell_quoted(std::string_view text);
+/// A word as a shell reads it, in quotes only where it needs them.
+std::string shell_word(std::string_view text);
 
 /// The ids in what `hauberk plugins list` prints, as a filter; plugins that cannot be used are left out.
 std::string ids_filter();

@@ -127,7 +127,11 @@ boost::json::value row_of(boost::json::value results, const Options& options, co
   if (!result)
     throw InputError(fmt::format("--row {}: it has no result: {}, {}", number, row.at("status").text(),
                                  row.at("message").text()));
-  return result->value();
+  boost::json::value out = result->value();
+  // Rows are of the program that their sweep is of.
+  if (const auto provenance = document.find("provenance"))
+    out.as_object()["provenance"] = provenance->value();
+  return out;
 }
 
 /// Of an experiment, of results, or of a folder of results.
@@ -181,6 +185,10 @@ std::string content_of(const std::string& format, const Assembly& assembly, cons
   std::vector<int> size{800, 600};
   if (options.has("size")) size = counts_of(options, "size", 8000, "800,600");
   if (size.size() != 2) throw UsageError("--size: expected width and height, as 800,600", options.usage());
+  constexpr double largest_scale = 1e6;
+  if (options.has("scale") && positive(options, "scale") > largest_scale)
+    throw UsageError(fmt::format("--scale: expected at most {:g} pixels per unit", largest_scale),
+                     options.usage());
   const double scale =
       options.has("scale") ? positive(options, "scale") : scale_that_fits(assembly, view, size[0], size[1]);
   return png(render(assembly, view, size[0], size[1], scale));
@@ -293,7 +301,7 @@ Description export_description()
            {.name = "outline",
             .takes = Takes::text,
             .value = "SHAPE",
-            .help = "keep elements whose middle is within `disk:RADIUS` or `rectangle:A,B`"},
+            .help = "keep elements whose middle is within `disk:RADIUS` or `rectangle:A,B` at rest"},
            {.name = "chord",
             .takes = Takes::real,
             .value = "X",

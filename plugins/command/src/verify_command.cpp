@@ -68,7 +68,7 @@ Description verify_description()
       .options = {
           {.name = "strict",
            .help = "exit with 1 also where a line had nothing to check, as that of a scene whose plugin is "
-                   "not there"},
+                   "not there, or of a row that was refused"},
           json_option(),
           plugin_path_option()}};
 }

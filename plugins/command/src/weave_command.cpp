@@ -1,3 +1,4 @@
+#include "completion.hpp"
 #include "dispatch.hpp"
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
@@ -70,14 +71,17 @@ std::string no_room_text(const maker::RingFit& fit, const maker::Question& quest
 /// `weave all`: those that are woven of plain rings, of two sizes where small ones are given.
 int compare_weaves(const Options& options, const maker::Question& asked)
 {
-  for (const char* name : {"output", "roll", "gap"})
+  for (const char* name : {"output", "force", "roll", "gap"})
     if (options.has(name))
       throw UsageError(fmt::format("--{}: of one weave; leave it out, or name the weave", name),
                        options.usage());
+  if (options.has("small-wire") && !options.has("small-inner"))
+    throw UsageError("--small-wire: give the inner diameter of the small rings with --small-inner, too",
+                     options.usage());
   const WeaveLookup lookup = weave_lookup("weave.json");
   const std::shared_ptr<const Registry> registry = open_registry(options);
   std::vector<maker::Compared> all;
-  Progress progress(Progress::detect(true));
+  Progress progress(Progress::detect(false));
   for (const std::string& name : library_weaves()) {
     maker::Question question = asked;
     question.weave = name;
@@ -103,6 +107,7 @@ int compare_weaves(const Options& options, const maker::Question& asked)
     }
     all.push_back(std::move(one));
   }
+  progress.clear();
   if (options.has("json"))
     say_json(write_json(maker::comparison_json(all)));
   else
@@ -145,7 +150,7 @@ Description weave_description()
            .help = "that a printer needs between surfaces; default 0.4mm"},
           {.name = "roll",
            .help =
-               "also how tightly it is wound onto a rod, each way and side; a minute or two, longer for loose rings"},
+               "also how tightly it is wound onto a rod, each way and side; a minute or two, ten and more for loose rings; Ctrl-C keeps the other answers"},
           {.name = "output",
            .letter = 'o',
            .takes = Takes::text,
@@ -188,21 +193,24 @@ int weave_command(const std::vector<std::string>& words)
   const std::filesystem::path folder = kept ? options.get<std::string>("output") : "";
   const std::vector<const char*> names = weave_file_names();
   if (kept) prepare_output_directory(folder, options.has("force"), names);
-  Progress progress(Progress::detect(true));
+  Progress progress(Progress::detect(false));
   const unsigned threads = available_processors();
   const maker::Sheet sheet = maker::answer(fit, question, threads, progress);
+  progress.clear();
   if (options.has("json"))
     say_json(write_json(maker::sheet_json(sheet)));
   else
     say("{}", maker::sheet_text(sheet));
-  if (!kept) return exit_done;
+  if (sheet.cut_short) say_error("hauberk: interrupted: not all rolls are known\n");
+  const int code = sheet.cut_short ? exit_interrupted : exit_done;
+  if (!kept) return code;
   write_files_atomically(folder, weave_files(sheet, folder, threads), names);
   drop_previous(folder, names);
   if (!options.has("json"))
     say("\nwritten to {0}: weave.html is this page with pictures; `hauberk export {0} -o {1}.3mf` prints it, and "
         "experiment.json runs again\n",
-        folder.string(), weave.name);
-  return exit_done;
+        shell_word(folder.string()), weave.name);
+  return code;
 }
 
 }  // namespace hauberk::command

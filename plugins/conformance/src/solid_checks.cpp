@@ -291,7 +291,8 @@ class SolidCheck {
     double u = 0.0, v = 0.0, du = 0.0, dv = 0.0;
     double length = 0.0;  ///< of the shortest way on the surface, at most
     double change = 0.0;  ///< of either curvature from end to end
-    double per_length() const { return length > 0.0 ? change / length : 0.0; }
+    double chord = 0.0;
+    double steepness() const { return chord > 0.0 ? change / chord : 0.0; }
   };
 
   Stretch stretch(double u, double v, double du, double dv, double bend) const
@@ -301,21 +302,23 @@ class SolidCheck {
     const auto [least_a, most_a] = std::minmax(a.bend_along, a.bend_across);
     const auto [least_b, most_b] = std::minmax(b.bend_along, b.bend_across);
     // A way that bends by `bend` at most is no longer than the circle of that curvature over its chord.
-    const double half = 0.5 * bend * (to - from).norm();
+    const double far = (to - from).norm(), half = 0.5 * bend * far;
     const double length = half < 1.0 ? 2.0 / bend * std::asin(half) : std::numeric_limits<double>::infinity();
-    return {u, v, du, dv, length, std::max(std::abs(least_a - least_b), std::abs(most_a - most_b))};
+    return {u, v, du, dv, length, std::max(std::abs(least_a - least_b), std::abs(most_a - most_b)), far};
   }
 
   /// Along any way on the surface either principal curvature changes by at most the bound times its length:
   /// the derivative of the second fundamental form is symmetric in all three of its arguments (Codazzi), so
   /// that no value of it on unit vectors is larger than the largest on one vector thrice (S. Banach, Ueber
   /// homogene Polynome in (L2), Studia Math. 7, 1938). Lines of the chart are halved towards where they
-  /// change most: a jump shows at any distance from the samples.
+  /// change most: a jump that one of them crosses
+  /// shows at any distance from the samples.
   void jumps_of_curvature(const SolidSmoothness& s)
   {
-    constexpr int pieces = 48, halvings = 14;
+    if (!(s.reach > 0.0)) return;  // nothing says how sharply it bends the concave way
+    constexpr int pieces = 48, halvings = 30;
     constexpr double step = 2.0 * pi / pieces;
-    const double bend = std::max(s.convex, s.reach > 0.0 ? 1.0 / s.reach : s.convex);
+    const double bend = std::max(s.convex, 1.0 / s.reach);
     const double floor = coarse / solid_.thickness();
     const auto keep = [&](const Stretch& one) {
       require(
@@ -332,15 +335,15 @@ class SolidCheck {
         for (int i = 0; i < pieces; ++i) {
           const Stretch one = stretch(u + i * du, v + i * dv, du, dv, bend);
           keep(one);
-          if (one.per_length() > worst.per_length()) worst = one;
+          if (one.steepness() > worst.steepness()) worst = one;
         }
-        for (int i = 0; i < halvings && worst.length > 0.0; ++i) {
+        for (int i = 0; i < halvings && worst.chord > 1e-7 * size_; ++i) {
           const double hu = 0.5 * worst.du, hv = 0.5 * worst.dv;
           const Stretch a = stretch(worst.u, worst.v, hu, hv, bend),
                         b = stretch(worst.u + hu, worst.v + hv, hu, hv, bend);
           keep(a);
           keep(b);
-          worst = a.per_length() > b.per_length() ? a : b;
+          worst = a.steepness() > b.steepness() ? a : b;
         }
       }
     }

@@ -212,6 +212,8 @@ class Mutant final : public Shape {
     torus.name = "torus";
     torus.kind = PrimitiveKind::solid;
     torus.solid = std::make_shared<const Torus>(defect_, p[0], p[1]);
+    if (defect_ == "jump_of_a_thin_strut_not_told")
+      torus.solid = std::make_shared<const SmoothStrut>(p[0], 1e-3 * p[1]);
     if (defect_ == "jump_of_curvature_not_told")
       torus.solid = std::make_shared<const SmoothStrut>(p[0], p[1]);
     out.push_back(torus);
@@ -220,6 +222,7 @@ class Mutant final : public Shape {
   {
     PrimitiveJacobian J(16, 0.0);
     J[12] = J[15] = 1.0;  // two sizes by two parameters
+    if (defect_ == "jump_of_a_thin_strut_not_told") J[15] = 1e-3;
     if (defect_ == "sizes_by_parameters") std::swap(J[12], J[13]);
     out.push_back(J);
   }

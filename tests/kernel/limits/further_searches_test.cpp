@@ -191,8 +191,6 @@ TEST(Refolding, IsPartOfALimit)
   }
 }
 
-/// Whoever wants to know whether a limit is further than something needs no search beyond the first that
-/// shows it; the first searches from rest are made in any case, so that this depends on nothing else.
 /// A stretch whose contacts bear so much between elements that are linked, and between others.
 LimitResult borne(const Model& m, double linked, double unlinked)
 {
@@ -267,6 +265,48 @@ TEST(TaskSearches, TellWhatGaveUpFurther)
   EXPECT_FALSE(searches.gave_up_further(0, found));
 }
 
+/// Dragonscale (share/weaves) of rings of 8 and 5.4 mm, wire of 0.9 mm: along its scales these clasp each
+/// other.
+SceneSpec clasping()
+{
+  constexpr double R = 4.45, small = 3.15, r = 0.45;
+  SceneSpec scene = chainmail(1, 1);
+  scene.elements.clear();
+  scene.lattice = {Vec3(0.8916130388 * R, 0.0, 0.0), Vec3(0.0, 2.298096566 * R, 0.0)};
+  for (const Vec3& at : {Vec3(0.0, 0.0, 0.0), Vec3(0.4458065194 * R, 1.149048283 * R, 0.0)}) {
+    scene.elements.push_back({0, {R, r, r}, {at, rotation_exp(Vec3(0.0, -50.39400203 * degree, 0.0))}});
+    scene.elements.push_back({0, {small, r, r}, {at, rotation_exp(Vec3(0.0, 41.96434558 * degree, 0.0))}});
+  }
+  return scene;
+}
+
+/// A stretch that is resumed from a result without forces, which files do not keep, is searched like one that
+/// was never stopped.
+TEST(FurtherSearches, OfClaspedStretchesAreMadeAlsoAfterAnInterrupt)
+{
+  const InPlanePeriodic load(StrainMeasure::tensor, {}, InPlanePeriodic::Hold{true, false});
+  const SceneSpec scene = clasping();
+  const Model m = make_model(scene, load, 0.0);
+  const std::vector<LimitTask> tasks{{Direction::at_degrees(0.0), Sense::positive}};
+  LimitSettings settings;
+  settings.neighbours = 20.0;
+  const std::vector<LimitResult> whole = compute_limits(m, scene, tasks, settings, 2);
+  EXPECT_NEAR(*whole[0].value, 0.68404935, 1e-7);
+  LimitsObserver enough;
+  enough.is_enough = [](const auto&) { return true; };
+  std::vector<LimitResult> first = compute_limits(m, scene, tasks, settings, 2, enough);
+  ASSERT_NEAR(*first[0].value, 0.66787200, 1e-7) << "its own searches clasp";
+  first[0].confidence.word = "alone";
+  first[0].resumed = true;
+  for (ContactForce& force : first[0].contacts) force.force = 0.0;
+  const std::vector<LimitResult> resumed = compute_limits(m, scene, tasks, settings, 2, {}, {first[0]});
+  EXPECT_EQ(resumed[0].value, whole[0].value);
+  EXPECT_EQ(resumed[0].confidence.searches, whole[0].confidence.searches);
+  EXPECT_EQ(resumed[0].confidence.confirmed_by, whole[0].confidence.confirmed_by);
+}
+
+/// Whoever wants to know whether a limit is further than something needs no search beyond the first that
+/// shows it; the first searches from rest are made in any case, so that this depends on nothing else.
 TEST(FurtherSearches, AreNotMadeWhereWhatWasFoundIsEnough)
 {
   const ThinSheet s;

@@ -162,6 +162,9 @@ TEST(Assembly, OutlineKeepsWhatIsWithinAndRefusesToLeaveNothing)
   const Assembly assembly = assemble(chain(), {5, 1, 1}, Outline{10.0, {}}, 0.1);
   EXPECT_EQ(assembly.copies.size(), 4U) << "at -9, -3, 3 and 9 about the middle";
   EXPECT_THROW(assemble(chain(), {2, 1, 1}, Outline{0.1, {}}, 0.1), InputError);
+  Fabric taut = chain();
+  taut.lattice[0] *= 1.4;
+  EXPECT_EQ(assemble(taut, {5, 1, 1}, Outline{10.0, {}}, 0.1).copies.size(), 4U) << "the same piece";
   Fabric patch = chain();
   patch.lattice.clear();
   EXPECT_THROW(assemble(patch, {2, 1, 1}, std::nullopt, 0.1), InputError);
@@ -172,6 +175,7 @@ TEST(Assembly, AnOutlineIsFilled)
 {
   for (const double skew : {0.0, 3.7, -40.0}) {
     Fabric sheet = chain();
+    if (skew > 0.0) sheet.elements[1].rest.position.x() += 60.0;  // the same fabric of other cells
     sheet.lattice = {Vec3(12.0, 0.0, 0.0), Vec3(skew, 7.0, 0.0)};
     sheet.rest_lattice = sheet.lattice;
     for (const Outline& outline : {Outline{31.0, {}}, Outline{0.0, {40.0, 12.5}}}) {

@@ -115,6 +115,9 @@ TEST_F(Answers, OfASheetTellWidthAndThickness)
 {
   const Sheet sheet = of("japanese_4in1", 8.0, 1.2, 0.0);
   EXPECT_NEAR(sheet.thickness, 10.4, 1e-9);
+  // Flat rings of one row are a pitch apart.
+  EXPECT_GT(sheet.rest_gap, 0.0);
+  EXPECT_LE(sheet.rest_gap, sheet.ways[0].pitch - 10.4 + 1e-9);
   const WayAnswer& rows = sheet.ways[0];
   ASSERT_TRUE(rows.stretch_thickness && rows.stretch_across && rows.compress_across);
   EXPECT_NEAR(*rows.stretch_thickness, 10.4, 1e-3) << "a small lean changes nothing at first order";

@@ -122,6 +122,11 @@ TEST(PolarScale, HasRoomForWhatMatters)
   EXPECT_EQ(scale_of({curve_of({0.1, 0.2}, false), curve_of({0.4, 0.1}, true)}), 0.4);
   EXPECT_EQ(scale_of({curve_of({0.1, 0.2}, false), curve_of({0.6, 0.1}, true)}), 0.2);
   EXPECT_EQ(scale_of({curve_of({0.6, 0.1}, true)}), 0.6) << "nothing else is there";
+  EXPECT_EQ(scale_of({curve_of({0.05, 0.05, 0.05}, false), curve_of({0.8, 0.8}, false)}), 0.8)
+      << "each curve by itself";
+  Curve marks = curve_of({2.0}, false);
+  marks.joined = false;
+  EXPECT_EQ(scale_of({curve_of({0.1, 0.1, 0.1}, false), marks}), 2.0);
   Curve bars = curve_of({0.1}, false);
   bars.bars = {{0.0, 0.1, 0.3}};
   EXPECT_EQ(scale_of({bars}), 0.3);

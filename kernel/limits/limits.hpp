@@ -80,6 +80,11 @@ State start_state(const Model& model, const LimitSettings& settings);
 /// loads (the dual of that of steps). Deterministic in `seed`.
 Vector tilted(const Model& model, const Vector& load, const LimitSettings& settings, std::uint64_t seed);
 
+/// Where the task's load, tilted by `settings.tilt`, leads from a small perturbation of the start.
+/// Deterministic in `seed`.
+Locked locked_under_tilted_load(const Model& model, const LimitTask& task, const LimitSettings& settings,
+                                std::uint64_t seed, const KeepGoing& keep_going = {});
+
 /// Locks a task from where the load that is tilted by `settings.tilt` locks; what that is where it does not.
 Locked limit_from_tilted_load(const Model& model, const LimitTask& task, const LimitSettings& settings,
                               std::uint64_t seed, const KeepGoing& keep_going = {});

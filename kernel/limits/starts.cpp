@@ -148,13 +148,19 @@ Locked limit_refolded(const Model& m, const LimitTask& task, const LimitSettings
   return with_cost_of(folded, lock_from(m, task, settings, folded.state, keep_going));
 }
 
-Locked limit_from_tilted_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
-                              std::uint64_t seed, const KeepGoing& keep_going)
+Locked locked_under_tilted_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                                std::uint64_t seed, const KeepGoing& keep_going)
 {
   const MacroLoad load = macro_load(m, task.direction, task.sense);
   const State from = perturbed(m, start_state(m, settings), settings.perturbation, seed, Copies::apart);
-  Locked elsewhere = hauberk::lock(m, from, tilted(m, load.pull, settings, seed), settings.contact,
-                                   settings.schedule, keep_going);
+  return hauberk::lock(m, from, tilted(m, load.pull, settings, seed), settings.contact, settings.schedule,
+                       keep_going);
+}
+
+Locked limit_from_tilted_load(const Model& m, const LimitTask& task, const LimitSettings& settings,
+                              std::uint64_t seed, const KeepGoing& keep_going)
+{
+  Locked elsewhere = locked_under_tilted_load(m, task, settings, seed, keep_going);
   if (elsewhere.status != LockStatus::locked) return elsewhere;
   return with_cost_of(elsewhere, limit_from_state(m, task, settings, elsewhere.state, keep_going));
 }

@@ -147,12 +147,9 @@ Attempt TaskSearches::attempt(std::size_t task, std::size_t start) const
 Locked TaskSearches::tilted_search(std::size_t task, int k, double& seconds) const
 {
   return searched(fmt::format("limit {} tilt {}", task, k), seconds, [&] {
-    const std::uint64_t seed = settings_.seed + static_cast<std::uint64_t>(k);
-    const State from =
-        perturbed(model_, start_state(model_, settings_), settings_.perturbation, seed, Copies::apart);
-    const MacroLoad load = macro_load(model_, tasks_[task].direction, tasks_[task].sense);
-    return lock(model_, from, tilted(model_, load.pull, settings_, seed), settings_.contact,
-                settings_.schedule, [this] { return going(); });
+    return locked_under_tilted_load(model_, tasks_[task], settings_,
+                                    settings_.seed + static_cast<std::uint64_t>(k),
+                                    [this] { return going(); });
   });
 }
 

@@ -71,20 +71,12 @@ std::vector<WayAnswer> answers(const Job& job, const Weave& weave, const std::ve
   const Prepared& prepared = *job.prepared;
   const std::vector<LimitTask> tasks = job.task->limit_tasks();
   std::vector<WayAnswer> out;
-  for (const Weave::Way& way : weave.ways)
-    out.push_back({way.name,
-                   way.degrees,
-                   pitch_along(prepared.scene.lattice, way.degrees),
-                   {},
-                   {},
-                   "",
-                   "",
-                   "",
-                   "",
-                   {},
-                   {},
-                   {},
-                   {}});
+  for (const Weave::Way& way : weave.ways) {
+    WayAnswer& answer = out.emplace_back();
+    answer.name = way.name;
+    answer.degrees = way.degrees;
+    answer.pitch = pitch_along(prepared.scene.lattice, way.degrees);
+  }
   for (std::size_t k = 0; k < limits.size(); ++k) {
     WayAnswer& way = out[k / 2];
     const bool stretches = tasks[k].sense == Sense::positive;
@@ -229,7 +221,7 @@ Sheet answer(const RingFit& fit, const Question& question, unsigned threads, Pro
   // Last, as it takes longest: what is known by then stays.
   if (question.roll && !sheet.chain)
     sheet.rolls = rolls(weave, question, scene.lattice, lookup, registry, threads, progress);
-  sheet.cut_short = interrupted();
+  sheet.cut_short = question.roll && !sheet.chain && interrupted();
   sheet.job = std::make_shared<const Job>(solved(std::move(job), std::move(limits)));
   return sheet;
 }

@@ -1,7 +1,4 @@
 #include "completion.hpp"
-#include <algorithm>
-#include <cctype>
-
 #include "commands.hpp"
 
 namespace hauberk::command {
@@ -24,22 +21,6 @@ std::vector<std::string> first_words(const Description& about)
   if (!about.arguments.empty()) words = about.arguments.front().choices;
   for (const std::string& word : words_below(about)) words.push_back(word);
   return words;
-}
-
-std::string shell_quoted(std::string_view text)
-{
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-std::string shell_word(std::string_view text)
-{
-  static constexpr std::string_view harmless = "_./=:+-@%,";
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || harmless.find(c) != std::string_view::npos;
-  });
-  return plain ? std::string(text) : shell_quoted(text);
 }
 
 std::string ids_filter() { return "sed -nE 's/^([a-z0-9_]+) +(shape|load case|optimizer) .*/\\1/p'"; }

@@ -22,11 +22,6 @@ std::vector<std::string> spellings(const Option& option);
 /// Words that may follow the name of a command: what its first argument may be, and the commands below it.
 std::vector<std::string> first_words(const Description& about);
 
-/// In single quotes, as all three shells read it.
-std::string shell_quoted(std::string_view text);
-/// A word as a shell reads it, in quotes only where it needs them.
-std::string shell_word(std::string_view text);
-
 /// The ids in what `hauberk plugins list` prints, as a filter; plugins that cannot be used are left out.
 std::string ids_filter();
 

@@ -1,10 +1,10 @@
-#include "completion.hpp"
 #include "dispatch.hpp"
 #include "page_files.hpp"
 #include "part_run.hpp"
 #include "run/interrupt.hpp"
 #include "run/weave_library.hpp"
 #include "say.hpp"
+#include "shell_words.hpp"
 
 #include <hauberk/error.hpp>
 

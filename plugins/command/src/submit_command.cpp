@@ -3,6 +3,7 @@
 #include "part_run.hpp"
 #include "run/folder_lock.hpp"
 #include "say.hpp"
+#include "shell_words.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -22,14 +23,6 @@ namespace fs = std::filesystem;
 constexpr const char *part_script = "part.sh", *array_script = "array.sh", *gather_script = "gather.sh",
                      *steps_script = "steps.sh";
 constexpr int default_resubmissions = 2;
-
-/// A word as a shell reads it.
-std::string quoted(const std::string& word)
-{
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 /// Slurm reads quotes, backslashes and % of a path in a job script in its own way.
 void refuse_for_slurm(const fs::path& path)
@@ -71,21 +64,22 @@ std::string Submission::head(const std::string& output) const
 
 std::string Submission::part() const
 {
-  std::string command = fmt::format("{} run {}", quoted(program), quoted(division.experiment));
-  for (const std::string& set : division.set) command += fmt::format(" --set {}", quoted(set));
+  std::string command = fmt::format("{} run {}", shell_quoted(program), shell_quoted(division.experiment));
+  for (const std::string& set : division.set) command += fmt::format(" --set {}", shell_quoted(set));
   for (const std::string& path : division.libraries)
-    command += fmt::format(" --plugin-path {}", quoted(path));
+    command += fmt::format(" --plugin-path {}", shell_quoted(path));
   return fmt::format(
       "#!/bin/sh\n"
       "# One part of {}: of an array its index, of a job's steps its rank.\n"
       "part=${{SLURM_ARRAY_TASK_ID:-$((SLURM_PROCID + 1))}}\n"
       "exec {} --part \"$part/{}\" -o {} --quiet\n",
-      division.count, command, division.count, quoted(folder.string()));
+      division.count, command, division.count, shell_quoted(folder.string()));
 }
 
 std::string Submission::array() const
 {
-  return head("array-%A_%a.out") + fmt::format("exec /bin/sh {}\n", quoted(script(part_script).string()));
+  return head("array-%A_%a.out") +
+         fmt::format("exec /bin/sh {}\n", shell_quoted(script(part_script).string()));
 }
 
 /// The command that gathers, in the variable `gather` of a script's positional parameters. A job that the
@@ -98,7 +92,7 @@ std::string Submission::set_gather() const
       "if [ \"${{SLURM_RESTART_COUNT:-0}}\" -gt 0 ] && [ -f \"$folder/{}\" ]; then\n"
       "  set -- \"$@\" --take-over \"$(cut -d' ' -f1,2 \"$folder/{}\" | tr ' ' ':')\"\n"
       "fi\n",
-      quoted(folder.string()), quoted(program), lock_file, lock_file);
+      shell_quoted(folder.string()), shell_quoted(program), lock_file, lock_file);
 }
 
 std::string Submission::gather() const
@@ -115,8 +109,8 @@ std::string Submission::gather() const
              "  exit\n"
              "fi\n"
              "exec \"$@\"\n",
-             resubmissions, set_gather(), quoted(script(array_script).string()),
-             quoted(script(gather_script).string()));
+             resubmissions, set_gather(), shell_quoted(script(array_script).string()),
+             shell_quoted(script(gather_script).string()));
 }
 
 std::string Submission::one_job() const
@@ -131,7 +125,7 @@ std::string Submission::one_job() const
              "  left=$((left - 1))\n"
              "done\n"
              "exec \"$@\"\n",
-             resubmissions, set_gather(), quoted(script(part_script).string()));
+             resubmissions, set_gather(), shell_quoted(script(part_script).string()));
 }
 
 /// What a command prints, up to its first line break. Throws ComputationError where it fails; what it says of
@@ -273,11 +267,11 @@ int submit_command(const std::vector<std::string>& words)
   write_files_atomically(scripts, files, {});
 
   const std::string array =
-      fmt::format("--array=1-{} {}", s.division.count, quoted(s.script(array_script).string()));
+      fmt::format("--array=1-{} {}", s.division.count, shell_quoted(s.script(array_script).string()));
   const auto gather = [&s](const std::string& after) {
-    return fmt::format("--dependency=afterany:{} {}", after, quoted(s.script(gather_script).string()));
+    return fmt::format("--dependency=afterany:{} {}", after, shell_quoted(s.script(gather_script).string()));
   };
-  const std::string steps = quoted(s.script(steps_script).string());
+  const std::string steps = shell_quoted(s.script(steps_script).string());
   if (options.has("dry-run")) {
     say("scripts in {}; submit them with\n", scripts.string());
     if (s.steps)

@@ -1,4 +1,3 @@
-#include "completion.hpp"
 #include "dispatch.hpp"
 #include "document/atomic_file.hpp"
 #include "document/json_text.hpp"
@@ -9,6 +8,7 @@
 #include "run/machine.hpp"
 #include "run/weave_library.hpp"
 #include "say.hpp"
+#include "shell_words.hpp"
 #include "weave_files.hpp"
 
 #include <hauberk/error.hpp>

@@ -1,6 +1,7 @@
 #include "weave_files.hpp"
 
 #include "document/json_text.hpp"
+#include "export/page.hpp"
 #include "export/picture.hpp"
 #include "maker/weave_page.hpp"
 #include "run/provenance.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace hauberk::command {
 namespace {

@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "completion.hpp"
+#include "shell_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

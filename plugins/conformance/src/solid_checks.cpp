@@ -311,8 +311,7 @@ class SolidCheck {
   /// the derivative of the second fundamental form is symmetric in all three of its arguments (Codazzi), so
   /// that no value of it on unit vectors is larger than the largest on one vector thrice (S. Banach, Ueber
   /// homogene Polynome in (L2), Studia Math. 7, 1938). Lines of the chart are halved towards where they
-  /// change most: a jump that one of them crosses
-  /// shows at any distance from the samples.
+  /// change most: a jump that one of them crosses shows at any distance from the samples.
   void jumps_of_curvature(const SolidSmoothness& s)
   {
     if (!(s.reach > 0.0)) return;  // nothing says how sharply it bends the concave way

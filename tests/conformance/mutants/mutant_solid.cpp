@@ -5,7 +5,7 @@
 /// torus of R and r + d, with the principal curvatures 1/(r + d) and cos v/(R + (r + d) cos v).
 
 #include "defect.hpp"
-#include "shapes/strut_frame/capsule.hpp"
+#include "delegating_strut.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -160,40 +160,15 @@ class Torus final : public Solid {
 };
 
 /// A straight strut whose curvature is said not to jump where its cylinder meets its caps.
-class SmoothStrut final : public Solid {
+class SmoothStrut final : public test::DelegatingStrut {
  public:
-  SmoothStrut(double h, double r) : strut_(h, r) {}
-
-  std::string kind() const override { return strut_.kind(); }
-  std::vector<std::string> size_names() const override { return strut_.size_names(); }
-  const std::vector<double>& sizes() const override { return strut_.sizes(); }
-  double radius() const override { return strut_.radius(); }
-  double thickness() const override { return strut_.thickness(); }
-  int probe_dimension() const override { return strut_.probe_dimension(); }
-  double offset() const override { return strut_.offset(); }
-  Fold fold() const override { return strut_.fold(); }
-  ProbeDerivatives probe(const ProbeAngles& at) const override { return strut_.probe(at); }
-  ProbeBounds probe_bounds(double u, double v, double half_u, double half_v) const override
-  {
-    return strut_.probe_bounds(u, v, half_u, half_v);
-  }
-  Vec3 surface_point(const ProbeAngles& at) const override { return strut_.surface_point(at); }
-  SolidDistance distance(const Vec3& x) const override { return strut_.distance(x); }
+  using DelegatingStrut::DelegatingStrut;
   SolidSmoothness smoothness() const override
   {
-    SolidSmoothness s = strut_.smoothness();
+    SolidSmoothness s = DelegatingStrut::smoothness();
     s.change = 1e-11;
     return s;
   }
-  void distance_sizes(const Vec3& x, std::span<double> out) const override { strut_.distance_sizes(x, out); }
-  void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override
-  {
-    strut_.probe_sizes(at, n, out);
-  }
-  std::vector<std::vector<Vec3>> cores() const override { return strut_.cores(); }
-
- private:
-  Capsule strut_;
 };
 
 /// One torus.

@@ -3,8 +3,8 @@
 
 #include "geometry/facets.hpp"
 
+#include "delegating_strut.hpp"
 #include "geometry/closed_curve.hpp"
-#include "shapes/strut_frame/capsule.hpp"
 #include "torus_solid.hpp"
 
 #include <hauberk/error.hpp>
@@ -249,33 +249,10 @@ TEST(SolidFacets, OfAChartWithPoles)
 }
 
 /// A solid that makes none of other sizes.
-class Single final : public Solid {
+class Single final : public DelegatingStrut {
  public:
+  Single() : DelegatingStrut(1.0, 0.2) {}
   std::string kind() const override { return "single"; }
-  std::vector<std::string> size_names() const override { return of_.size_names(); }
-  const std::vector<double>& sizes() const override { return of_.sizes(); }
-  double radius() const override { return of_.radius(); }
-  double thickness() const override { return of_.thickness(); }
-  int probe_dimension() const override { return 1; }
-  double offset() const override { return of_.offset(); }
-  Fold fold() const override { return of_.fold(); }
-  ProbeDerivatives probe(const ProbeAngles& at) const override { return of_.probe(at); }
-  ProbeBounds probe_bounds(double u, double v, double half_u, double half_v) const override
-  {
-    return of_.probe_bounds(u, v, half_u, half_v);
-  }
-  Vec3 surface_point(const ProbeAngles& at) const override { return of_.surface_point(at); }
-  SolidDistance distance(const Vec3& x) const override { return of_.distance(x); }
-  SolidSmoothness smoothness() const override { return of_.smoothness(); }
-  void distance_sizes(const Vec3& x, std::span<double> out) const override { of_.distance_sizes(x, out); }
-  void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override
-  {
-    of_.probe_sizes(at, n, out);
-  }
-  std::vector<std::vector<Vec3>> cores() const override { return {}; }
-
- private:
-  Capsule of_{1.0, 0.2};
 };
 
 TEST(SolidFacets, OfOneSizeAreRefusedByName)

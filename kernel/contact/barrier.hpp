@@ -17,6 +17,9 @@ struct BarrierValue {
 ///   dimension 1 (integral over a line): b = x^(-1/2) (1 - x)^3
 ///   dimension 2 (over a surface):       b = x^(-1)   (1 - x)^3
 ///
+/// Contact `nearest` and `mesh` take dimension 0, `arc` dimension 1 on circles, curves and ribbons, and
+/// dimension 2 on surfaces (formulation.hpp).
+///
 /// Near a regular contact the gap is g0 + s^2/(2 r), and each of the three, summed or integrated, grows like
 /// ln(1/g0) and pushes with a force proportional to 1/g0. So all three are barriers in energy, their gaps
 /// fall in proportion to the stiffness, and one stage schedule serves them all.

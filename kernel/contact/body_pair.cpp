@@ -97,9 +97,9 @@ std::span<const PairSide> pair_sides(const Body& A, const Body& B, const Contact
   static constexpr std::array one{PairSide{false, 1.0}}, other{PairSide{true, 1.0}};
   static constexpr std::array both{PairSide{false, 0.5}, PairSide{true, 0.5}};
   const int a = probe_rank(A), b = probe_rank(B);
-  const bool integrated = settings.formulation == Formulation::arc;
-  if (integrated && a == b && !A.curve && settings.sides == Sides::both) return both;
-  if (integrated || settings.formulation == Formulation::nearest) return second_probes(A, B) ? other : one;
+  const FormulationTraits contact = traits(settings.formulation);
+  if (contact.is_integral && a == b && !A.curve && settings.sides == Sides::both) return both;
+  if (contact.is_of_gaps) return second_probes(A, B) ? other : one;
   return a <= b ? one : other;
 }
 
@@ -107,7 +107,7 @@ SideTerms side_terms(const PairFrame& frame, const ContactSettings& settings, co
                      double share, const NearPanels& near)
 {
   SideTerms out;
-  if (settings.formulation != Formulation::mesh) refuse_surfaces(frame);
+  if (!traits(settings.formulation).is_of_meshes) refuse_surfaces(frame);
   if (probe_dimension(frame) == 1)
     add_terms<1>(frame, settings, request, share, near, out);
   else

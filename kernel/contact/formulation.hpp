@@ -9,23 +9,48 @@
 
 namespace hauberk {
 
-enum class Formulation { nearest, arc, published, mesh };
+enum class Formulation {
+  nearest,    ///< a barrier of every local minimum of the distance: add_nearest
+  arc,        ///< the barrier integrated over curves or surfaces: add_arc, add_ribbon
+  published,  ///< a barrier of squared gaps of local minima, faded where they merge: add_published
+  mesh        ///< a barrier of every pair of features of triangle meshes: add_mesh (mesh.hpp)
+};
+/// The last of them: no number above it is one.
+inline constexpr Formulation last_formulation = Formulation::mesh;
 
-/// Its name in experiment files and results.
-inline const char* name_of(Formulation f)
+/// What others than the formulation itself have to know of it.
+struct FormulationTraits {
+  const char* name;  ///< in experiment files and results
+  /// Over lines or surfaces: its energy has an error of quadrature, and listed forces are resultants.
+  bool is_integral;
+  /// A barrier of the gaps of exact surfaces and of nothing else: forces push along gaps, panels out of reach
+  /// are left out, and what is known of gaps serves the next step.
+  bool is_of_gaps;
+  bool fades;         ///< contacts near a merge push through their fade, too
+  bool is_of_meshes;  ///< of triangles that stand for surfaces
+};
+
+constexpr FormulationTraits traits(Formulation f)
 {
   switch (f) {
     case Formulation::nearest:
-      return "nearest";
+      return {
+          .name = "nearest", .is_integral = false, .is_of_gaps = true, .fades = false, .is_of_meshes = false};
     case Formulation::arc:
-      return "arc";
+      return {.name = "arc", .is_integral = true, .is_of_gaps = true, .fades = false, .is_of_meshes = false};
     case Formulation::published:
-      return "published";
+      return {.name = "published",
+              .is_integral = false,
+              .is_of_gaps = false,
+              .fades = true,
+              .is_of_meshes = false};
     case Formulation::mesh:
-      return "mesh";
+      break;
   }
-  return "";
+  return {.name = "mesh", .is_integral = false, .is_of_gaps = false, .fades = false, .is_of_meshes = true};
 }
+
+inline const char* name_of(Formulation f) { return traits(f).name; }
 
 /// How local minima of the distance are found: none missed, or from samples as published (`published` only).
 enum class MinimaSearch { certified, sampled };

@@ -21,8 +21,6 @@ constexpr double merge_width = 1e-4;  // radians
 /// Half-width from which a Newton iteration decides what a surface panel holds.
 constexpr double seed_width = 0.06;  // L
 
-constexpr double seed_fraction = 1.0;
-
 /// Evaluations that the minima of one pair are worth. Blades, with thousands of radii of curvature around
 /// them, or tubes that are thousands of times as tall as wide, would take hours; nothing wrong is said about
 /// them instead.
@@ -186,13 +184,13 @@ class StationarySearch {
     return P.solid && P.solid->fold() != Fold::none ? unfolded<dim>(P.solid->fold(), m) : m;
   }
 
-  /// Panels this small hold at most one basin, or one that starts from a neighbour: a fraction of the
-  /// smallest radius of curvature of either surface.
+  /// Panels this small hold at most one basin, or one that starts from a neighbour: the smallest radius of
+  /// curvature of either surface.
   double seed(const Local& l) const
   {
     const double of_field = probe_.f.difference != nullptr ? rf_ : rf_ + std::max(l.f.m.phi, 0.0);
     const double radius = std::min({rp_, of_field, l.f.rho});
-    return std::max(std::min(seed_width, seed_fraction * radius), 1e-3);
+    return std::max(std::min(seed_width, radius), 1e-3);
   }
 
   /// Dimension 1: the second derivative keeps its sign on the panel, so it holds a minimum exactly when

@@ -241,7 +241,7 @@ TargetSearch::Estimate TargetSearch::estimate(const DesignPoint& p, std::size_t 
                                               LockedTarget& target) const
 {
   const double sign = tasks_[task].sense == Sense::positive ? 1.0 : -1.0;
-  const double scale = sign * std::pow(p.model.length, scene_->load.value_length_power());
+  const double scale = sign * p.model.value_unit();
   const Value v = value_of(p.model, target.locked, load, scene_->design.value);
   target.evaluations += v.evaluations;
   const std::vector<DesignVariable>& variables = scene_->design.variables;

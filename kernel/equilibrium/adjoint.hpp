@@ -1,7 +1,7 @@
 #pragma once
 /// Gradients of quantities of an equilibrium with respect to element parameters.
 
-#include "equilibrium/newton.hpp"
+#include "equilibrium/stage.hpp"
 
 #include <optional>
 

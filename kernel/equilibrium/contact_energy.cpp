@@ -318,8 +318,7 @@ ContactEnergy contact_energy(const Model& model, const State& state, const std::
                              const ContactSettings& settings, const Request& request, const GapBounds* bounds)
 {
   // The published energy and that of meshes are not those of the surfaces' gaps.
-  const bool surfaces =
-      settings.formulation == Formulation::nearest || settings.formulation == Formulation::arc;
+  const bool surfaces = traits(settings.formulation).is_of_gaps;
   Assembler a(model, state, settings, request, surfaces ? bounds : nullptr);
   // Threads evaluate, one adds, in the order of the pairs: the result is the same to the last bit.
   const bool together = settings.threads > 1 && pairs.size() >= worth_threads;

@@ -1,7 +1,7 @@
 #pragma once
 /// The Hessian of the energy as Newton's method uses it: dense for few unknowns, sparse for many.
 
-#include "equilibrium/newton.hpp"
+#include "equilibrium/stage.hpp"
 
 #include <memory>
 

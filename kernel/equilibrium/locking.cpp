@@ -133,14 +133,12 @@ Locked lock(const Model& model, const State& start, const MacroLoad& load, Conta
 
 ContactChoice contact_named(std::string_view name)
 {
-  if (name == "auto") return ContactChoice::automatic;
-  if (name == "nearest") return ContactChoice::nearest;
-  if (name == "arc") return ContactChoice::arc;
-  if (name == "published") return ContactChoice::published;
-  if (name == "mesh") return ContactChoice::mesh;
-  if (name == "constrained") return ContactChoice::constrained;
-  throw InputError(fmt::format(
-      "contact '{}' is unknown; there are auto, nearest, arc, published, mesh and constrained", name));
+  std::string known;
+  for (const auto& [text, choice] : contact_choices) {
+    if (name == text) return choice;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", text);
+  }
+  throw InputError(fmt::format("contact '{}' is unknown; there are {}", name, known));
 }
 
 std::vector<double> activation_distances(const Schedule& s)

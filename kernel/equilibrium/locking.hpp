@@ -4,8 +4,10 @@
 #include "equilibrium/newton.hpp"
 #include "model/held_model.hpp"
 
+#include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hauberk {
@@ -21,8 +23,17 @@ enum class ContactChoice {
                ///< margin
 };
 
-/// The choice of that name in experiments: auto, nearest, arc, published, mesh or constrained. Throws
-/// InputError for any other.
+/// All choices by their names in experiments.
+inline constexpr std::array<std::pair<const char*, ContactChoice>, 6> contact_choices{{
+    {"auto", ContactChoice::automatic},
+    {"nearest", ContactChoice::nearest},
+    {"arc", ContactChoice::arc},
+    {"published", ContactChoice::published},
+    {"mesh", ContactChoice::mesh},
+    {"constrained", ContactChoice::constrained},
+}};
+
+/// The choice of that name. Throws InputError for any other, with those that there are.
 ContactChoice contact_named(std::string_view name);
 
 /// Stages of activation distances from `first` to `last` (L), falling by equal factors that are not smaller

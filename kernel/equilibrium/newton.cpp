@@ -1,17 +1,12 @@
 #include "equilibrium/newton.hpp"
 
-#include "contact/published.hpp"
-#include "equilibrium/curvature.hpp"
-#include "model/near_pairs.hpp"
-
-#include <hauberk/error.hpp>
+#include "equilibrium/quadratic_model.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -44,30 +39,20 @@ constexpr double noticed_gain = 0.98;
 constexpr double widen = 30.0;
 constexpr int most_rescues = 20;
 
-/// Shift that null directions carry, relative to the largest scaled diagonal of the Hessian (rounding) and
-/// to the load (curvatures below it do not matter).
-constexpr double rounding_shift = 1e-14;
-constexpr double load_shift = 1e-7;
-
-/// Curvature below -this times the load counts as a saddle.
-constexpr double saddle_curvature = 1e-5;
-
-/// Step of the shifted Newton system.
-struct Step {
-  Vector dy;
-  double lambda = 0.0;
-  double predicted = 0.0;  ///< decrease of the unshifted quadratic model, >= 0
-  bool shifted = false;    ///< lambda had to exceed the floor
-};
-
 class Newton {
  public:
   Newton(const Model& m, State& state, const Vector& load, const Stage& stage, const KeepGoing& keep_going,
          GapBounds& bounds)
-      : m_(m), state_(state), load_(load), stage_(stage), keep_going_(keep_going), bounds_(bounds)
+      : m_(m),
+        state_(state),
+        load_(load),
+        stage_(stage),
+        keep_going_(keep_going),
+        bounds_(bounds),
+        load_norm_(load_size(m, load)),
+        most_radius_(largest_radius * std::sqrt(std::max(1.0, m.element_count() / few_elements))),
+        model_(m, load_norm_)
   {
-    most_radius_ = largest_radius * std::sqrt(std::max(1.0, m.element_count() / few_elements));
-    load_norm_ = load_size(m, load);
   }
 
   /// The end where contact was not evaluated to its end.
@@ -78,7 +63,7 @@ class Newton {
     if (!begin()) return finish({StageStatus::stalled, "the stage starts with a gap that is not positive"});
     for (;;) {
       if (const std::optional<End> end = give_up()) return finish(*end);
-      Step step = newton_step(now_, radius_);
+      Step step = model_.newton_step(now_, radius_);
       // Forces that miss the load by more than rounding does: other lengths of steps may balance them.
       const bool unbalanced = rescues_ < most_rescues && dual_norm(now_.gradient) > balanced * load_norm_;
       const bool rescue = unbalanced && stage_.balance;
@@ -132,7 +117,7 @@ class Newton {
     result_.evaluations += now_.contact.evaluations;
     noticed_ = now_.energy;
     if (!now_.admissible) return false;
-    curvature_ = curvature_of(m_, now_, order_);
+    model_.go_to(now_);
     return true;
   }
 
@@ -171,10 +156,9 @@ class Newton {
     }
     // Negative curvature that lowers the energy by nothing at any length was rounding.
     if (escaping_ && radius_ < smallest_escape) return Stationary::minimum;
-    if (!saddle_step(now_, radius_, step)) return Stationary::minimum;
+    if (!model_.saddle_step(now_, radius_, step)) return Stationary::minimum;
     const bool idle = result_.escapes - escapes_then_ >= most_idle_escapes;
-    return stage_.contact.formulation == Formulation::published && idle ? Stationary::minimum
-                                                                        : Stationary::saddle;
+    return traits(stage_.contact.formulation).fades && idle ? Stationary::minimum : Stationary::saddle;
   }
 
   /// Contacts that the model does not see, as they are out of reach, turn long steps back, and the radius
@@ -196,11 +180,10 @@ class Newton {
     Trial t;
     t.alpha = try_step(step.dy, t.state, t.energy);
     t.length = step_norm(m_, step.dy);
-    const double slope = now_.gradient.dot(step.dy);
     if (t.alpha > 0.0) {
-      t.predicted = -(t.alpha * slope + 0.5 * t.alpha * t.alpha * step.dy.dot(curvature_->times(step.dy)));
+      t.predicted = -model_.change(now_, step.dy, t.alpha);
+      t.actual = now_.energy - t.energy.energy;
     }
-    if (t.alpha > 0.0) t.actual = now_.energy - t.energy.energy;
     t.tiny = std::abs(t.predicted) < 50.0 * energy_rounding();
     return t;
   }
@@ -208,7 +191,7 @@ class Newton {
   double energy_rounding() const
   {
     const double rounding = noise * (std::abs(now_.energy) + 1.0);
-    if (stage_.contact.formulation != Formulation::arc) return rounding;
+    if (!traits(stage_.contact.formulation).is_integral) return rounding;
     const bool rough = stage_.contact.quadrature == Quadrature::rough;
     return rounding + (rough ? rough_quadrature_noise : quadrature_noise) * stage_.mu * now_.contact.energy;
   }
@@ -236,7 +219,8 @@ class Newton {
     const bool is_whole = !step.shifted || step_norm(m_, step.dy) < 0.5 * radius_;  // no radius shortened it
     const bool noisy =
         is_whole && t.alpha > 0.0 && step.predicted < noise_of_stage && std::abs(t.actual) < noise_of_stage;
-    if ((t.tiny || noisy) && t.energy.admissible && (!step.shifted || !saddle_step(now_, radius_, step)))
+    if ((t.tiny || noisy) && t.energy.admissible &&
+        (!step.shifted || !model_.saddle_step(now_, radius_, step)))
       return End{StageStatus::minimum, ""};
     ++rejected_;
     radius_ = 0.25 * std::min(radius_, std::max(t.alpha, 1e-3) * t.length);
@@ -268,7 +252,7 @@ class Newton {
     state_ = std::move(t.state);
     now_ = std::move(t.energy);
     if (stage_.keep_path) result_.path.push_back(state_);
-    curvature_ = curvature_of(m_, now_, order_);
+    model_.go_to(now_);
   }
 
   /// Why no path leads on from the state.
@@ -292,82 +276,6 @@ class Newton {
   double dual_norm(const Vector& g) const
   {
     return std::sqrt((g.cwiseAbs2().array() / m_.metric.array()).sum());
-  }
-
-  Step newton_step(const TotalEnergy& e, double radius)
-  {
-    Step s;
-    const double scale = curvature_->scale();
-    const double floor = std::max(load_shift * load_norm_, rounding_shift * scale);
-    double lambda = floor, too_low = 0.0;
-    const auto raise = [&] {
-      too_low = lambda;
-      lambda = std::max(8.0 * lambda, 1e-4 * load_norm_);
-      s.shifted = true;
-    };
-    // Shifts that a known direction of negative curvature rules out are not tried.
-    if (soft_.size() > 0) {
-      const double needed = -soft_.dot(curvature_->times(soft_));
-      while (lambda <= needed) raise();
-    }
-    bool softened = false;
-    for (int it = 0; it < 60; ++it) {
-      if (!curvature_->factor(lambda)) {
-        raise();
-        continue;
-      }
-      if (s.shifted && !softened) soften();
-      softened = true;
-      s.dy = -curvature_->solve(e.gradient);
-      s.lambda = lambda;
-      const double norm = step_norm(m_, s.dy);
-      if (norm <= 1.1 * radius) break;
-      // Newton on the secular equation 1/norm(lambda) = 1/radius.
-      const Vector w = m_.metric.cwiseProduct(s.dy);
-      const double q = w.dot(curvature_->solve(w));
-      double next = lambda + (norm * norm / q) * (norm - radius) / radius;
-      if (!(next > lambda)) next = 2.0 * lambda;
-      lambda = std::max(next, too_low * 1.5);
-      if (lambda > 2.0 * floor) s.shifted = true;
-    }
-    if (s.dy.size() == 0) {
-      throw ComputationError(fmt::format(
-          "the curvature of a state with a smallest gap of {:.1e} L cannot be factorised at any shift",
-          e.contact.min_gap));
-    }
-    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(curvature_->times(s.dy)));
-    if (s.predicted < 0.0) s.predicted = -0.5 * e.gradient.dot(s.dy);
-    return s;
-  }
-
-  /// Turns `soft_` towards the direction of least curvature, by inverse iteration with what was factored.
-  void soften()
-  {
-    int steps = 2;
-    if (soft_.size() == 0) {
-      steps = 5;
-      soft_ = unsymmetric(m_.dofs());
-    }
-    for (int k = 0; k < steps; ++k) {
-      soft_ = curvature_->solve(m_.metric.cwiseProduct(soft_));
-      soft_ /= step_norm(m_, soft_);
-    }
-  }
-
-  /// At a stationary point that may be a saddle: a step along the most negative curvature, or false.
-  bool saddle_step(const TotalEnergy& e, double radius, Step& s)
-  {
-    Vector d;
-    const double lowest = curvature_->lowest(s.lambda, d);
-    if (lowest > -std::max(saddle_curvature * load_norm_, 10.0 * rounding_shift * curvature_->scale()))
-      return false;
-    const double slope = e.gradient.dot(d);
-    if (slope > 0.0) d = -d;
-    const double length = std::min(radius, 0.05);
-    s.dy = length * d;
-    s.predicted = -(e.gradient.dot(s.dy) + 0.5 * s.dy.dot(curvature_->times(s.dy)));
-    s.shifted = true;
-    return true;
   }
 
   /// Shortens the step until it is certified and admissible, evaluates its end. Returns the fraction taken.
@@ -430,7 +338,8 @@ class Newton {
   const Stage& stage_;
   const KeepGoing& keep_going_;
   GapBounds& bounds_;
-  double load_norm_ = 1.0, most_radius_ = largest_radius;
+  const double load_norm_, most_radius_;
+  QuadraticModel model_;
   TotalEnergy now_;                        ///< at the state
   double radius_ = first_radius;           ///< of the trust region, L
   bool escaping_ = false;                  ///< the last step went along negative curvature
@@ -441,92 +350,10 @@ class Newton {
   /// Energy when the radius was widened last.
   double widened_at_ = std::numeric_limits<double>::infinity();
   std::vector<ElementPair> pairs_;
-  EliminationOrder order_;
-  std::unique_ptr<Curvature> curvature_;  ///< of the state's energy
-  Vector soft_;  ///< unit length in the step norm, of little curvature when last looked at; or empty
   StageResult result_;
 };
 
 }  // namespace
-
-SafeStep checked_step(const Model& m, const State& from, const Vector& dy, double keep, const Stage& stage,
-                      GapBounds* bounds)
-{
-  if (stage.ccd == CollisionCheck::certified || stage.contact.formulation == Formulation::mesh)
-    return largest_safe_step(m, from, dy, keep, stage.contact.threads, bounds, stage.contact.keep_going);
-  return sampled_safe_step(m, from, dy, std::sqrt(published::d_th) * stage.contact.g_hat);
-}
-
-std::vector<ElementPair> stage_pairs(const Model& m, const State& s, const Stage& stage)
-{
-  return near_pairs(m, s, stage.contact.g_hat + stage.contact.clearance);
-}
-
-namespace {
-
-/// K of what the objective adds to -load . macro, 1/2 macro . K macro; empty: nothing.
-Matrix macro_stiffness(const Model& m, const Stage& stage)
-{
-  const bool finite = std::isfinite(stage.target);
-  if (!finite && stage.tether.cols() == 0) return {};
-  Matrix K = Matrix::Zero(m.macro_count, m.macro_count);
-  if (finite && m.macro_square.size() > 0)
-    K = m.macro_square / stage.target;
-  else if (finite)
-    K.diagonal().setConstant(1.0 / stage.target);
-  if (stage.tether.cols() > 0) K += stage.tether_stiffness * stage.tether * stage.tether.transpose();
-  return K;
-}
-
-/// With that K.
-Vector driving_load(const Matrix& K, const State& s, const Vector& load)
-{
-  return K.size() > 0 ? Vector(load - K * s.macro) : load;
-}
-
-}  // namespace
-
-double load_size(const Model& m, const Vector& load)
-{
-  return std::sqrt((load.cwiseAbs2().array() / m.metric.head(m.macro_count).array()).sum());
-}
-
-Vector driving_load(const Model& m, const State& s, const Vector& load, const Stage& stage)
-{
-  return driving_load(macro_stiffness(m, stage), s, load);
-}
-
-TotalEnergy total_energy(const Model& m, const State& s, const Vector& load, const Stage& stage,
-                         const std::vector<ElementPair>& pairs, int order, const GapBounds* bounds)
-{
-  TotalEnergy t;
-  Request request;
-  request.order = order;
-  t.contact = contact_energy(m, s, pairs, stage.contact, request, bounds);
-  t.admissible = t.contact.min_gap > 0.0;
-  t.energy = stage.mu * t.contact.energy - load.dot(s.macro);
-  const Matrix K = macro_stiffness(m, stage);
-  if (order >= 1) {
-    t.gradient = stage.mu * t.contact.gradient;
-    t.gradient.head(m.macro_count) -= driving_load(K, s, load);
-  }
-  if (order >= 2) {
-    t.hessian = stage.mu * t.contact.hessian;
-    t.sparse_hessian = stage.mu * t.contact.sparse_hessian;
-  }
-  if (K.size() > 0) {
-    t.energy += 0.5 * s.macro.dot(K * s.macro);
-    for (int k = 0; order >= 2 && k < m.macro_count; ++k) {
-      for (int l = 0; l < (m.sparse() ? k + 1 : m.macro_count); ++l)
-        (m.sparse() ? t.sparse_hessian.coeffRef(k, l) : t.hessian(k, l)) += K(k, l);
-    }
-  }
-  if (m.held.cols() > 0) {
-    if (order >= 1) t.gradient = free_part(m, t.gradient);
-    if (order >= 2 && !m.sparse()) hold(m, t.hessian);
-  }
-  return t;
-}
 
 StageResult solve_stage(const Model& model, State& state, const Vector& load, const Stage& stage,
                         const KeepGoing& keep_going, GapBounds* bounds)

@@ -49,6 +49,11 @@ class Facets {
   };
   const std::vector<Vec3>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  std::array<Vec3, 3> corners(const Triangle& triangle) const
+  {
+    const auto& [a, b, c] = triangle.points;
+    return {points_[a], points_[b], points_[c]};
+  }
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
   /// d point / d (R, r0, r1), columns, at fixed chart coordinates; of a surface (point/R, 0, 0), of a tube
   /// around a curve (0, d point/dr, 0), of a solid 0.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace hauberk {
 namespace {
@@ -39,9 +40,7 @@ double LoadCase::do_value(double theta, std::span<const double> macro) const
 {
   std::array<double, max_macro> t{};
   do_load(theta, {t.data(), macro.size()});
-  double sum = 0.0;
-  for (std::size_t k = 0; k < macro.size(); ++k) sum += t[k] * macro[k];
-  return sum;
+  return std::inner_product(macro.begin(), macro.end(), t.begin(), 0.0);
 }
 
 int LoadCase::do_value_length_power() const
@@ -138,9 +137,7 @@ double LoadCase::value(const Direction& direction, std::span<const double> macro
   if (direction.is_angle()) return do_value(direction.theta(), macro);
   std::array<double, max_macro> t{};
   load(direction, {t.data(), macro.size()});
-  double sum = 0.0;
-  for (std::size_t k = 0; k < macro.size(); ++k) sum += t[k] * macro[k];
-  return sum;
+  return std::inner_product(macro.begin(), macro.end(), t.begin(), 0.0);
 }
 
 bool LoadCase::transform(const Mat3& O, std::span<const double> macro, std::span<double> out) const

@@ -27,12 +27,10 @@ std::string name_of(LockStatus status)
   return "failed";
 }
 
-double scale_of(const Model& m) { return std::pow(m.length, m.load->value_length_power()); }
-
 /// What a reported value may be off by, scaled.
 double uncertainty(const Model& m, const LimitSettings& settings, const LimitResult& r)
 {
-  return r.error_estimate ? *r.error_estimate / scale_of(m) : settings.schedule.last;
+  return r.error_estimate ? *r.error_estimate / m.value_unit() : settings.schedule.last;
 }
 
 /// Seed of the start, one of the limit's own from rest, that found its state; null: no start did.
@@ -95,7 +93,7 @@ void enter_searches(Confidence& out, const Model& m, const LimitTask& task, cons
     }
     FailedSearch failed{found[k].origin, found[k].seed, name_of(l.status), std::nullopt};
     if (!l.stages.empty()) {
-      failed.reached = m.load->value(task.direction, l.state.macro_values()) * scale_of(m);
+      failed.reached = m.load->value(task.direction, l.state.macro_values()) * m.value_unit();
       if (there > furthest + same)
         out.contradicted_by.push_back(fmt::format("a search that failed came to {:.9g}", *failed.reached));
     }
@@ -128,10 +126,7 @@ void enter_relations(std::vector<LimitResult>& results, const Model& m, const Li
         there = reached(m, tasks[d], other);
       } else {
         Vector macro(m.macro_count);
-        for (int i = 0; i < m.macro_count; ++i) {
-          const auto& info = m.load->macros()[i];
-          macro[i] = other.macro[i].second / std::pow(m.length, info.length_power);
-        }
+        for (int i = 0; i < m.macro_count; ++i) macro[i] = other.macro[i].second / m.macro_unit(i);
         there = donors.reached(donor, macro, tasks[k]);
       }
       if (!there) continue;

@@ -116,7 +116,7 @@ bool change_forces(ContactEnergy& contacts, const Model& m, const State& s, Form
 {
   ContactEnergy changed = contacts;
   std::vector<Gap> gaps;
-  const bool single = formulation == Formulation::nearest;
+  const bool single = !traits(formulation).is_integral;
   if (single) {
     double range = 0.0;
     for (const ContactEnergy::Point& p : contacts.points) range = std::max(range, 2.0 * p.contact.gap);

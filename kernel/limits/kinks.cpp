@@ -145,8 +145,7 @@ std::optional<OneSidedSensitivities> sides_at(const Model& m, const State& state
 std::optional<OneSidedSensitivities> one_sided_sensitivities(const Model& m, const LimitTask& task,
                                                              const Locked& l)
 {
-  const Formulation f = l.stage.contact.formulation;
-  if (m.sparse() || std::isfinite(l.stage.target) || f == Formulation::mesh || f == Formulation::published)
+  if (m.sparse() || std::isfinite(l.stage.target) || !traits(l.stage.contact.formulation).is_of_gaps)
     return std::nullopt;
   const double within_gap = active * l.stage.contact.g_hat;
   const bool falls = task.sense == Sense::negative;

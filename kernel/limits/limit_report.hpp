@@ -1,4 +1,6 @@
 #pragma once
+/// What is reported of one search.
+
 #include "limits/limits.hpp"
 
 namespace hauberk {
@@ -23,13 +25,5 @@ LimitResult fill_limit(const Model& model, const SceneSpec& spec, const LimitTas
 /// What is reported of a path past the bound of strains: unbounded where links do not stop the load, not
 /// attained where they let only another strain grow; failed where they say that it cannot be.
 void add_witness(LimitResult& result, const Model& model, const LimitTask& task, const Locked& locked);
-
-/// Adds a search's state to the list of distinct locked states; mirror images count once, and the furthest of
-/// equals stands for all.
-void add_start(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
-               const FoundState& found);
-/// Lets the state that is reported stand for those that are one with it.
-void stand_for_equals(std::vector<LockedState>& list, const Model& model, const LimitTask& task,
-                      const FoundState& reported);
 
 }  // namespace hauberk

@@ -121,7 +121,7 @@ struct LimitResult {
   std::vector<std::string> hold;  ///< what the limit holds
   /// d value / d(held component) of the conditions among them, in their order.
   std::vector<std::pair<std::string, double>> reactions;
-  std::string contact;                     ///< formulation that finished: "nearest", "arc" or "published"
+  std::string contact;                     ///< what finished: name_of(Formulation), or "constrained"
   std::optional<double> quadrature_error;  ///< of arc: part of the load by which finer panels change forces
   std::optional<double> finite_target;     ///< of the published objective; none: a constant load
   std::string certificate;                 ///< what is certified, for people

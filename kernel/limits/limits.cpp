@@ -3,6 +3,7 @@
 #include "equilibrium/gaps.hpp"
 #include "limits/confidence.hpp"
 #include "limits/limit_report.hpp"
+#include "limits/locked_states.hpp"
 #include "model/links.hpp"
 
 #include <algorithm>
@@ -53,6 +54,16 @@ std::optional<std::size_t> furthest(const Model& m, const LimitTask& task, const
   return best;
 }
 
+bool on_one_line(double degrees, double other)
+{
+  return std::abs(std::remainder(degrees - other, 180.0)) < 1e-9;
+}
+
+bool on_one_line(const Direction& a, const Direction& b)
+{
+  return a.is_angle() && b.is_angle() && on_one_line(a.degrees(), b.degrees());
+}
+
 double reached(const Model& m, const LimitTask& task, const State& state)
 {
   const double v = m.load->value(task.direction, state.macro_values());
@@ -61,7 +72,7 @@ double reached(const Model& m, const LimitTask& task, const State& state)
 
 double reached(const Model& m, const LimitTask& task, const LimitResult& result)
 {
-  const double v = *result.value / std::pow(m.length, m.load->value_length_power());
+  const double v = *result.value / m.value_unit();
   return task.sense == Sense::positive ? v : -v;
 }
 

@@ -113,16 +113,6 @@ void add(std::vector<RestSearches>& searches, const Model& model, const RestSear
 
 }  // namespace
 
-bool on_one_line(double degrees, double other)
-{
-  return std::abs(std::remainder(degrees - other, 180.0)) < 1e-9;
-}
-
-bool on_one_line(const Direction& a, const Direction& b)
-{
-  return a.is_angle() && b.is_angle() && on_one_line(a.degrees(), b.degrees());
-}
-
 long allowance(long evaluations) { return std::max(always_allowed, allowed * evaluations); }
 
 std::vector<RestSearches> rest_searches(const Model& model, const std::vector<LimitTask>& tasks,

@@ -1,3 +1,6 @@
+/// States that searches begin from: rest, perturbed, under random or tilted loads. How many there are is
+/// decided in rest_searches.cpp.
+
 #include "limits/limits.hpp"
 #include "motion/advancement.hpp"
 

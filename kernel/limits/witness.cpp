@@ -35,8 +35,7 @@ WitnessState reported(const Model& m, const State& s)
 {
   WitnessState out;
   for (int k = 0; k < m.macro_count; ++k) {
-    const MacroInfo& info = m.load->macros()[k];
-    out.macro.emplace_back(info.name, s.macro[k] * std::pow(m.length, info.length_power));
+    out.macro.emplace_back(m.load->macros()[k].name, s.macro[k] * m.macro_unit(k));
   }
   out.poses = poses(m, s);
   for (Pose& p : out.poses) p.position *= m.length;

@@ -1,4 +1,6 @@
 #pragma once
+/// Whether convex hulls of elements lie apart, so that nothing can hold them together.
+
 #include "model/model.hpp"
 
 namespace hauberk {

@@ -301,6 +301,10 @@ Model make_model(const SceneSpec& spec, const LoadCase& load, double clearance)
 /// Where both cost about the same: share/doc/speed.md.
 constexpr int most_dense = 250;
 
+double Model::value_unit() const { return std::pow(length, load->value_length_power()); }
+
+double Model::macro_unit(int k) const { return std::pow(length, load->macros()[k].length_power); }
+
 bool Model::sparse() const { return dofs() > most_dense; }
 
 std::vector<int> shown(const Image& image)

@@ -66,6 +66,9 @@ struct Model {
     const bool turn = entry + rotation_dofs * n >= J.size();  // an angle, which no length scales
     return turn ? J[entry] : J[entry] / length;
   }
+  /// What 1 of the scaled value, of a scaled macroscopic unknown, is in file units: L to their length powers.
+  double value_unit() const;
+  double macro_unit(int k) const;
   int element_count() const { return static_cast<int>(rest.size()); }
   int element_dofs() const { return coordinate_count + 3; }
   int dofs() const { return macro_count + element_count() * element_dofs(); }

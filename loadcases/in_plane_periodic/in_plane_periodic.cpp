@@ -100,29 +100,29 @@ void InPlanePeriodic::do_load(double theta, std::span<double> t) const
 {
   const double c = std::cos(theta);
   const double s = std::sin(theta);
-  if (measure_ == StrainMeasure::tensor) {
-    t[exx] = c * c;
-    t[eyy] = s * s;
-    t[exy] = 2.0 * c * s;
-    return;
+  switch (measure_) {
+    case StrainMeasure::tensor:
+      t[exx] = c * c;
+      t[eyy] = s * s;
+      t[exy] = 2.0 * c * s;
+      return;
+    case StrainMeasure::equation_12:
+      const double dd = c * c * c * c + s * s * s * s + c * c * s * s;
+      t[exx] = c * c / dd;
+      t[eyy] = s * s / dd;
+      t[exy] = c * s / dd;
+      return;
   }
-  const double dd = c * c * c * c + s * s * s * s + c * c * s * s;
-  t[exx] = c * c / dd;
-  t[eyy] = s * s / dd;
-  t[exy] = c * s / dd;
 }
 
 double InPlanePeriodic::do_value(double theta, std::span<const double> macro) const
 {
-  double t[3];
+  double t[3]{};
   do_load(theta, t);
   return t[exx] * macro[exx] + t[eyy] * macro[eyy] + t[exy] * macro[exy];
 }
 
-std::string InPlanePeriodic::do_measure() const
-{
-  return measure_ == StrainMeasure::tensor ? "tensor" : "equation_12";
-}
+std::string InPlanePeriodic::do_measure() const { return name_of(measure_); }
 
 std::vector<std::pair<std::string, double>> InPlanePeriodic::do_companions(
     double theta, std::span<const double> macro) const

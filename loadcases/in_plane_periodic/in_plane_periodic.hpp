@@ -4,6 +4,7 @@
 #include <hauberk/load_case.hpp>
 #include <hauberk/section.hpp>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,19 @@ enum class StrainMeasure {
   /// literally, a target that only the strain along d counts for
   equation_12,
 };
+inline constexpr std::array strain_measures{StrainMeasure::tensor, StrainMeasure::equation_12};
+
+/// Its name in experiment files and results.
+inline const char* name_of(StrainMeasure measure)
+{
+  switch (measure) {
+    case StrainMeasure::tensor:
+      return "tensor";
+    case StrainMeasure::equation_12:
+      return "equation_12";
+  }
+  return "";
+}
 
 /// Elements at x = F (X + T) + u with F = I + [[exx, exy], [exy, eyy]] in the plane (z untouched).
 ///

@@ -2,6 +2,7 @@
 
 #include "common/fields.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace hauberk {
@@ -15,7 +16,7 @@ void in_plane_periodic_fields(std::vector<Field>& out)
       "Reported value: tensor is n^T eps n; equation_12 is (d . eps)/(d . d) with d = (c^2, s^2, c s), "
       "equation (12) of the paper read literally, which goes with hold [].";
   measure.default_json = "\"tensor\"";
-  measure.choices = {"tensor", "equation_12"};
+  for (const StrainMeasure m : strain_measures) measure.choices.emplace_back(name_of(m));
   out.push_back(std::move(measure));
 
   out.push_back(hold_field(
@@ -35,8 +36,7 @@ void in_plane_periodic_fields(std::vector<Field>& out)
 
 std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double length, Problems& /*problems*/)
 {
-  const StrainMeasure measure =
-      section.at("measure").string == "equation_12" ? StrainMeasure::equation_12 : StrainMeasure::tensor;
+  const auto named = std::ranges::find(strain_measures, section.at("measure").string, name_of);
   const Node& height = section.at("out_of_plane");
   InPlanePeriodic::OutOfPlane out_of_plane;
   out_of_plane.free = height.is(Node::Type::string);
@@ -44,7 +44,7 @@ std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double len
   InPlanePeriodic::Hold hold{false, false};
   for (const Node& name : section.at("hold").items)
     (name.string == "shear" ? hold.shear : hold.lateral) = true;
-  return std::make_unique<InPlanePeriodic>(measure, out_of_plane, hold);
+  return std::make_unique<InPlanePeriodic>(*named, out_of_plane, hold);
 }
 
 }  // namespace hauberk

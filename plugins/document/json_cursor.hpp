@@ -1,4 +1,6 @@
 #pragma once
+/// Where a reader of JSON is in its text, and what it takes next.
+
 #include <string>
 #include <string_view>
 

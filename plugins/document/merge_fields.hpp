@@ -1,5 +1,5 @@
 #pragma once
-#include "document/merge_fields.hpp"
+/// Fields that one declaration takes over from another.
 
 #include <hauberk/section.hpp>
 

@@ -1,4 +1,6 @@
 #pragma once
+/// Where a number of a JSON text ends.
+
 #include <cstddef>
 #include <string_view>
 

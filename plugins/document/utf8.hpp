@@ -1,4 +1,6 @@
 #pragma once
+/// Places in text of bytes, and whether these are UTF-8.
+
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #include "export/mesh.hpp"
 
-#include "export/fields.hpp"
+#include "export/distance_field.hpp"
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/joined.hpp"

@@ -98,6 +98,7 @@ std::vector<State> read_states(RecordReader& in)
   return states;
 }
 
+/// What a stage's end is read for; how far it might have gone is not.
 void write(const Stage& s, RecordWriter& out)
 {
   write_word(s.contact.formulation, out);
@@ -122,7 +123,7 @@ void write(const Stage& s, RecordWriter& out)
 Stage read_stage(RecordReader& in)
 {
   Stage s;
-  s.contact.formulation = read_word(in, Formulation::mesh);
+  s.contact.formulation = read_word(in, last_formulation);
   s.contact.g_hat = in.number<double>();
   s.contact.clearance = in.number<double>();
   s.contact.search = read_word(in, MinimaSearch::sampled);
@@ -157,7 +158,7 @@ StageRecord read_stage_record(RecordReader& in)
   StageRecord s;
   s.g_hat = in.number<double>();
   s.value = in.number<double>();
-  s.formulation = read_word(in, Formulation::mesh);
+  s.formulation = read_word(in, last_formulation);
   s.iterations = in.number<int>();
   s.residual = in.number<double>();
   s.escapes = in.number<int>();

@@ -189,7 +189,23 @@ std::optional<KnownSearch> SearchLogs::recall(const std::string& name)
     }
     if (withheld_.contains(name)) return std::nullopt;
   }
-  return read_entry(known->second.front());
+  std::optional<KnownSearch> out = read_entry(known->second.front());
+  const std::lock_guard lock(mutex_);
+  File& file = files_[known->second.front().file];
+  if (out) {
+    ++recalled_;
+  } else if (!file.unreadable) {
+    file.unreadable = true;
+    warn_(fmt::format("{}: the search '{}' is there and cannot be read; it and the like are done again",
+                      file.path.string(), name));
+  }
+  return out;
+}
+
+std::size_t SearchLogs::recalled() const
+{
+  const std::lock_guard lock(mutex_);
+  return recalled_;
 }
 
 std::optional<KnownSearch> SearchLogs::read_entry(const Entry& entry) const

@@ -1,4 +1,6 @@
 #pragma once
+/// Files of the system that are a line.
+
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -3,6 +3,7 @@
 #include "run/first_line.hpp"
 
 #include <sched.h>
+#include <unistd.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,6 +16,8 @@
 
 namespace hauberk {
 namespace {
+
+const std::filesystem::path groups = "/sys/fs/cgroup";
 
 /// The first entry "model name : ..."; some processors have none.
 std::string processor_name()
@@ -38,21 +41,29 @@ std::string own_group()
   return "/";
 }
 
-std::optional<unsigned> least(std::optional<unsigned> a, std::optional<unsigned> b)
+template <class T>
+std::optional<T> least(std::optional<T> a, std::optional<T> b)
 {
   return a && b ? std::min(a, b) : a ? a : b;
 }
 
+/// The least limit that a file of a group of version 2, or of any above it, says.
+template <class Limit>
+auto least_of_groups(const std::filesystem::path& root, std::filesystem::path group, const char* file,
+                     const Limit& limit) -> decltype(limit(std::string()))
+{
+  decltype(limit(std::string())) out;
+  for (;; group = group.parent_path()) {
+    out = least(out, limit(first_line(root / group.relative_path() / file)));
+    if (!group.has_relative_path()) return out;
+  }
+}
+
 std::optional<unsigned> quota_of_groups()
 {
-  const std::filesystem::path root = "/sys/fs/cgroup";
-  std::optional<unsigned> out;
-  for (std::filesystem::path group = own_group();; group = group.parent_path()) {
-    out = least(out, processors_of_quota(first_line(root / group.relative_path() / "cpu.max")));
-    if (!group.has_relative_path()) break;
-  }
-  const std::string period = first_line(root / "cpu/cpu.cfs_period_us");
-  return least(out, processors_of_quota(first_line(root / "cpu/cpu.cfs_quota_us") + " " + period));
+  const std::string period = first_line(groups / "cpu/cpu.cfs_period_us");
+  return least(least_of_groups(groups, own_group(), "cpu.max", processors_of_quota),
+               processors_of_quota(first_line(groups / "cpu/cpu.cfs_quota_us") + " " + period));
 }
 
 std::optional<unsigned> count_in(const char* text)
@@ -82,6 +93,29 @@ std::optional<unsigned> processors_of_quota(std::string_view cpu_max)
   if (!(in >> quota >> period) || !(quota > 0.0) || !(period > 0.0)) return std::nullopt;
   constexpr double most = 1e6;
   return static_cast<unsigned>(std::min(most, std::ceil(quota / period)));
+}
+
+std::optional<double> bytes_of_limit(std::string_view memory_max)
+{
+  double bytes = 0.0;
+  const char* end = memory_max.data() + memory_max.size();
+  const auto [at, error] = std::from_chars(memory_max.data(), end, bytes);
+  return error == std::errc() && at == end && bytes > 0.0 ? std::optional(bytes) : std::nullopt;
+}
+
+std::optional<double> memory_of_groups(const std::filesystem::path& root, const std::filesystem::path& group)
+{
+  return least_of_groups(root, group, "memory.max", bytes_of_limit);
+}
+
+double available_memory()
+{
+  const double machine =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const std::optional<double> allowed =
+      least(memory_of_groups(groups, own_group()),
+            bytes_of_limit(first_line(groups / "memory/memory.limit_in_bytes")));
+  return std::min(machine, allowed.value_or(machine));
 }
 
 unsigned available_processors()

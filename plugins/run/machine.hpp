@@ -3,6 +3,7 @@
 
 #include "results/document.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -20,5 +21,16 @@ unsigned available_processors();
 /// Whole processors that a quota amounts to, rounded up: `cpu_max` is the text of cpu.max, a quota and a
 /// period in microseconds. Null where there is no limit, or none that can be read.
 std::optional<unsigned> processors_of_quota(std::string_view cpu_max);
+
+/// Bytes of memory that this process may use: those of the machine, no more than its control groups allow
+/// (memory.max of version 2 of the group and all above it, memory.limit_in_bytes of version 1). Thread safe.
+double available_memory();
+
+/// The least of memory.max of a group of version 2 and all above it, of groups whose tree is at `root`; null:
+/// none of them limits it.
+std::optional<double> memory_of_groups(const std::filesystem::path& root, const std::filesystem::path& group);
+
+/// Bytes of the text of memory.max. Null where there is no limit, or none that can be read.
+std::optional<double> bytes_of_limit(std::string_view memory_max);
 
 }  // namespace hauberk

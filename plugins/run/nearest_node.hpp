@@ -1,4 +1,6 @@
 #pragma once
+/// Places of an experiment by JSON pointers.
+
 #include <hauberk/section.hpp>
 
 #include <string_view>

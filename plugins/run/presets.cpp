@@ -21,11 +21,18 @@ constexpr double largest_activation = 0.1;
 /// "A large unreachable value" is all that the paper says of its target strain.
 constexpr double paper_target = 10.0;
 
+ContactChoice contact_choice(const ExperimentSolver& solver)
+{
+  const ContactChoice named = contact_named(solver.contact);
+  const bool paper = named == ContactChoice::automatic && solver.preset == "paper";
+  return paper ? ContactChoice::published : named;
+}
+
 bool sampled_points(const ExperimentSolver& solver)
 {
   return solver.closest_points
              ? *solver.closest_points == "sampled"
-             : solver.preset == "paper" && solver.contact != "nearest" && solver.contact != "arc";
+             : contact_choice(solver) == ContactChoice::published && solver.preset == "paper";
 }
 
 double metres(const std::string& unit) { return unit == "m" ? 1.0 : unit == "mm" ? 1e-3 : 1e-6; }
@@ -48,13 +55,6 @@ Schedule preset_schedule(const ExperimentSolver& solver, const SceneSpec& scene,
   if (sampled_points(solver)) schedule.search = MinimaSearch::sampled;
   if (solver.finite_target) schedule.target = *solver.finite_target;
   return schedule;
-}
-
-ContactChoice contact_choice(const ExperimentSolver& solver)
-{
-  const ContactChoice named = contact_named(solver.contact);
-  const bool paper = named == ContactChoice::automatic && solver.preset == "paper";
-  return paper ? ContactChoice::published : named;
 }
 
 /// Why preset paper, whose lengths are absolute, makes no sense for a scene; else empty.

@@ -1,4 +1,6 @@
 #pragma once
+/// Tables for a terminal.
+
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -1,4 +1,6 @@
 #pragma once
+/// The weaves that an experiment may name.
+
 #include <hauberk/experiment/experiment.hpp>
 
 #include <filesystem>

@@ -1,21 +1,17 @@
 #include "run/work.hpp"
 
+#include "run/machine.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
 
-#include <unistd.h>
 #include <algorithm>
 
 namespace hauberk {
 namespace {
 
 constexpr double megabyte = 1e6, number_bytes = 8.0;
-
-double memory_of_machine()
-{
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
 
 }  // namespace
 
@@ -39,7 +35,7 @@ std::string text_of(const Work& work)
 
 void refuse_beyond(const Budget& budget, const Work& work)
 {
-  const double bytes = budget.bytes > 0.0 ? budget.bytes : memory_of_machine();
+  const double bytes = budget.bytes > 0.0 ? budget.bytes : available_memory();
   if (work.evaluations <= budget.evaluations && work.bytes <= bytes) return;
   throw InputError(fmt::format(
       "the run would take {}; the budget is {:.2g} evaluations and {:.3g} MB (--budget, --budget-bytes); ask for "

@@ -26,7 +26,7 @@ std::string text_of(const Work& work);
 /// What a run may take unless it is asked for more.
 struct Budget {
   double evaluations = 1e10;  ///< at 1e6 a second about three hours, of a lower bound
-  double bytes = 0.0;         ///< 0: the memory of the machine
+  double bytes = 0.0;         ///< 0: what this process may use
 };
 
 /// Throws InputError where the work is more than the budget, with both.

@@ -11,6 +11,7 @@ function(hauberk_add_test name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} hauberk::mechanics hauberk_warnings GTest::gtest_main)
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests/support")
   target_compile_options(${name} PRIVATE "${HAUBERK_TEST_OPTIONS}")
   target_compile_definitions(
     ${name} PRIVATE HAUBERK_BINARY_DIR="${PROJECT_BINARY_DIR}" HAUBERK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

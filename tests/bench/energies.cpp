@@ -1,5 +1,5 @@
 #include "benchmarks.hpp"
-#include "equilibrium/newton.hpp"
+#include "equilibrium/stage.hpp"
 #include "measure.hpp"
 #include "model/near_pairs.hpp"
 

@@ -1,6 +1,6 @@
 /// The parts of the kit: differences, the choice of checks.
 
-#include "differences.hpp"
+#include "deviations.hpp"
 
 #include <hauberk/conformance/check.hpp>
 #include <hauberk/conformance/known_problems.hpp>

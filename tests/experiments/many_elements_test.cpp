@@ -24,7 +24,7 @@ TEST(ManyElements, ChainOf64)
 }
 
 /// A bent patch, whose place is held by conditions that couple all rings: forces balance and conditions hold
-/// by the independent check, and the limit is that of the dense method, which the same rings had before.
+/// by the independent check, and the limit is that of the dense method.
 TEST(ManyElements, BentPatchOf54)
 {
   const TemporaryFolder folder;

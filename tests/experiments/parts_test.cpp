@@ -123,6 +123,7 @@ TEST_P(DividedRun, GatheredIsTheWholeRunByteForByte)
   const Outcome o = run_program({"gather", out});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_EQ(results_in(out), expected);
+  EXPECT_NE(o.out.find("3 parts, of whose "), std::string::npos) << o.out;
   EXPECT_EQ(run_program({"verify", out}).code, 0);
   // Nothing that a part had done was done again, but for the searches that are compared.
   for (const std::string& line : lines_of(fs::path(out) / "parts" / "gathered" / "searches-1.log"))

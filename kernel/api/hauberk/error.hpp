@@ -1,4 +1,6 @@
 #pragma once
+/// The errors that cross the boundary of plugins, one for each exit code.
+
 #include <stdexcept>
 #include <string>
 

@@ -142,7 +142,7 @@ class LoadCase {
   void load(const Direction& direction, std::span<double> t) const;
   /// The reported value at macro: for components t . macro.
   double value(const Direction& direction, std::span<const double> macro) const;
-  /// Name of the measure ("tensor", "paper", "normal_curvature"), reported with every value.
+  /// Name of the measure ("tensor", "normal_curvature"), reported with every value.
   std::string measure() const { return do_measure(); }
   /// The same for a direction: components have the measure "metric".
   std::string measure(const Direction& direction) const

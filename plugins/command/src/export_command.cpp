@@ -1,14 +1,9 @@
 #include "dispatch.hpp"
 #include "document/atomic_file.hpp"
-#include "document/json_place.hpp"
-#include "document/json_text.hpp"
-#include "document/read_file.hpp"
-#include "experiment_options.hpp"
-#include "export/formats.hpp"
-#include "export/picture.hpp"
+#include "export_formats.hpp"
 #include "geometry/joined.hpp"
-#include "page_files.hpp"
-#include "run/weave_library.hpp"
+#include "opened_fabric.hpp"
+#include "option_numbers.hpp"
 #include "say.hpp"
 
 #include <hauberk/error.hpp>
@@ -16,51 +11,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace hauberk::command {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace exporting;
-
-constexpr const char* formats = "stl, obj, 3mf, glb, vtu, html or png";
-
-/// Numbers between commas, all of the text.
-std::vector<double> numbers_in(const std::string& text)
-{
-  std::vector<double> out;
-  const char *at = text.data(), *end = at + text.size();
-  while (at != end) {
-    double x = 0.0;
-    const auto read = std::from_chars(at, end, x);
-    if (read.ec != std::errc{} || !std::isfinite(x)) return {};
-    out.push_back(x);
-    if (read.ptr == end) return out;
-    if (*read.ptr != ',') return {};
-    at = read.ptr + 1;
-  }
-  return {};
-}
-
-/// Whole numbers between commas, from 1 to `most`.
-std::vector<int> counts_of(const Options& options, const char* name, int most, const char* example)
-{
-  const auto& text = options.get<std::string>(name);
-  std::vector<int> out;
-  for (const double x : numbers_in(text)) {
-    if (x < 1.0 || x > most || x != std::floor(x)) break;
-    out.push_back(static_cast<int>(x));
-  }
-  if (out.size() != numbers_in(text).size() || out.empty())
-    throw UsageError(
-        fmt::format("--{} {}: expected whole numbers from 1 to {}, as {}", name, text, most, example),
-        options.usage());
-  return out;
-}
 
 std::array<int, 3> repeat_of(const Options& options)
 {
@@ -84,114 +42,6 @@ std::optional<Outline> outline_of(const Options& options)
   if (kind == "rectangle" && sizes.size() == 2 && sizes[0] > 0.0 && sizes[1] > 0.0)
     return Outline{0.0, {0.5 * sizes[0], 0.5 * sizes[1]}};
   throw UsageError(fmt::format("--outline {}: expected disk:RADIUS or rectangle:A,B", text), options.usage());
-}
-
-double positive(const Options& options, const char* name)
-{
-  if (!options.has(name)) return 0.0;
-  const double value = options.get<double>(name);
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw UsageError(fmt::format("--{} {:g}: expected a number above 0", name, value), options.usage());
-  return value;
-}
-
-/// A file, and the fabric that it speaks of.
-struct Opened {
-  std::string file;
-  boost::json::value results;  ///< null of an experiment
-  Job job;                     ///< of the experiment, also of that in results
-  Fabric fabric;
-};
-
-/// Results, of a sweep those of the row that is asked for.
-boost::json::value row_of(boost::json::value results, const Options& options, const std::string& file)
-{
-  const detail::JsonPlace document(results, file);
-  const auto sweep = document.find("sweep");
-  if (!options.has("row")) {
-    if (sweep && options.has("state") && options.get<std::string>("state") != "rest")
-      throw InputError(
-          fmt::format("--state {}: {} are results of a sweep, whose rows have limits; give --row K",
-                      options.get<std::string>("state"), file));
-    return results;
-  }
-  const int number = options.get<int>("row");
-  if (!sweep)
-    throw InputError(fmt::format("--row {}: {} are no results of a sweep; leave it out", number, file));
-  const std::vector<detail::JsonPlace> rows = sweep->at("rows").items();
-  if (number < 0 || static_cast<std::size_t>(number) >= rows.size())
-    throw InputError(fmt::format("--row {}: {} has {} rows, 0 to {}", number, file, rows.size(),
-                                 static_cast<int>(rows.size()) - 1));
-  const detail::JsonPlace row = rows[static_cast<std::size_t>(number)];
-  const auto result = row.find("result");
-  if (!result)
-    throw InputError(fmt::format("--row {}: it has no result: {}, {}", number, row.at("status").text(),
-                                 row.at("message").text()));
-  boost::json::value out = result->value();
-  // Rows are of the program that their sweep is of.
-  if (const auto provenance = document.find("provenance"))
-    out.as_object()["provenance"] = provenance->value();
-  return out;
-}
-
-/// Of an experiment, of results, or of a folder of results.
-Opened open_fabric(const Options& options)
-{
-  std::string file = options.positional();
-  std::error_code unknown;
-  if (fs::is_directory(file, unknown)) file = (fs::path(file) / results_file).string();
-  const std::string state = options.has("state") ? options.get<std::string>("state") : "rest";
-  const std::string text = read_whole_file(file, largest_results);
-  const bool is_results = text.find("\"hauberk-results/") != std::string::npos;
-  if (!is_results) {
-    if (options.has("row")) throw InputError("--row: an experiment has none; run it, and give its results");
-    if (state != "rest")
-      throw InputError(fmt::format("--state {}: an experiment has only its rest; run it, and give its {}",
-                                   state, results_file));
-    Job job = prepare_job(open_registry(options), {file, text, options.list("set"), weave_lookup(file)});
-    const Prepared& prepared = *job.prepared;
-    Fabric fabric = fabric_of(prepared.scene, prepared.experiment.name, prepared.experiment.length_unit);
-    return {file, nullptr, std::move(job), std::move(fabric)};
-  }
-  if (!options.list("set").empty()) throw InputError("--set: results are as they are; give an experiment");
-  boost::json::value results = row_of(parse_json(text, file), options, file);
-  Job job = job_of_results(open_registry(options), results, file);
-  Fabric fabric = fabric_in_results(results, file, job.prepared->scene, state);
-  return {file, std::move(results), std::move(job), std::move(fabric)};
-}
-
-/// The page of all states.
-std::string page_content(const Opened& opened, const PageView& view)
-{
-  const PageParts parts = installed_page_parts();
-  return page(
-      {opened.results.is_null() ? page_entry(opened.fabric, view)
-                                : page_entry(opened.results, opened.file, opened.job.prepared->scene, view)},
-      parts);
-}
-
-std::string content_of(const std::string& format, const Assembly& assembly, const Opened& opened,
-                       const Options& options)
-{
-  if (format == ".stl") return stl(assembly);
-  if (format == ".obj") return obj(assembly);
-  if (format == ".3mf") return three_mf(assembly, options.has("separate") ? Objects::separate : Objects::one);
-  if (format == ".glb") return glb(assembly);
-  if (format == ".vtu")
-    return vtu(assembly, options.has("forces") ? contacts_in_results(opened.results, opened.file,
-                                                                     options.get<std::string>("state"))
-                                               : std::vector<ShownContact>());
-  const View view = view_of(options.has("view") ? options.get<std::string>("view") : "iso");
-  std::vector<int> size{800, 600};
-  if (options.has("size")) size = counts_of(options, "size", 8000, "800,600");
-  if (size.size() != 2) throw UsageError("--size: expected width and height, as 800,600", options.usage());
-  constexpr double largest_scale = 1e6;
-  if (options.has("scale") && positive(options, "scale") > largest_scale)
-    throw UsageError(fmt::format("--scale: expected at most {:g} pixels per unit", largest_scale),
-                     options.usage());
-  const double scale =
-      options.has("scale") ? positive(options, "scale") : scale_that_fits(assembly, view, size[0], size[1]);
-  return png(render(assembly, view, size[0], size[1], scale));
 }
 
 /// Refuses copies that are nearer than asked for. What differs from that in digits that are not printed is as
@@ -263,7 +113,7 @@ Description export_description()
 {
   return {
       .name = "export",
-      .form = "FILE.json -o OUT.{stl,obj,3mf,glb,vtu,html,png} [--state S]",
+      .form = fmt::format("FILE.json -o OUT.{{{}}} [--state S]", export_endings_between_commas()),
       .line = "a fabric to print, to look at or to compute with",
       .synopsis = "export FILE.json -o OUT [options]",
       .summary =
@@ -334,44 +184,26 @@ int export_command(const std::vector<std::string>& words)
   Options options(export_description());
   options.parse(words);
   if (!options.has("output"))
-    throw UsageError(fmt::format("--output: expected a file that ends in {}", formats), options.usage());
-  const fs::path file = options.get<std::string>("output");
-  std::string format = file.extension().string();
-  std::transform(format.begin(), format.end(), format.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (format != ".stl" && format != ".obj" && format != ".3mf" && format != ".glb" && format != ".vtu" &&
-      format != ".html" && format != ".png")
-    throw UsageError(fmt::format("--output {}: expected an ending of {}", file.string(), formats),
+    throw UsageError(fmt::format("--output: expected a file that ends in {}", export_endings()),
                      options.usage());
+  const fs::path file = options.get<std::string>("output");
+  const ExportFormat& format = export_format_of(file.string(), options);
   const std::array<int, 3> repeat = repeat_of(options);
   const std::optional<Outline> outline = outline_of(options);
   const double chord = positive(options, "chord"), gap = positive(options, "require-gap");
   if (!options.has("force"))
     refuse_existing_file(file, "give another name with -o, or --force, which replaces it");
-  if (options.has("forces") && (format != ".vtu" || !options.has("state")))
-    throw UsageError(
-        "--forces: only of a limit (--state limit:K or SENSE:DEGREES), and only .vtu holds them; a page shows them anyway",
-        options.usage());
-  if (options.has("separate") && format != ".3mf")
-    throw UsageError("--separate: only .3mf has objects and items", options.usage());
-  if (format != ".png")
-    for (const char* name : {"view", "size", "scale"})
-      if (options.has(name))
-        throw UsageError(fmt::format("--{}: only of a picture (.png)", name), options.usage());
-  if (format == ".html" && options.has("state"))
-    throw UsageError("--state: a page has all states; leave it out", options.usage());
+  refuse_options_of_others(format, options);
   const Opened opened = open_fabric(options);
-  const bool is_page = format == ".html";
   auto cells = repeat;
   if (!options.has("repeat") && outline)
     cells = cells_that_fill(opened.fabric, *outline);
-  else if (!options.has("repeat") && is_page)
+  else if (!options.has("repeat") && format.shows_all_states)
     cells = shown_cells(opened.fabric);
   const Assembly assembly = assemble(opened.fabric, cells, outline, chord);
   const auto nearest = nearest_copies(assembly, std::numeric_limits<double>::infinity());
   require_gap(assembly, nearest, gap);
-  const std::string content = is_page ? page_content(opened, {cells, outline, chord, {}})
-                                      : content_of(format, assembly, opened, options);
+  const std::string content = format.content({opened, assembly, {cells, outline, chord, {}}, options});
   if (options.has("force"))
     write_files_atomically(file.has_parent_path() ? file.parent_path() : ".",
                            {{file.filename().string(), content}}, {});

@@ -178,8 +178,8 @@ int gather_command(const std::vector<std::string>& words)
   request.resume = !request.force;
   const int code = run_experiment(job, request);
   if (const auto [checked, all] = logs.checked(); checked > 0)
-    say("{} parts; a search of {} of {} logs was done once more and is the same\n", division.count, checked,
-        all);
+    say("{} parts, of whose {} searches {} were taken over; one of {} of {} logs was done once more and is the same\n",
+        division.count, logs.known(), logs.recalled(), checked, all);
   return code;
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+/// The manual page, made of the descriptions of all commands.
+
 #include <string>
 
 namespace hauberk::command {

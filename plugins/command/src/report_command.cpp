@@ -1,4 +1,5 @@
 #include "dispatch.hpp"
+#include "experiment_options.hpp"
 #include "options.hpp"
 #include "page_files.hpp"
 #include "report/report.hpp"

@@ -109,7 +109,7 @@ Description run_description()
            {.name = "budget-bytes",
             .takes = Takes::real,
             .value = "N",
-            .help = "the same of memory; default: what the machine has"},
+            .help = "the same of memory; default: what this process may use"},
            {.name = "yes", .help = "go on beyond the budget"},
            {.name = "html",
             .help = "leave also `report.html`, a page that shows the fabric and its limits, to turn by hand",

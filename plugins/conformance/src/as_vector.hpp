@@ -1,4 +1,6 @@
 #pragma once
+/// Spans of an optimizer as vectors.
+
 #include <Eigen/Core>
 
 #include <span>

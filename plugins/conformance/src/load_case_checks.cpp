@@ -1,7 +1,7 @@
 /// Checks of load cases: what they declare, how they move things.
 
 #include "checks.hpp"
-#include "differences.hpp"
+#include "deviations.hpp"
 #include "maximise.hpp"
 #include "trace.hpp"
 

@@ -1,7 +1,7 @@
 /// Checks of load cases: the load, the value, and which states are allowed.
 
 #include "checks.hpp"
-#include "differences.hpp"
+#include "deviations.hpp"
 #include "maximise.hpp"
 
 #include <fmt/ranges.h>

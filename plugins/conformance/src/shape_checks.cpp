@@ -1,7 +1,7 @@
 /// Checks of shapes.
 
 #include "checks.hpp"
-#include "differences.hpp"
+#include "deviations.hpp"
 #include "solid_checks.hpp"
 
 #include <hauberk/error.hpp>

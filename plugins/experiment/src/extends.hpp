@@ -1,4 +1,6 @@
 #pragma once
+/// Experiments that begin from another file.
+
 #include <hauberk/section.hpp>
 
 #include <string>

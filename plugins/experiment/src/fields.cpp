@@ -1,4 +1,5 @@
 #include "document/field_helpers.hpp"
+#include "equilibrium/locking.hpp"
 #include "rotation.hpp"
 #include "values.hpp"
 #include "weave.hpp"
@@ -14,6 +15,13 @@ namespace hauberk {
 using namespace fields;
 
 namespace {
+
+std::vector<std::string> contact_names()
+{
+  std::vector<std::string> out;
+  for (const auto& [name, choice] : contact_choices) out.emplace_back(name);
+  return out;
+}
 
 Field elements_field()
 {
@@ -151,7 +159,7 @@ Field solver_field()
                    "comparison, "
                    "mesh: of triangle meshes, what others compute, and constrained: gaps as constraints of "
                    "sequential quadratic programs, without energy or certificate.",
-                   {"auto", "nearest", "arc", "published", "mesh", "constrained"}),
+                   contact_names()),
                "\"auto\""),
            at_most(at_least(integer("facets",
                                     "Of contact mesh: every primitive is a mesh of facets x facets "

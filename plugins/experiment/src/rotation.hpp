@@ -1,4 +1,6 @@
 #pragma once
+/// Rotations as experiments give them.
+
 #include <hauberk/linalg.hpp>
 #include <hauberk/section.hpp>
 

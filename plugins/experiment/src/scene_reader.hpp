@@ -1,4 +1,6 @@
 #pragma once
+/// From the cell or the elements of an experiment to its scene.
+
 #include "model/scene.hpp"
 
 #include <hauberk/experiment/plugin_resolver.hpp>

@@ -1,4 +1,6 @@
 #pragma once
+/// Shapes whose parts are shapes.
+
 #include <hauberk/section.hpp>
 #include <hauberk/shape.hpp>
 

@@ -1,4 +1,6 @@
 #pragma once
+/// The scenes that a chart solves.
+
 #include "run/prepared.hpp"
 
 namespace hauberk {

@@ -1,4 +1,6 @@
 #pragma once
+/// A chart as lines for a terminal.
+
 #include "tasks/chart/chart_results.hpp"
 
 #include <string>

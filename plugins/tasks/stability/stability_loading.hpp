@@ -1,4 +1,6 @@
 #pragma once
+/// The scenes that a stability map solves.
+
 #include "run/prepared.hpp"
 #include "tasks/stability/stability_section.hpp"
 

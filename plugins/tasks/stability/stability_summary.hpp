@@ -1,4 +1,6 @@
 #pragma once
+/// A stability map as lines for a terminal.
+
 #include "tasks/stability/stability_results.hpp"
 
 #include <string>

@@ -1,4 +1,6 @@
 #pragma once
+/// Which minimum of one sample of a path is which of the next.
+
 #include "tasks/transition/transition_results.hpp"
 
 #include <vector>

@@ -68,8 +68,7 @@ Macros load(const Limit& limit)
   if (limit.load == Load::solid && measure == "tensor")
     return (Macros(6) << d.x(), d.y(), 0.0, 0.0, 0.0, 2.0 * d.z()).finished();
   if (limit.load == Load::strain && measure == "tensor") return Vec3(d.x(), d.y(), 2.0 * d.z());
-  if (limit.load == Load::strain && (measure == "equation_12" || measure == "paper"))
-    return Vec3(d / d.squaredNorm());
+  if (limit.load == Load::strain && measure == "equation_12") return Vec3(d / d.squaredNorm());
   if (limit.load == Load::paraboloid && measure == "normal_curvature") return Vec3(2.0 * d);
   if (limit.load == Load::strip && measure == "roll_curvature") return Eigen::Vector2d(0.0, d.y());
   if (limit.load == Load::roll && measure == "roll_curvature") return Vec3(d.x(), d.y(), 2.0 * d.z());

@@ -1,4 +1,6 @@
 #pragma once
+/// The load of a limit, and whether listed forces balance it.
+
 #include "kinematics.hpp"
 #include "model.hpp"
 

@@ -20,7 +20,7 @@ Slack slack(const Scene& scene, const Limit& limit, const Contact& contact,
             const VerifyTolerances& tolerances)
 {
   Slack out{tolerances.gap * scene.length, tolerances.normal};
-  if (limit.contact == "arc") {
+  if (limit.is_of_resultants()) {
     const double gap = std::max(contact.gap, 0.0);
     out.length += tolerances.arc_gaps * gap;
     out.angle += tolerances.arc_gaps * std::sqrt(gap / scene.length);

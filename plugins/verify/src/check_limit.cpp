@@ -75,7 +75,7 @@ double check_balance(const Scene& scene, const Setting& setting, const Limit& li
   double least = std::numeric_limits<double>::infinity();
   for (const Contact& contact : limit.contacts) least = std::min(least, contact.gap / scene.length);
   double allowed = tolerances.balance + std::min(tolerances.most_rounding, tolerances.rounding / least);
-  if (limit.contact == "arc") {
+  if (limit.is_of_resultants()) {
     double gap = 0.0;
     for (const Contact& contact : limit.contacts) gap = std::max(gap, contact.gap);
     allowed += tolerances.arc_balance * gap / scene.length;
@@ -267,7 +267,7 @@ VerifyLine check_limit(const Scene& scene, const Setting& of_all, const Limit& l
     check.part(VerifyPart::balance, [&] {
       imbalance = check_balance(scene, setting, limit, tolerances, problems);
       found.push_back(fmt::format("imbalance {:.3g}", imbalance));
-      if (limit.contact == "arc" && imbalance > tolerances.balance) {
+      if (limit.is_of_resultants() && imbalance > tolerances.balance) {
         for (std::size_t k = 0; k < limit.contacts.size(); ++k)
           record.skip(fmt::format("{}/contacts/{}/force", limit.where, k),
                       "forces that stand for stretches of tube, which balance nothing exactly");

@@ -1,4 +1,6 @@
 #pragma once
+/// Linking numbers by crossings of polygons.
+
 #include "model.hpp"
 
 #include <string>

@@ -166,6 +166,8 @@ struct Limit {
   std::optional<Macros> direction;
   Load load = Load::strain;
   std::string sense, measure, status, contact;
+  /// Whether listed forces stand for stretches of tube, so that they balance nothing exactly.
+  bool is_of_resultants() const { return contact == "arc"; }
   std::optional<double> value, line_stretch, min_gap, force_balance, infimum, z_range;
   std::vector<std::string> hold;  ///< what is held, as the experiment names it
   std::vector<Reaction> reactions;

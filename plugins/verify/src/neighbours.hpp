@@ -1,4 +1,6 @@
 #pragma once
+/// Which elements can meet.
+
 #include "model.hpp"
 
 #include <optional>

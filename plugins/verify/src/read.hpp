@@ -1,4 +1,6 @@
 #pragma once
+/// From results to the scenes and limits that are checked.
+
 #include "model.hpp"
 
 #include <hauberk/verify/verify.hpp>

@@ -4,7 +4,6 @@
 #include <boost/json/object.hpp>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string_view>
 
@@ -12,13 +11,6 @@ namespace hauberk::verification {
 namespace {
 
 namespace json = boost::json;
-
-constexpr std::array all_parts{VerifyPart::format,   VerifyPart::scene,       VerifyPart::asked,
-                               VerifyPart::values,   VerifyPart::gap,         VerifyPart::links,
-                               VerifyPart::contacts, VerifyPart::balance,     VerifyPart::held,
-                               VerifyPart::witness,  VerifyPart::sensitivity, VerifyPart::profiles,
-                               VerifyPart::boundary, VerifyPart::design,      VerifyPart::sweep,
-                               VerifyPart::chart,    VerifyPart::stability};
 
 /// The entry of the nearest place at or above `pointer`; none.
 template <class Find>
@@ -67,8 +59,7 @@ VerifyField Record::outcome(const std::string& pointer) const
   if (rule->parts.empty()) return {pointer, VerifyOutcome::not_checked, std::string(rule->how)};
   if (const auto why = nearest(pointer, in(skipped_))) return {pointer, VerifyOutcome::not_checked, *why};
   bool passed = false;
-  for (const VerifyPart part : all_parts) {
-    if (!rule->parts.contains(part)) continue;
+  for (const VerifyPart part : rule->parts.list()) {
     const auto found =
         nearest(pointer, [&](const std::string& at) { return in(done_)(std::pair(part, at)); });
     if (found && !*found) return {pointer, VerifyOutcome::failed, {}};

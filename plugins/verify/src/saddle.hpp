@@ -1,4 +1,6 @@
 #pragma once
+/// Whether a limit is a maximum near its state.
+
 #include "model.hpp"
 
 #include <optional>
@@ -21,11 +23,10 @@ struct Further {
 ///    arms at closest points found again at every difference), reduced to that null space, and its largest
 ///    eigenvalues decide.
 /// 2. A positive one is no proof: forces may be one choice of many, a gap with little force may be in the
-/// way, two
-///    closest points may merge. So the state is moved along the eigenvector, brought back to gaps >= 0 and on
-///    along the load by projections onto the linearised gaps (all of them, found anew), and measured: only a
-///    state without intersection, whose value is further than the limit's by more than closing its gaps could
-///    gain (sum f g to first order; twice that is allowed for), is an answer.
+///    way, two closest points may merge. So the state is moved along the eigenvector, brought back to gaps >=
+///    0 and on along the load by projections onto the linearised gaps (all of them, found anew), and
+///    measured: only a state without intersection, whose value is further than the limit's by more than
+///    closing its gaps could gain (sum f g to first order; twice that is allowed for), is an answer.
 ///
 /// So what is found is certain, but not everything is found: with loose gaps (solver.tolerance 1e-3) weak
 /// instabilities stay below the threshold.

@@ -1,4 +1,6 @@
 #pragma once
+/// How far two surfaces are apart, by exhaustive search.
+
 #include "enclosure.hpp"
 
 namespace hauberk::verification {

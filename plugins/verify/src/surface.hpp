@@ -1,4 +1,6 @@
 #pragma once
+/// The surfaces of primitives, evaluated by themselves.
+
 #include "model.hpp"
 
 namespace hauberk::verification {

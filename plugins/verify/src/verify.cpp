@@ -8,7 +8,11 @@
 #include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <string_view>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -324,6 +328,51 @@ void check_designed(const json::value& results, const Work& work)
   work.lines.push_back(scene_and_asked(first, initial_limits, work));
 }
 
+void check_sweep_results(const json::value& results, const Work& work)
+{
+  const json::value& sweep = member(results, "sweep", "");
+  VerifyLine line = check_sweep_table(member(results, "experiment", ""), sweep);
+  work.record.done(VerifyPart::sweep, "/sweep", line.ok);
+  work.record.done(VerifyPart::sweep, "/experiment/sweep", line.ok);
+  work.lines.push_back(std::move(line));
+  check_sweep(sweep, work);
+}
+
+void check_chart_results(const json::value& results, const Work& work)
+{
+  check_chart(member(results, "experiment", ""), member(results, "chart", ""), work.lines, work.record);
+}
+
+void check_stability_results(const json::value& results, const Work& work)
+{
+  check_stability(member(results, "experiment", ""), member(results, "stability", ""), work.lines,
+                  work.record);
+}
+
+void check_design_results(const json::value& results, const Work& work)
+{
+  if (member(results, "design", "").is_null()) throw Malformed("/design: null, a design expected");
+  unless_unknown("", work, [&] { check_designed(results, work); });
+}
+
+void check_limits_results(const json::value& results, const Work& work)
+{
+  if (!member(results, "design", "").is_null())
+    throw Malformed("/experiment/task: design expected, as there is one");
+  unless_unknown("", work, [&] { check_scene_and_limits(results, "", work); });
+}
+
+/// How the results of each task are checked.
+using TaskCheck = void (*)(const json::value& results, const Work& work);
+constexpr std::array<std::pair<std::string_view, TaskCheck>, 6> task_checks{{
+    {"limits", check_limits_results},
+    {"transition", check_limits_results},
+    {"design", check_design_results},
+    {"sweep", check_sweep_results},
+    {"chart", check_chart_results},
+    {"stability", check_stability_results},
+}};
+
 void check_document(const json::value& results, const Work& work)
 {
   if (!results.is_object() || !results.as_object().contains("format"))
@@ -334,27 +383,10 @@ void check_document(const json::value& results, const Work& work)
   const json::value& experiment = member(results, "experiment", "");
   const json::value* given = experiment.is_object() ? experiment.as_object().if_contains("task") : nullptr;
   const std::string task = given != nullptr ? text(*given, "/experiment/task") : "limits";
-  const json::value* design = results.as_object().if_contains("design");
-  if (task == "sweep") {
-    const json::value& sweep = member(results, "sweep", "");
-    VerifyLine line = check_sweep_table(experiment, sweep);
-    work.record.done(VerifyPart::sweep, "/sweep", line.ok);
-    work.record.done(VerifyPart::sweep, "/experiment/sweep", line.ok);
-    work.lines.push_back(std::move(line));
-    check_sweep(sweep, work);
-  } else if (task == "chart") {
-    check_chart(experiment, member(results, "chart", ""), work.lines, work.record);
-  } else if (task == "stability") {
-    check_stability(experiment, member(results, "stability", ""), work.lines, work.record);
-  } else if (design != nullptr && !design->is_null()) {
-    if (task != "design") throw Malformed("/experiment/task: design expected, as there is one");
-    unless_unknown("", work, [&] { check_designed(results, work); });
-  } else {
-    if (task != "limits" && task != "transition")
-      throw Malformed("/experiment/task: limits or transition expected, as nothing else is here");
-    member(results, "design", "");
-    unless_unknown("", work, [&] { check_scene_and_limits(results, "", work); });
-  }
+  const auto known = std::ranges::find(task_checks, task, &std::pair<std::string_view, TaskCheck>::first);
+  if (known == task_checks.end())
+    throw Malformed(fmt::format("/experiment/task: '{}' is no task that this check knows", task));
+  known->second(results, work);
   work.record.done(VerifyPart::format, "/experiment/task", true);
 }
 

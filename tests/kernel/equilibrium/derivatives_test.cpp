@@ -4,7 +4,7 @@
 #include "contact/barrier.hpp"
 #include "contact/body_pair.hpp"
 #include "differences.hpp"
-#include "equilibrium/newton.hpp"
+#include "equilibrium/stage.hpp"
 #include "model/near_pairs.hpp"
 #include "scenes.hpp"
 

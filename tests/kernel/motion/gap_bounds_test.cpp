@@ -4,7 +4,7 @@
 
 #include "equilibrium/gaps.hpp"
 #include "equilibrium/locking.hpp"
-#include "equilibrium/newton.hpp"
+#include "equilibrium/stage.hpp"
 #include "geometry/panel_field.hpp"
 #include "known_gaps.hpp"
 #include "model/near_pairs.hpp"

@@ -1,4 +1,5 @@
 #include "document/atomic_file.hpp"
+#include "temporary_folder.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -14,6 +15,7 @@ namespace hauberk {
 namespace {
 
 namespace fs = std::filesystem;
+using test::TemporaryFolder;
 
 std::string content(const fs::path& path)
 {
@@ -34,18 +36,12 @@ constexpr std::array names{"results.json", "limits.csv"};
 
 class AtomicFile : public ::testing::Test {
  protected:
-  void SetUp() override
-  {
-    char name[] = "/tmp/hauberk-test-XXXXXX";
-    ASSERT_NE(::mkdtemp(name), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   std::size_t entries() const
   {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 /// Lets files grow to `bytes` only: beyond, writing fails as on a full disk.

@@ -1,4 +1,5 @@
 #include "document/read_file.hpp"
+#include "temporary_folder.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -13,16 +14,10 @@ namespace hauberk {
 namespace {
 
 namespace fs = std::filesystem;
+using test::TemporaryFolder;
 
 class ReadWholeFile : public ::testing::Test {
  protected:
-  void SetUp() override
-  {
-    folder_ = fs::temp_directory_path() / ("read_file_test." + std::to_string(getpid()));
-    fs::create_directory(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string path(const char* name) const { return (folder_ / name).string(); }
   /// What is said of a file that is refused; empty where it is read.
   static std::string refusal(const std::string& file, std::size_t megabytes = 1)
@@ -35,7 +30,8 @@ class ReadWholeFile : public ::testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(ReadWholeFile, GivesEveryByteUpToTheLimit)

@@ -1,8 +1,9 @@
 #pragma once
+#include "temporary_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <typeinfo>
 
@@ -29,39 +30,5 @@ std::string message_of(F&& f)
   ADD_FAILURE() << "threw nothing";
   return {};
 }
-
-/// A fresh folder, removed at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-  {
-    std::string name = (fs::canonical(fs::temp_directory_path()) / "hauberk-XXXXXX").native();
-    if (!mkdtemp(name.data())) throw std::runtime_error("mkdtemp failed");
-    path_ = name;
-  }
-  ~TemporaryFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  fs::path folder(const std::string& name) const
-  {
-    fs::create_directories(path_ / name);
-    return path_ / name;
-  }
-  fs::path file(const std::string& name, const std::string& content) const
-  {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
 
 }  // namespace hauberk::test

@@ -1,6 +1,7 @@
 /// The folder of a divided run.
 
 #include "parts/part_folder.hpp"
+#include "temporary_folder.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -17,16 +18,10 @@ namespace fs = std::filesystem;
 
 class PartFolder : public ::testing::Test {
  protected:
-  void SetUp() override
-  {
-    std::string name = (fs::temp_directory_path() / "parts_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    fs::create_directory(folder_ / parts_folder);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { fs::create_directory(folder_ / parts_folder); }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST(Share, TextAndItems)

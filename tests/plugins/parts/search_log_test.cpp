@@ -2,6 +2,7 @@
 
 #include "parts/search_log.hpp"
 #include "parts/locked_record.hpp"
+#include "temporary_folder.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -34,14 +35,6 @@ std::string read(const fs::path& file)
 
 class SearchLog : public ::testing::Test {
  protected:
-  void SetUp() override
-  {
-    std::string name = (fs::temp_directory_path() / "logs_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   SearchLogs logs(const std::string& identity = "that")
   {
     return {identity, [this](const std::string& warning) { warnings_ += warning + "\n"; }};
@@ -58,7 +51,8 @@ class SearchLog : public ::testing::Test {
     return folder_ / ("searches-" + std::to_string(++written_) + ".log");
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   std::string warnings_;
   int written_ = 0;
 };
@@ -80,6 +74,22 @@ TEST_F(SearchLog, RecallsWhatWasRecorded)
   EXPECT_TRUE(std::signbit(in.recall("s1")->locked.state.macro[0]));
   EXPECT_FALSE(in.recall("s2"));
   EXPECT_EQ(warnings_, "");
+}
+
+TEST_F(SearchLog, TellsOnceThatSearchesCannotBeRead)
+{
+  const fs::path file = written({0.25, 0.5});
+  SearchLogs in = logs();
+  ASSERT_TRUE(in.read(file));
+  EXPECT_TRUE(in.recall("s0"));
+  EXPECT_EQ(in.recalled(), 1U);
+  const std::string blanks(fs::file_size(file), ' ');
+  std::ofstream(file, std::ios::binary) << blanks;
+  EXPECT_FALSE(in.recall("s1"));
+  EXPECT_FALSE(in.recall("s0"));
+  EXPECT_EQ(in.recalled(), 1U);
+  EXPECT_EQ(warnings_, file.string() +
+                           ": the search 's1' is there and cannot be read; it and the like are done again\n");
 }
 
 TEST_F(SearchLog, TwoRunsNeverShareAFile)

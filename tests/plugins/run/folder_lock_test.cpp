@@ -1,6 +1,7 @@
 /// Who may write into an output folder.
 
 #include "run/folder_lock.hpp"
+#include "temporary_folder.hpp"
 
 #include <hauberk/error.hpp>
 
@@ -23,9 +24,6 @@ namespace fs = std::filesystem;
 
 class FolderLocks : public testing::Test {
  protected:
-  FolderLocks() { fs::create_directories(folder_); }
-  ~FolderLocks() override { fs::remove_all(folder_); }
-
   std::string text() const
   {
     std::ifstream in(folder_ / lock_file);
@@ -58,7 +56,8 @@ class FolderLocks : public testing::Test {
     return words();
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("hauberk_lock_{}", ::getpid());
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(FolderLocks, AreHeldByOneRunAndGivenBack)

@@ -1,11 +1,14 @@
-/// How many processors a run takes that is not told.
+/// How many processors a run takes that is not told, and the memory that it may use.
 
 #include "run/machine.hpp"
+#include "temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sched.h>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 namespace hauberk::test {
@@ -44,6 +47,27 @@ TEST(Processors, AreNoMoreThanTheSchedulerSays)
     EXPECT_EQ(available_processors(), all) << no_limit;
   }
   ::unsetenv("SLURM_CPUS_PER_TASK");
+}
+
+TEST(Memory, OfAGroupIsTheLeastOfAllAboveIt)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path root = folder.path();
+  std::filesystem::create_directories(root / "job/step/task");
+  const auto limit = [&](const char* group, const char* text) {
+    std::ofstream(root / group / "memory.max") << text << '\n';
+  };
+  EXPECT_FALSE(memory_of_groups(root, "/job/step/task"));
+  limit("job/step/task", "max");
+  EXPECT_FALSE(memory_of_groups(root, "/job/step/task"));
+  limit("job", "2000000000");
+  EXPECT_EQ(memory_of_groups(root, "/job/step/task"), 2e9);
+  limit("job/step", "1073741824");
+  EXPECT_EQ(memory_of_groups(root, "/job/step/task"), 1073741824.0);
+  EXPECT_EQ(memory_of_groups(root, "/job"), 2e9);
+  limit("job/step/task", "0x10");
+  EXPECT_EQ(memory_of_groups(root, "/job/step/task"), 1073741824.0);
+  EXPECT_GT(available_memory(), 0.0);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ TEST(TrueChain, PassesForAllRadiiGapsAndClearances)
        {Chain{}, Chain{.gap = 0.0}, Chain{.gap = 1e-4}, Chain{.gap = 1e-11, .clearance = 0.1},
         Chain{.R_a = 5.0, .r_a = 0.7, .R_b = 4.0, .r_b = 0.5}, Chain{.axial = 0.4}, Chain{.axial = 0.9},
         Chain{.turned_deg = 30.0}, Chain{.turned_deg = 107.0}, Chain{.axial = 0.4, .turned_deg = 45.0},
-        Chain{.turned_deg = 90.0, .measure = "paper"}}) {
+        Chain{.turned_deg = 90.0, .measure = "equation_12"}}) {
     const VerifyReport report = verify(chain_document(chain));
     EXPECT_TRUE(report.ok) << report.text();
     ASSERT_EQ(report.lines.size(), 3u) << "limit, profiles, scene";

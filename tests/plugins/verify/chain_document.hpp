@@ -18,7 +18,8 @@ struct Chain {
   double gap = 1e-11;
   double clearance = 0.0;
   double turned_deg = 0.0;  ///< scene and load together
-  /// The load of "paper" is that of a chain along an axis only; in between it asks for other shear forces.
+  /// The load of "equation_12" is that of a chain along an axis only; in between it asks for other shear
+  /// forces.
   std::string measure = "tensor";
 };
 

@@ -129,7 +129,8 @@ TEST(Scenes, AreThoseOfTheExperiment)
                   "FAIL /scene: elements/1: rest is 9.09e-05 off"));
   EXPECT_TRUE(
       has(text("/experiment/load_case/directions_deg/0", 1), "/limits/0 (0 deg, stretch): not asked for"));
-  EXPECT_TRUE(has(text("/experiment/load_case/measure", "paper"), "measure paper expected, found tensor"));
+  EXPECT_TRUE(has(text("/experiment/load_case/measure", "equation_12"),
+                  "measure equation_12 expected, found tensor"));
 }
 
 TEST(Scenes, RelaxedRestIsLinkedAsPlaced)

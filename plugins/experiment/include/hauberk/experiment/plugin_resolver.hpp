@@ -1,4 +1,6 @@
 #pragma once
+/// What a reader of experiments asks of plugins, so that it knows none of them.
+
 #include "document/check.hpp"
 
 #include <hauberk/experiment/experiment.hpp>

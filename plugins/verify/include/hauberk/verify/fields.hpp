@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hauberk {
 
@@ -41,6 +42,14 @@ class VerifyParts {
   }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr bool contains(VerifyPart part) const { return (bits_ >> static_cast<unsigned>(part) & 1U) != 0; }
+  /// In the order of the enumeration.
+  std::vector<VerifyPart> list() const
+  {
+    std::vector<VerifyPart> out;
+    for (unsigned k = 0; bits_ >> k != 0; ++k)
+      if ((bits_ >> k & 1U) != 0) out.push_back(static_cast<VerifyPart>(k));
+    return out;
+  }
 
  private:
   unsigned bits_ = 0;

@@ -1,4 +1,4 @@
-#include "differences.hpp"
+#include "deviations.hpp"
 
 #include "verdict.hpp"
 

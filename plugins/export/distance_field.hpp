@@ -11,10 +11,10 @@ namespace hauberk::exporting {
 
 /// A function of the element's frame that is negative inside of a primitive, zero on its surface and positive
 /// outside, and changes by at most the distance of two points.
-class Field {
+class DistanceField {
  public:
   /// Throws InputError for a triangle mesh, which has none.
-  explicit Field(const Primitive& primitive);
+  explicit DistanceField(const Primitive& primitive);
   double operator()(const Vec3& x) const;
   /// A box that holds the surface, widened by `by`.
   void extend(Vec3& low, Vec3& high, double by) const;

@@ -1,4 +1,4 @@
-#include "export/fields.hpp"
+#include "export/distance_field.hpp"
 
 #include "geometry/body.hpp"
 
@@ -72,7 +72,7 @@ class Marching {
   double field(const Vec3& x) const
   {
     double least = std::numeric_limits<double>::infinity();
-    for (const Field& f : fields_) least = std::min(least, f(x));
+    for (const DistanceField& f : fields_) least = std::min(least, f(x));
     return least;
   }
   Vec3 place(const Node& n) const { return origin_ + cell_ * Vec3(n[0], n[1], n[2]); }
@@ -177,7 +177,7 @@ class Marching {
   }
 
   double cell_, chord_, most_;
-  std::vector<Field> fields_;
+  std::vector<DistanceField> fields_;
   Vec3 origin_ = Vec3::Zero();
   std::array<int, 3> blocks_{};
   std::unordered_map<std::uint64_t, int> known_;
@@ -186,7 +186,7 @@ class Marching {
 
 }  // namespace
 
-Field::Field(const Primitive& primitive) : primitive_(primitive)
+DistanceField::DistanceField(const Primitive& primitive) : primitive_(primitive)
 {
   if (primitive.surface)
     throw InputError(
@@ -201,7 +201,7 @@ Field::Field(const Primitive& primitive) : primitive_(primitive)
   }
 }
 
-double Field::operator()(const Vec3& x) const
+double DistanceField::operator()(const Vec3& x) const
 {
   const Vec3 local = primitive_.rotation.transpose() * (x - primitive_.position);
   if (primitive_.solid) return primitive_.solid->distance(local).distance;
@@ -212,7 +212,7 @@ double Field::operator()(const Vec3& x) const
   return std::min(r0, r1) * (std::hypot(away / r0, local.z() / r1) - 1.0);
 }
 
-double Field::around_curve(const Vec3& x) const
+double DistanceField::around_curve(const Vec3& x) const
 {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -236,7 +236,7 @@ double Field::around_curve(const Vec3& x) const
   return best - primitive_.r0();
 }
 
-void Field::extend(Vec3& low, Vec3& high, double by) const
+void DistanceField::extend(Vec3& low, Vec3& high, double by) const
 {
   low = low.cwiseMin(primitive_.position - Vec3::Constant(radius_ + by));
   high = high.cwiseMax(primitive_.position + Vec3::Constant(radius_ + by));

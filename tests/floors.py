@@ -11,7 +11,8 @@ import sys
 
 # A folder may include itself and what is listed for it ("kernel": any folder of the kernel; "plugins/tasks/*": of a
 # task); the order is from the ground upwards, so that a list names folders of lines above only.
-# What any folder of a task may include that the plan does not name.
+
+# What a folder of a task may include that the plan does not name.
 TASK = ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "plugins/pictures", "plugins/run",
         "plugins/tasks/task.hpp", "plugins/tasks/variants"]
 PLAN = {

@@ -17,8 +17,8 @@ struct BarrierValue {
 ///   dimension 1 (integral over a line): b = x^(-1/2) (1 - x)^3
 ///   dimension 2 (over a surface):       b = x^(-1)   (1 - x)^3
 ///
-/// Contact `nearest` and `mesh` take dimension 0, `arc` dimension 1 on circles, curves and ribbons, and
-/// dimension 2 on surfaces (formulation.hpp).
+/// Contact `nearest` and `mesh` take dimension 0, `arc` dimension 1 on one circle, curve or ribbon, and
+/// dimension 2 on surfaces and pairs of curves (formulation.hpp).
 ///
 /// Near a regular contact the gap is g0 + s^2/(2 r), and each of the three, summed or integrated, grows like
 /// ln(1/g0) and pushes with a force proportional to 1/g0. So all three are barriers in energy, their gaps

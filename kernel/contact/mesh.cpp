@@ -109,7 +109,7 @@ void add_parameters(const PairFrame& frame, const NearestFeatures& at, double w1
     for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {
       const double w = w1 * point.weights[k];
       const Vec3 by = facets.size_derivative(point.points[k]).transpose() * n;
-      for (std::size_t q = 0; q < 3; ++q) d[3 + q] += w * by[static_cast<Eigen::Index>(q)];
+      for (std::size_t q = 0; q < 3; ++q) d[3 + q] += w * by[q];
       facets.add_own_sizes(point.points[k], w * n, curve);
     }
   };

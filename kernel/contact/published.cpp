@@ -201,7 +201,7 @@ PublishedMinimum refine(const TorusPair<double>& pair, TorusCoordinates<double> 
     found = at;
     const Eigen::Matrix4d H = Eigen::Map<const Eigen::Matrix4d>(at.H[0].data());
     const Eigen::Vector4d step = -H.ldlt().solve(g);
-    for (std::size_t i = 0; i < 4; ++i) c[i] += step[static_cast<int>(i)];
+    for (std::size_t i = 0; i < 4; ++i) c[i] += step[i];
   }
   m.d = found.d;
   const Eigen::Matrix4d H = Eigen::Map<const Eigen::Matrix4d>(found.H[0].data());

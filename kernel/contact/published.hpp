@@ -103,7 +103,7 @@ std::array<S, 3> lowest_block(const std::array<std::array<S, 4>, 4>& H, const Ei
   }
   std::array<S, 3> B{A[0][0], A[0][1], A[1][1]};
   for (std::size_t k = 2; k < 4; ++k) {
-    const double lk = l[static_cast<int>(k)];
+    const double lk = l[k];
     B[0] += (1.0 / std::min(l[0] - lk, -least)) * (A[0][k] * A[0][k]);
     B[2] += (1.0 / std::min(l[1] - lk, -least)) * (A[1][k] * A[1][k]);
   }

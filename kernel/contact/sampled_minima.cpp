@@ -67,7 +67,7 @@ TorusCoordinates<double> descend(const TorusPair<double>& pair, TorusCoordinates
     bool lower = false;
     for (double t = 1.0; t > 1e-3 && !lower; t *= 0.5) {
       TorusCoordinates<double> next = c;
-      for (std::size_t k = 0; k < 4; ++k) next[k] += t * step[static_cast<int>(k)];
+      for (std::size_t k = 0; k < 4; ++k) next[k] += t * step[k];
       const TorusDistance<double> there = pair.at(next, DistanceOrder::hessian);
       ++evaluations;
       lower = there.d < at.d;

@@ -15,8 +15,8 @@ std::array<PoseJet, 3> turned(const Vec3& x)
       y[i].g[3 + k] = Vec3::Unit(static_cast<int>(k)).cross(x)[row];
       for (std::size_t j = 0; j <= k; ++j) {
         double h = j == k ? -x[row] : 0.0;
-        if (i == k) h += 0.5 * x[static_cast<int>(j)];
-        if (i == j) h += 0.5 * x[static_cast<int>(k)];
+        if (i == k) h += 0.5 * x[j];
+        if (i == j) h += 0.5 * x[k];
         y[i].h[PoseJet::at(3 + k, 3 + j)] = h;
       }
     }
@@ -46,7 +46,7 @@ TorusPair<PoseJet> pose_torus_pair(const PairFrame& frame)
   TorusPair<PoseJet> pair = fixed_pair<PoseJet>(frame);
   pair.a = turned(frame.a - frame.o);
   for (std::size_t k = 0; k < 3; ++k) {
-    pair.a[k] += PoseJet::variable(frame.o[static_cast<int>(k)], static_cast<int>(k));
+    pair.a[k] += PoseJet::variable(frame.o[k], static_cast<int>(k));
   }
   pair.e1 = turned(frame.e1);
   pair.e2 = turned(frame.e2);

@@ -230,8 +230,8 @@ Vector gap_parameter_gradient(const Gap& gap, const DesignPoint& point,
   Vector d = Vector::Zero(static_cast<int>(variables.size()));
   for (std::size_t v = 0; v < variables.size(); ++v) {
     for (const auto& [element, parameter] : variables[v].entries) {
-      if (element == ea) d[static_cast<int>(v)] += gap.da[parameter];
-      if (element == eb) d[static_cast<int>(v)] += gap.db[parameter];
+      if (element == ea) d[v] += gap.da[parameter];
+      if (element == eb) d[v] += gap.db[parameter];
     }
   }
   return d;

@@ -248,7 +248,7 @@ TargetSearch::Estimate TargetSearch::estimate(const DesignPoint& p, std::size_t 
   Estimate out{scale * v.value, Vector::Zero(static_cast<int>(variables.size()))};
   for (std::size_t i = 0; i < variables.size(); ++i) {
     for (const auto& [element, parameter] : variables[i].entries)
-      out.gradient[static_cast<int>(i)] += scale * v.parameters(parameter, element);
+      out.gradient[i] += scale * v.parameters(parameter, element);
   }
   return out;
 }

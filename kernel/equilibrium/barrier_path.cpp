@@ -348,7 +348,7 @@ Stage barrier_stage(const Model& m, double size, ContactChoice choice, const Sch
   s.mu = schedule.stiffness * g_hat * size;
   s.keep_path = schedule.keep_path;
   s.tolerance = last ? schedule.last_tolerance : schedule.tolerance;
-  const bool rough = f == Formulation::arc && quadrature == Quadrature::rough;
+  const bool rough = traits(f).is_integral && quadrature == Quadrature::rough;
   const bool ends_at_noise = last && rough && schedule.ends_at_noise;
   if (ends_at_noise) s.tolerance_of_noise = schedule.tolerance;
   s.balance = last && !ends_at_noise;

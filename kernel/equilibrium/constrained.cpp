@@ -53,7 +53,7 @@ struct Point {
   Matrix normals() const
   {
     Matrix out(static_cast<Eigen::Index>(rows.size()), gradient.size());
-    for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Eigen::Index>(k)) = rows[k].normal;
+    for (std::size_t k = 0; k < rows.size(); ++k) out.row(k) = rows[k].normal;
     return out;
   }
 };
@@ -165,7 +165,7 @@ class ConstrainedSearch {
     for (const double part : {1.0, 0.5, 0.1, 0.0}) {
       for (std::size_t k = 0; k < now_.rows.size(); ++k) {
         const double lacks = margin_ - now_.rows[k].gap;
-        q.b[static_cast<Eigen::Index>(k)] = lacks > 0.0 ? part * lacks : lacks;
+        q.b[k] = lacks > 0.0 ? part * lacks : lacks;
       }
       s = solve(q);
       if (s.status == QuadraticSolution::Status::solved) break;
@@ -207,7 +207,7 @@ class ConstrainedSearch {
   {
     Vector out = next.gradient - now_.gradient;
     for (std::size_t k = 0; k < now_.rows.size(); ++k) {
-      const double f = forces_[static_cast<Eigen::Index>(k)];
+      const double f = forces_[k];
       if (f <= 0.0) continue;
       const Row& old = now_.rows[k];
       const Row* same = nullptr;
@@ -314,7 +314,7 @@ class ConstrainedSearch {
       };
       std::size_t at = 0;
       while (at < e.points.size() && (taken[at] || !is_row(e.points[at]))) ++at;
-      const double f = size_ * forces_[static_cast<Eigen::Index>(k)];
+      const double f = size_ * forces_[k];
       if (at == e.points.size()) continue;
       taken[at] = true;
       if (f <= 0.0) continue;

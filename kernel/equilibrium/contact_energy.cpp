@@ -278,8 +278,8 @@ class Assembler {
         double ha = 0.0, hb = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
           const std::size_t rr = r, cc = c;
-          if (A.curved) ha += g[static_cast<int>(k)] * A.H[k][rr][cc];
-          if (B.curved) hb -= g[static_cast<int>(k)] * B.H[k][rr][cc];
+          if (A.curved) ha += g[k] * A.H[k][rr][cc];
+          if (B.curved) hb -= g[k] * B.H[k][rr][cc];
         }
         H(r, c) += ha;
         H(r < nm ? r : r + nc, c < nm ? c : c + nc) += hb;

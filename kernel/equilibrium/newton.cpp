@@ -63,7 +63,7 @@ class Newton {
     if (!begin()) return finish({StageStatus::stalled, "the stage starts with a gap that is not positive"});
     for (;;) {
       if (const std::optional<End> end = give_up()) return finish(*end);
-      Step step = model_.newton_step(now_, radius_);
+      ModelStep step = model_.newton_step(now_, radius_);
       // Forces that miss the load by more than rounding does: other lengths of steps may balance them.
       const bool unbalanced = rescues_ < most_rescues && dual_norm(now_.gradient) > balanced * load_norm_;
       const bool rescue = unbalanced && stage_.balance;
@@ -144,7 +144,7 @@ class Newton {
   }
 
   /// Of a saddle the step becomes one along its most negative curvature.
-  Stationary at_stationary_point(Step& step, bool unbalanced)
+  Stationary at_stationary_point(ModelStep& step, bool unbalanced)
   {
     if (!step.shifted) return Stationary::minimum;
     if (!escaping_ && unbalanced && widening_pays() && step_norm(m_, step.dy) > 0.5 * radius_ &&
@@ -175,7 +175,7 @@ class Newton {
     return now_.energy < widened_at_ - stage_.tolerance * stage_.mu;
   }
 
-  Trial attempt(const Step& step)
+  Trial attempt(const ModelStep& step)
   {
     Trial t;
     t.alpha = try_step(step.dy, t.state, t.energy);
@@ -205,7 +205,7 @@ class Newton {
   }
 
   /// Shortens the radius, or says what the point is where no length of a step gains anything.
-  std::optional<End> reject(const Trial& t, Step& step, bool rescue)
+  std::optional<End> reject(const Trial& t, ModelStep& step, bool rescue)
   {
     if (t.tiny && rescue) {
       // The energy is at its rounding, the forces are not at theirs: another length may balance them.

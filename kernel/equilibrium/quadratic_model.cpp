@@ -27,9 +27,9 @@ double QuadraticModel::change(const TotalEnergy& e, const Vector& dy, double fra
   return fraction * e.gradient.dot(dy) + 0.5 * fraction * fraction * dy.dot(curvature_->times(dy));
 }
 
-Step QuadraticModel::newton_step(const TotalEnergy& e, double radius)
+ModelStep QuadraticModel::newton_step(const TotalEnergy& e, double radius)
 {
-  Step s;
+  ModelStep s;
   const double scale = curvature_->scale();
   const double floor = std::max(load_shift * load_norm_, rounding_shift * scale);
   double lambda = floor, too_low = 0.0;
@@ -87,7 +87,7 @@ void QuadraticModel::soften()
   }
 }
 
-bool QuadraticModel::saddle_step(const TotalEnergy& e, double radius, Step& s)
+bool QuadraticModel::saddle_step(const TotalEnergy& e, double radius, ModelStep& s)
 {
   Vector d;
   const double lowest = curvature_->lowest(s.lambda, d);

@@ -8,7 +8,7 @@
 namespace hauberk {
 
 /// A step dy of the model g . dy + 1/2 dy . H dy.
-struct Step {
+struct ModelStep {
   Vector dy;
   double lambda = 0.0;     ///< shift: (H + lambda M) dy = -g, M the metric
   double predicted = 0.0;  ///< decrease of the unshifted model, >= 0
@@ -19,7 +19,7 @@ struct Step {
 /// worth keeping. Not thread safe.
 class QuadraticModel {
  public:
-  /// `load_norm`: load_size of what drives the stage.
+  /// `load_norm`: load_size of the stage's load.
   QuadraticModel(const Model& m, double load_norm) : m_(m), load_norm_(load_norm) {}
 
   /// Takes the Hessian of the energy at the state that the stage has come to.
@@ -31,11 +31,11 @@ class QuadraticModel {
   /// The minimum of the model within the radius (L), by Newton's method on the secular equation 1/|dy| =
   /// 1/radius (Conn, Gould, Toint 2000, section 7.3). A step that is a tenth longer will do. Throws
   /// ComputationError where no shift makes the curvature definite.
-  Step newton_step(const TotalEnergy& e, double radius);
+  ModelStep newton_step(const TotalEnergy& e, double radius);
 
   /// Makes of a step at a stationary point one along the most negative curvature; false: there is none that
   /// rounding could not have made.
-  bool saddle_step(const TotalEnergy& e, double radius, Step& step);
+  bool saddle_step(const TotalEnergy& e, double radius, ModelStep& step);
 
  private:
   void soften();

@@ -228,7 +228,7 @@ class ChartBySizes {
   {
     Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(between_.size()));
     for (Eigen::Index k = 0; k < out.cols(); ++k) {
-      const Between& pair = between_[static_cast<std::size_t>(k)];
+      const Between& pair = between_[k];
       out.col(k) = (pair.above->surface_point(angles) - pair.below->surface_point(angles)) / pair.width;
     }
     return out;
@@ -304,7 +304,7 @@ Facets::Facets(const Solid& solid, double unit, int n)
 void Facets::add_own_sizes(int point, const Vec3& n, std::vector<double>& out) const
 {
   if (!by_own_.empty()) {
-    const Eigen::RowVectorXd by = n.transpose() * by_own_[static_cast<std::size_t>(point)];
+    const Eigen::RowVectorXd by = n.transpose() * by_own_[point];
     out.resize(static_cast<std::size_t>(by.size()), 0.0);
     Eigen::Map<Eigen::RowVectorXd>(out.data(), by.size()) += by;
     return;

@@ -263,8 +263,8 @@ class LevelSearch {
     const auto n = static_cast<Eigen::Index>(free.size());
     const auto square = [&](Eigen::Index i, double di, Eigen::Index j, double dj) {
       std::array<double, 3> p = at_;
-      p[free[static_cast<std::size_t>(i)]] += di;
-      p[free[static_cast<std::size_t>(j)]] += dj;
+      p[free[i]] += di;
+      p[free[j]] += dj;
       const double v = level_at(p);
       return v * v;
     };
@@ -289,12 +289,12 @@ class LevelSearch {
         -eigen.eigenvectors() * along.cwiseQuotient(eigen.eigenvalues().cwiseAbs().cwiseMax(floor));
     double share = 1.0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double most = first_step_[free[static_cast<std::size_t>(i)]];
+      const double most = first_step_[free[i]];
       share = std::min(share, most / std::max(most, std::abs(step[i])));
     }
     for (int halved = 0; halved < 8; ++halved, share *= 0.5) {
       std::array<double, 3> next = at_;
-      for (Eigen::Index i = 0; i < n; ++i) next[free[static_cast<std::size_t>(i)]] += share * step[i];
+      for (Eigen::Index i = 0; i < n; ++i) next[free[i]] += share * step[i];
       if (falls_at(next)) return true;
     }
     return false;

@@ -46,7 +46,7 @@ Mat3 load_tensor(const Model& m, const Direction& direction)
   Matrix basis(9, nm);
   for (Eigen::Index k = 0; k < nm; ++k) {
     Eigen::Matrix3Xd moved(3, vectors);
-    for (Eigen::Index v = 0; v < vectors; ++v) moved.col(v) = maps[static_cast<std::size_t>(v)].J.col(k);
+    for (Eigen::Index v = 0; v < vectors; ++v) moved.col(v) = maps[v].J.col(k);
     const Mat3 dF = moved * inverse;
     basis.col(k) = Mat3(0.5 * (dF + dF.transpose())).reshaped();
   }
@@ -61,7 +61,7 @@ bool pushes(const Model& m, const LimitTask& task)
 {
   constexpr double rounding = 1e-9;
   Eigen::Matrix3Xd T(3, static_cast<Eigen::Index>(m.lattice.size()));
-  for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
+  for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(k) = m.lattice[k];
   const Matrix lines = orthonormal_columns(T);
   const double sign = task.sense == Sense::positive ? 1.0 : -1.0;
   const Matrix S = sign * lines.transpose() * load_tensor(m, task.direction) * lines;

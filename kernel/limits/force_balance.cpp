@@ -87,7 +87,7 @@ std::optional<Vector> balancing_parts(const Model& m, const State& s, const Macr
   const auto count = static_cast<Eigen::Index>(points.size());
   Vector rounding(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double gap = points[static_cast<std::size_t>(k)].contact.gap;
+    const double gap = points[k].contact.gap;
     if (!(gap > 0.0)) return std::nullopt;
     rounding[k] = rounding_of_x / gap;
   }
@@ -97,7 +97,7 @@ std::optional<Vector> balancing_parts(const Model& m, const State& s, const Macr
   const Eigen::Index unknowns = m.dofs();
   Matrix forces = Matrix::Zero(unknowns + count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactEnergy::Point& p = points[static_cast<std::size_t>(k)];
+    const ContactEnergy::Point& p = points[k];
     Vector force = Vector::Zero(unknowns);
     add_force(m, s, p, mu * p.contact.force, force);
     forces.col(k).head(unknowns) = inexact[k] * unheld(m, load.held, force);
@@ -124,7 +124,7 @@ bool change_forces(ContactEnergy& contacts, const Model& m, const State& s, Form
   }
   for (std::size_t k = 0; k < contacts.points.size(); ++k) {
     ContactEnergy::Point& p = changed.points[k];
-    const double more = parts[static_cast<Eigen::Index>(k)] * p.contact.force;
+    const double more = parts[k] * p.contact.force;
     p.contact.force += more;
     if (p.wall >= 0 || !single) continue;
     Vector derivative = Vector::Zero(m.dofs());

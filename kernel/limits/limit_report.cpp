@@ -1,8 +1,8 @@
 #include "limits/limit_report.hpp"
 
 #include "equilibrium/gaps.hpp"
-#include "limits/held_state.hpp"
 #include "limits/locked_states.hpp"
+#include "limits/state_forces.hpp"
 #include "limits/verdict.hpp"
 #include "model/links.hpp"
 
@@ -130,7 +130,7 @@ LimitResult fill_limit(const Model& m, const SceneSpec& spec, const LimitTask& t
   const Vec3 shift = fill_state(r, m, l.state);
   r.certificate = certificate_of(m, l, *r.min_gap);
   try {
-    HeldState h(m, task, l, keep_going);
+    StateForces h(m, task, l, keep_going);
     balance_forces(h);
     fill_forces(r, h, shift);
     fill_sensitivities(r, h, spec);

@@ -38,8 +38,9 @@ struct LimitSettings {
   bool lessons = true;
   /// Whether they learn from scenes that this one contains, beside what is `given`.
   bool inherit = true;
-  /// Starts of compressions of periodic cells of up to four elements, at least, where limits learn, and, if
-  /// that is more than one, as many more under random loads; of larger cells inversely fewer.
+  /// Starts of compressions of periodic cells, at least, where limits learn, and, if that is more than one,
+  /// as many more under random loads; in cells of eight elements and more divided by how often four goes into
+  /// their number.
   int fold_starts = 12;
   /// Starts of any limit, at most, of which then none goes on from locked states; 0: no such bound.
   int most_starts = 0;

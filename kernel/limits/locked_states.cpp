@@ -21,7 +21,8 @@ double z_range(const Model& m, const State& s)
 
 namespace {
 
-/// States closer than this in value, invariants of the strain and height are one.
+/// States closer than this in value, and a hundred times as close in the norm of the macroscopic unknowns,
+/// are one.
 constexpr double same_state = 1e-5;
 
 LockedState locked_state(const Model& m, const LimitTask& task, const FoundState& found)
@@ -47,7 +48,7 @@ LockedState* equal_state(std::vector<LockedState>& list, const Model& m, const L
   const double scale = m.value_unit();
   const auto norm = [&m](const std::vector<double>& x) {
     double n = 0.0;
-    for (std::size_t k = 0; k < x.size(); ++k) n += m.metric[static_cast<int>(k)] * x[k] * x[k];
+    for (std::size_t k = 0; k < x.size(); ++k) n += m.metric[k] * x[k] * x[k];
     return std::sqrt(n);
   };
   const auto equal = [&](const LockedState& o) {

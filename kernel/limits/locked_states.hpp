@@ -7,7 +7,7 @@
 
 namespace hauberk {
 
-/// How far elements are apart in height, less what they are at rest, scaled.
+/// Largest less smallest change of the elements' heights from rest, scaled.
 double z_range(const Model& model, const State& state);
 
 /// Adds a search's state to the list of distinct locked states; mirror images count once, and the furthest of

@@ -19,7 +19,7 @@ LatticeCoordinates::LatticeCoordinates(const Model& m)
 {
   if (m.lattice.empty()) return;
   Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(m.lattice.size()));
-  for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
+  for (std::size_t k = 0; k < m.lattice.size(); ++k) T.col(k) = m.lattice[k];
   const Matrix inverse = reciprocal_basis(T);
   for (Eigen::Index k = 0; k < inverse.rows(); ++k) reciprocal_.emplace_back(inverse.row(k).transpose());
 }
@@ -40,8 +40,7 @@ PlaceIndex::PlaceIndex(const Model& m) : model_(&m), lattice_(m)
   for (int i = 0; i < m.element_count(); ++i) {
     const Vec3 g = grid(m.rest[i].position);
     Cell cell{};
-    for (std::size_t k = 0; k < 3; ++k)
-      cell[k] = static_cast<std::int64_t>(std::floor(g[static_cast<int>(k)]));
+    for (std::size_t k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(g[k]));
     elements_[key(cell)].push_back(i);
   }
 }
@@ -50,8 +49,7 @@ Vec3 PlaceIndex::grid(const Vec3& x) const
 {
   if (lattice_.size() == 0) return {x.x() / cell_width, x.y() / cell_width, 0.0};
   Vec3 g = Vec3::Zero();
-  for (std::size_t k = 0; k < lattice_.size(); ++k)
-    g[static_cast<int>(k)] = lattice_.at(k, x) * static_cast<double>(cells_[k]);
+  for (std::size_t k = 0; k < lattice_.size(); ++k) g[k] = lattice_.at(k, x) * static_cast<double>(cells_[k]);
   return g;
 }
 
@@ -76,7 +74,7 @@ void PlaceIndex::find(const Vec3& x, std::vector<Placed>& out) const
     const double widest = k < lattice_.size()
                               ? tolerance * lattice_.reciprocal(k).norm() * static_cast<double>(cells_[k])
                               : tolerance / cell_width;
-    const double at = g[static_cast<int>(k)];
+    const double at = g[k];
     range[k] = {static_cast<std::int64_t>(std::floor(at - widest)),
                 static_cast<std::int64_t>(std::floor(at + widest))};
   }

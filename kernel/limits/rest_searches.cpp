@@ -10,7 +10,7 @@
 namespace hauberk {
 namespace {
 
-/// Elements of the largest cell that has all LimitSettings::fold_starts.
+/// LimitSettings::fold_starts are divided by how often this many go into a cell's elements.
 constexpr int cell_of_all_starts = 4;
 
 /// LimitSettings::fold_starts that follow where those before do not agree.
@@ -38,7 +38,7 @@ bool hangs_together(const Model& m)
   const std::vector<Vec3> cycles = cycle_translations(m);
   if (cycles.empty()) return false;
   Matrix translations(3, static_cast<Eigen::Index>(cycles.size()));
-  for (std::size_t k = 0; k < cycles.size(); ++k) translations.col(static_cast<Eigen::Index>(k)) = cycles[k];
+  for (std::size_t k = 0; k < cycles.size(); ++k) translations.col(k) = cycles[k];
   constexpr double some = 1e-6;  // of the longest: what is less is rounding
   const Vector lengths = singular_values(translations);
   return (lengths.array() > some * lengths.maxCoeff()).count() == static_cast<Eigen::Index>(m.lattice.size());

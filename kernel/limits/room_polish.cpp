@@ -93,7 +93,7 @@ class Polish {
       q.b[k] = now.smallest - now.gaps[i].gap;
     }
     for (Eigen::Index w = 0; w < walls; ++w) {
-      const LinearInequality& wall = m_.walls[static_cast<std::size_t>(w)];
+      const LinearInequality& wall = m_.walls[w];
       q.b[gaps + w] = -wall.offset;
       for (const LinearTerm& t : wall.terms) {
         q.b[gaps + w] -= t.coefficient * now.state.e[t.element * m_.coordinate_count + t.coordinate];
@@ -122,7 +122,7 @@ class Polish {
   {
     Vector change = Vector::Zero(m_.dofs());
     for (std::size_t k = 0; k < now.gaps.size(); ++k) {
-      const double f = forces[static_cast<Eigen::Index>(k)];
+      const double f = forces[k];
       if (f <= 0.0) continue;
       const Vector* same = nullptr;
       for (std::size_t j = 0; j < next.gaps.size(); ++j) {

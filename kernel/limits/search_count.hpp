@@ -11,7 +11,7 @@ namespace hauberk {
 /// Counts the searches that stand alone and tells the observer, one call at a time. Thread safe.
 class SearchCount {
  public:
-  /// `mutex` guards every call of the observer. Both outlive this.
+  /// `mutex` guards what else is told while searches run. Both outlive this.
   SearchCount(const LimitsObserver& observer, std::mutex& mutex) : observer_(observer), mutex_(mutex) {}
 
   /// So many more are to be done.

@@ -69,7 +69,7 @@ class SymmetrySearch {
   bool leaves_lattice(const Vec3& t) const
   {
     Eigen::Matrix3Xd T(3, static_cast<Eigen::Index>(m_.lattice.size()));
-    for (std::size_t k = 0; k < m_.lattice.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = m_.lattice[k];
+    for (std::size_t k = 0; k < m_.lattice.size(); ++k) T.col(k) = m_.lattice[k];
     return Vec3(t - T * least_squares(T, t)).norm() > symmetry_tolerance(t);
   }
 

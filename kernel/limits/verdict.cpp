@@ -20,7 +20,7 @@ constexpr double most_rounding = 1e-3;
 constexpr double wrong_side = 1e-9;
 
 /// What the equilibrium may miss what drives it by.
-double allowed_imbalance(const LimitResult& r, const HeldState& h)
+double allowed_imbalance(const LimitResult& r, const StateForces& h)
 {
   double gap = 0.0, least = std::numeric_limits<double>::infinity();
   for (const ContactForce& c : r.contacts) {
@@ -55,7 +55,7 @@ Verdict end_of_search(const Model& m, const Locked& l)
 namespace {
 
 /// A flat energy is no equilibrium: where contacts merge, nearest points come and go and balance nothing.
-Verdict unbalanced_state(const LimitResult& r, const HeldState& h, const LimitSettings& settings)
+Verdict unbalanced_state(const LimitResult& r, const StateForces& h, const LimitSettings& settings)
 {
   std::string message = fmt::format("contact forces miss the load by {:.1e} of it", *r.force_balance);
   const double energy = energy_imbalance(h) / h.full;
@@ -72,7 +72,7 @@ Verdict unbalanced_state(const LimitResult& r, const HeldState& h, const LimitSe
 
 }  // namespace
 
-Verdict verdict_of(const LimitResult& r, const HeldState& h, const LimitSettings& settings)
+Verdict verdict_of(const LimitResult& r, const StateForces& h, const LimitSettings& settings)
 {
   if (!r.links_kept) return {LimitStatus::failed, "a link was lost: the collision check failed"};
   Verdict search = end_of_search(h.model, h.locked);
@@ -94,7 +94,7 @@ Verdict verdict_of(const LimitResult& r, const HeldState& h, const LimitSettings
                     "on the wrong side of rest; use preset accurate or a smaller tolerance",
                     *r.value)};
   }
-  if (*r.force_balance > unbalanced) {
+  if (*r.force_balance > noticed_imbalance) {
     return {LimitStatus::locked,
             fmt::format("contact forces miss the load by {:.1e} of it: an error of that order is possible",
                         *r.force_balance)};

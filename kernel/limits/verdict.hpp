@@ -1,7 +1,7 @@
 #pragma once
 /// Whether the end of a search is an answer.
 
-#include "limits/held_state.hpp"
+#include "limits/state_forces.hpp"
 
 #include <string>
 
@@ -17,6 +17,6 @@ struct Verdict {
 Verdict end_of_search(const Model& model, const Locked& locked);
 
 /// What a state is taken for by all that is known of it; `result` has its value, gap, links and forces.
-Verdict verdict_of(const LimitResult& result, const HeldState& held, const LimitSettings& settings);
+Verdict verdict_of(const LimitResult& result, const StateForces& forces, const LimitSettings& settings);
 
 }  // namespace hauberk

@@ -28,7 +28,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> linked_space(const Model& m)
   constexpr double independent = 1e-9;  // of the longest translation
   const std::vector<Vec3> cycles = cycle_translations(m);
   Eigen::Matrix<double, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(cycles.size()));
-  for (std::size_t k = 0; k < cycles.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = cycles[k];
+  for (std::size_t k = 0; k < cycles.size(); ++k) columns.col(k) = cycles[k];
   if (cycles.empty()) return columns;
   return orthonormal_span(columns, independent);
 }
@@ -68,10 +68,9 @@ class ImageRange {
   explicit ImageRange(const Model& m) : vectors_(m.lattice.size())
   {
     Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(vectors_));
-    for (std::size_t k = 0; k < vectors_; ++k) T.col(static_cast<Eigen::Index>(k)) = m.lattice[k];
+    for (std::size_t k = 0; k < vectors_; ++k) T.col(k) = m.lattice[k];
     const Matrix inverse = reciprocal_basis(T);
-    for (std::size_t k = 0; k < vectors_; ++k)
-      reciprocal_[k] = inverse.row(static_cast<Eigen::Index>(k)).norm();
+    for (std::size_t k = 0; k < vectors_; ++k) reciprocal_[k] = inverse.row(k).norm();
   }
 
   /// Whether the translations k T1 + l T2 (+ m T3) that are at most `far` long, which have |k| <= |b1| far

@@ -88,8 +88,7 @@ struct DeformedLattice {
       if (m.lattice.size() < 3) lattice(2, column) = 0.0;
     }
     inverse = lattice.inverse();
-    for (std::size_t k = 0; k < m.lattice.size(); ++k)
-      row[k] = inverse.row(static_cast<Eigen::Index>(k)).norm();
+    for (std::size_t k = 0; k < m.lattice.size(); ++k) row[k] = inverse.row(k).norm();
   }
 };
 
@@ -113,7 +112,7 @@ std::vector<ElementPair> images_one_by_one(const Model& m, const State& s, const
       Image first{}, last{};
       double images = 1.0;
       for (std::size_t k = 0; k < m.lattice.size(); ++k) {
-        const double width = r * lattice.row[k] + slack, middle = at[static_cast<Eigen::Index>(k)];
+        const double width = r * lattice.row[k] + slack, middle = at[k];
         images *= 2.0 * width + 1.0;
         if (!(images <= most_images)) {
           throw ComputationError(
@@ -186,7 +185,7 @@ class LatticeBuckets {
       const Vec3 x = lattice_.inverse * p_[i].position;
       Place place;
       for (std::size_t k = 0; k < 2; ++k) {
-        const double coordinate = x[static_cast<Eigen::Index>(k)], cell = std::floor(coordinate);
+        const double coordinate = x[k], cell = std::floor(coordinate);
         place.cell[k] = static_cast<int>(cell);
         place.bucket[k] = std::min(count_[k] - 1, static_cast<int>((coordinate - cell) * count_[k]));
       }

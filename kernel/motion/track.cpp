@@ -74,8 +74,8 @@ double margin_of_lattice(const Model& m, const State& from, const Vector& dy, do
     Image image{};
     image[k] = 1;
     const Track there(m, from, dy, 0, image);
-    A.col(static_cast<Eigen::Index>(k)) = there.pose.position - origin.pose.position;
-    dA.col(static_cast<Eigen::Index>(k)) = there.velocity - origin.velocity;
+    A.col(k) = there.pose.position - origin.pose.position;
+    dA.col(k) = there.velocity - origin.velocity;
   }
   const Mat3 G = dA * A.inverse();
   const double change = G.norm();

@@ -48,7 +48,7 @@ std::optional<double> LinearProgram::least(const Eigen::VectorXd& c)
   Eigen::RowVectorXd cost = Eigen::RowVectorXd::Zero(end + 1);
   cost.head(variables_) = c;
   for (std::size_t i = 0; i < basis_.size(); ++i) {
-    if (basis_[i] < variables_) cost -= c[basis_[i]] * tableau_.row(static_cast<Eigen::Index>(i));
+    if (basis_[i] < variables_) cost -= c[basis_[i]] * tableau_.row(i);
   }
   switch (minimise(cost, variables_)) {
     case End::optimal:

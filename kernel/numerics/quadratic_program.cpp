@@ -64,7 +64,7 @@ class DualActiveSet {
   VectorXd multipliers() const
   {
     VectorXd all = VectorXd::Zero(normals_.cols());
-    for (std::size_t k = 0; k < active_.size(); ++k) all[active_[k]] = u_[static_cast<Index>(k)];
+    for (std::size_t k = 0; k < active_.size(); ++k) all[active_[k]] = u_[k];
     return all;
   }
 

@@ -2,7 +2,6 @@
 
 #include "common/fields.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace hauberk {
@@ -36,7 +35,9 @@ void in_plane_periodic_fields(std::vector<Field>& out)
 
 std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double length, Problems& /*problems*/)
 {
-  const auto named = std::ranges::find(strain_measures, section.at("measure").string, name_of);
+  StrainMeasure measure = strain_measures.front();
+  for (const StrainMeasure m : strain_measures)
+    if (section.at("measure").string == name_of(m)) measure = m;
   const Node& height = section.at("out_of_plane");
   InPlanePeriodic::OutOfPlane out_of_plane;
   out_of_plane.free = height.is(Node::Type::string);
@@ -44,7 +45,7 @@ std::unique_ptr<LoadCase> make_in_plane_periodic(const Node& section, double len
   InPlanePeriodic::Hold hold{false, false};
   for (const Node& name : section.at("hold").items)
     (name.string == "shear" ? hold.shear : hold.lateral) = true;
-  return std::make_unique<InPlanePeriodic>(*named, out_of_plane, hold);
+  return std::make_unique<InPlanePeriodic>(measure, out_of_plane, hold);
 }
 
 }  // namespace hauberk

@@ -191,7 +191,7 @@ std::string ParaboloidBending::do_not_a_sheet(const SheetState& state) const
     return why;
   const auto own = static_cast<std::size_t>(do_coordinate_count());
   const auto place = [&](std::size_t i, std::size_t axis) {
-    return state.X[i][static_cast<Eigen::Index>(axis)] + (axis < own ? state.e[i * own + axis] : 0.0);
+    return state.X[i][axis] + (axis < own ? state.e[i * own + axis] : 0.0);
   };
   return parted(state, "surface", [&](std::size_t i, std::size_t j, const Vec3&) {
     const double x = place(i, 0), y = place(i, 1);

@@ -111,7 +111,7 @@ Boundedness VolumetricPeriodic::do_boundedness(std::span<const double> load,
   // not act in N at all; any other is only approached.
   const Mat3 M = symmetric(load, 0.5);
   Eigen::Matrix<double, 3, Eigen::Dynamic> T(3, static_cast<Eigen::Index>(cycles.size()));
-  for (std::size_t k = 0; k < cycles.size(); ++k) T.col(static_cast<Eigen::Index>(k)) = cycles[k];
+  for (std::size_t k = 0; k < cycles.size(); ++k) T.col(k) = cycles[k];
   Mat3 axes = Mat3::Identity();
   Eigen::Index spanned = 0;
   if (!cycles.empty()) {

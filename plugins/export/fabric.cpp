@@ -41,8 +41,7 @@ Vec3 vector_at(const JsonPlace& place)
 {
   Vec3 x = Vec3::Zero();
   const auto entries = place.items();
-  for (std::size_t k = 0; k < std::min<std::size_t>(3, entries.size()); ++k)
-    x[static_cast<Eigen::Index>(k)] = entries[k].number();
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, entries.size()); ++k) x[k] = entries[k].number();
   return x;
 }
 
@@ -134,7 +133,7 @@ JsonPlace limit_of(const JsonPlace& document, const std::string& file, const std
   if (kind == "limit") {
     if (is_number && number >= 0.0 && number < static_cast<double>(all.size()) &&
         number == std::floor(number))
-      return all[static_cast<std::size_t>(number)];
+      return all[number];
     throw InputError(fmt::format("--state {}: {} has {} limits{}", state, file, all.size(),
                                  all.empty() ? "" : fmt::format(", limit:0 to limit:{}", all.size() - 1)));
   }

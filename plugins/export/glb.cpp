@@ -40,7 +40,7 @@ class Buffer {
     if (bounds) {
       json::array low, high;
       for (int c = 0; c < components; ++c) {
-        Number least = values[static_cast<std::size_t>(c)], most = least;
+        Number least = values[c], most = least;
         for (std::size_t k = static_cast<std::size_t>(c); k < values.size();
              k += static_cast<std::size_t>(components)) {
           least = std::min(least, values[k]);

@@ -94,7 +94,7 @@ std::vector<std::vector<Primitive>> overlapping_groups(std::span<const Primitive
   std::vector<std::vector<Primitive>> groups;
   for (const std::vector<int>& group : joined_primitives(primitives)) {
     auto& of = groups.emplace_back();
-    for (const int k : group) of.push_back(primitives[static_cast<std::size_t>(k)]);
+    for (const int k : group) of.push_back(primitives[k]);
   }
   return groups;
 }

@@ -56,11 +56,10 @@ std::optional<int> gauge_in(const std::string& text)
 
 std::optional<double> standard_gauge(int n)
 {
-  if (n >= 0 && n < static_cast<int>(standard_wire.size()))
-    return 1e-3 * inch * standard_wire[static_cast<std::size_t>(n)];
+  if (n >= 0 && n < static_cast<int>(standard_wire.size())) return 1e-3 * inch * standard_wire[n];
   const int thick = -n - 1;  // 2/0 is -1
   if (thick >= 0 && thick < static_cast<int>(thick_standard_wire.size()))
-    return 1e-3 * inch * thick_standard_wire[static_cast<std::size_t>(thick)];
+    return 1e-3 * inch * thick_standard_wire[thick];
   return std::nullopt;
 }
 

@@ -189,23 +189,13 @@ std::optional<KnownSearch> SearchLogs::recall(const std::string& name)
     }
     if (withheld_.contains(name)) return std::nullopt;
   }
-  std::optional<KnownSearch> out = read_entry(known->second.front());
-  const std::lock_guard lock(mutex_);
-  File& file = files_[known->second.front().file];
-  if (out) {
-    ++recalled_;
-  } else if (!file.unreadable) {
-    file.unreadable = true;
-    warn_(fmt::format("{}: the search '{}' is there and cannot be read; it and the like are done again",
-                      file.path.string(), name));
-  }
-  return out;
+  return read_entry(known->second.front());
 }
 
-std::size_t SearchLogs::recalled() const
+std::size_t SearchLogs::done_again() const
 {
   const std::lock_guard lock(mutex_);
-  return recalled_;
+  return done_again_;
 }
 
 std::optional<KnownSearch> SearchLogs::read_entry(const Entry& entry) const
@@ -216,6 +206,17 @@ std::optional<KnownSearch> SearchLogs::read_entry(const Entry& entry) const
   in.read(record.data(), static_cast<std::streamsize>(record.size()));
   if (!in.good() || outcome_of(record) != entry.outcome) return std::nullopt;  // somebody changed it
   return read_search(record);
+}
+
+void SearchLogs::note_useless(const Entry& entry, const std::string& name)
+{
+  ++done_again_;
+  File& file = files_[entry.file];
+  if (file.useless) return;
+  file.useless = true;
+  warn_(fmt::format(
+      "warning: {}: what it has of the search '{}' is of no use; this one and the like are done again",
+      file.path.string(), name));
 }
 
 void SearchLogs::record(const std::string& name, const Locked& locked, double seconds)
@@ -236,6 +237,8 @@ void SearchLogs::record(const std::string& name, const Locked& locked, double se
           {name, where(entry.file), "", files_[entry.file].origin.processor == own_.processor});
     return;
   }
+  if (const auto known = entries_.find(name); known != entries_.end())
+    note_useless(known->second.front(), name);
   const bool tried = out_.is_open() || own_file_.empty();
   if (!write(line) && tried)
     warn_(

@@ -66,16 +66,16 @@ class SearchLogs final : public SearchMemory {
   /// Logs of which a search was done once more, and how many were read.
   std::pair<std::size_t, std::size_t> checked() const;
   std::size_t known() const { return entries_.size(); }
-  /// How many searches were taken from logs.
-  std::size_t recalled() const;
+  /// How many searches were done though logs have them: of damage that a log's own checks do not see.
+  std::size_t done_again() const;
 
  private:
   struct File {
     std::filesystem::path path;
     LogOrigin origin;
-    bool withheld = false;    ///< one of its searches is being done once more
-    bool checked = false;     ///< and was compared
-    bool unreadable = false;  ///< one of its searches could not be read, which was told
+    bool withheld = false;  ///< one of its searches is being done once more
+    bool checked = false;   ///< and was compared
+    bool useless = false;   ///< one of its searches was done again, which was told
   };
   struct Entry {
     std::size_t file = 0;
@@ -86,6 +86,7 @@ class SearchLogs final : public SearchMemory {
 
   void enter(const std::string& name, const Entry& entry);
   bool write(const std::string& line);
+  void note_useless(const Entry& entry, const std::string& name);
   std::string where(std::size_t file) const;
   std::optional<KnownSearch> read_entry(const Entry& entry) const;
 
@@ -96,7 +97,7 @@ class SearchLogs final : public SearchMemory {
   mutable std::mutex mutex_;  ///< guards all below, and `files_` once searches are asked for
   std::map<std::string, Entry> withheld_;
   std::vector<Conflict> conflicts_;
-  std::size_t recalled_ = 0;
+  std::size_t done_again_ = 0;
   bool checking_ = false;
   LogOrigin own_;
   std::filesystem::path own_folder_, own_file_;

@@ -110,7 +110,7 @@ json::object named_numbers(const std::vector<std::pair<std::string, double>>& va
 json::array lattice_vector_json(const Vec3& v, std::size_t vectors)
 {
   json::array out;
-  for (std::size_t k = 0; k < vectors; ++k) out.push_back(number(v[static_cast<Eigen::Index>(k)]));
+  for (std::size_t k = 0; k < vectors; ++k) out.push_back(number(v[k]));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "run/first_line.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <algorithm>
 #include <charconv>
@@ -10,6 +11,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -32,12 +35,25 @@ std::string processor_name()
   return "";
 }
 
-/// The path of this process' group of version 2, "/" where there is none.
-std::string own_group()
+std::string whole_text(const char* file)
 {
-  std::ifstream in("/proc/self/cgroup");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with("0::/")) return line.substr(3);
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The path of the group of a controller in the text of /proc/self/cgroup, lines NUMBER:CONTROLLERS:PATH; of
+/// version 2 there are no controllers. "/" where there is none.
+std::string group_of(std::string_view own, std::string_view controller)
+{
+  std::istringstream lines{std::string(own)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos || line.compare(second + 1, 1, "/") != 0) continue;
+    std::istringstream names(line.substr(first + 1, second - first - 1));
+    bool is_it = controller.empty() && second == first + 1;
+    for (std::string name; std::getline(names, name, ',');) is_it = is_it || name == controller;
+    if (is_it) return line.substr(second + 1);
+  }
   return "/";
 }
 
@@ -47,14 +63,14 @@ std::optional<T> least(std::optional<T> a, std::optional<T> b)
   return a && b ? std::min(a, b) : a ? a : b;
 }
 
-/// The least limit that a file of a group of version 2, or of any above it, says.
+/// The least limit that a file of a group, or of any above it, says.
 template <class Limit>
-auto least_of_groups(const std::filesystem::path& root, std::filesystem::path group, const char* file,
+auto least_of_groups(const std::filesystem::path& tree, std::filesystem::path group, const char* file,
                      const Limit& limit) -> decltype(limit(std::string()))
 {
   decltype(limit(std::string())) out;
   for (;; group = group.parent_path()) {
-    out = least(out, limit(first_line(root / group.relative_path() / file)));
+    out = least(out, limit(first_line(tree / group.relative_path() / file)));
     if (!group.has_relative_path()) return out;
   }
 }
@@ -62,8 +78,17 @@ auto least_of_groups(const std::filesystem::path& root, std::filesystem::path gr
 std::optional<unsigned> quota_of_groups()
 {
   const std::string period = first_line(groups / "cpu/cpu.cfs_period_us");
-  return least(least_of_groups(groups, own_group(), "cpu.max", processors_of_quota),
-               processors_of_quota(first_line(groups / "cpu/cpu.cfs_quota_us") + " " + period));
+  return least(
+      least_of_groups(groups, group_of(whole_text("/proc/self/cgroup"), ""), "cpu.max", processors_of_quota),
+      processors_of_quota(first_line(groups / "cpu/cpu.cfs_quota_us") + " " + period));
+}
+
+double limit_of(int resource)
+{
+  rlimit limit{};
+  return ::getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY
+             ? static_cast<double>(limit.rlim_cur)
+             : std::numeric_limits<double>::infinity();
 }
 
 std::optional<unsigned> count_in(const char* text)
@@ -103,19 +128,22 @@ std::optional<double> bytes_of_limit(std::string_view memory_max)
   return error == std::errc() && at == end && bytes > 0.0 ? std::optional(bytes) : std::nullopt;
 }
 
-std::optional<double> memory_of_groups(const std::filesystem::path& root, const std::filesystem::path& group)
+std::optional<double> memory_of_groups(const std::filesystem::path& root, std::string_view own)
 {
-  return least_of_groups(root, group, "memory.max", bytes_of_limit);
+  const std::string second = group_of(own, "");
+  std::optional<double> out;
+  for (const std::filesystem::path& tree : {root, root / "unified"})
+    out = least(out, least_of_groups(tree, second, "memory.max", bytes_of_limit));
+  return least(out, least_of_groups(root / "memory", group_of(own, "memory"), "memory.limit_in_bytes",
+                                    bytes_of_limit));
 }
 
 double available_memory()
 {
   const double machine =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  const std::optional<double> allowed =
-      least(memory_of_groups(groups, own_group()),
-            bytes_of_limit(first_line(groups / "memory/memory.limit_in_bytes")));
-  return std::min(machine, allowed.value_or(machine));
+  const std::optional<double> allowed = memory_of_groups(groups, whole_text("/proc/self/cgroup"));
+  return std::min({machine, allowed.value_or(machine), limit_of(RLIMIT_AS), limit_of(RLIMIT_DATA)});
 }
 
 unsigned available_processors()

@@ -22,13 +22,15 @@ unsigned available_processors();
 /// period in microseconds. Null where there is no limit, or none that can be read.
 std::optional<unsigned> processors_of_quota(std::string_view cpu_max);
 
-/// Bytes of memory that this process may use: those of the machine, no more than its control groups allow
-/// (memory.max of version 2 of the group and all above it, memory.limit_in_bytes of version 1). Thread safe.
+/// Bytes of memory that this process may use: those of the machine, no more than its control groups
+/// (memory_of_groups) and its limits of address space and data allow. Whether others use them is not asked.
+/// Thread safe.
 double available_memory();
 
-/// The least of memory.max of a group of version 2 and all above it, of groups whose tree is at `root`; null:
-/// none of them limits it.
-std::optional<double> memory_of_groups(const std::filesystem::path& root, const std::filesystem::path& group);
+/// The least limit of memory of the groups that `own`, the text of /proc/self/cgroup, names, and of all above
+/// them: memory.max of version 2, memory.limit_in_bytes of version 1, which also lie beside each other.
+/// `root`: where the trees of groups are. Null: none of them limits it.
+std::optional<double> memory_of_groups(const std::filesystem::path& root, std::string_view own);
 
 /// Bytes of the text of memory.max. Null where there is no limit, or none that can be read.
 std::optional<double> bytes_of_limit(std::string_view memory_max);

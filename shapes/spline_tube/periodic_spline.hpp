@@ -77,8 +77,7 @@ class PeriodicSpline {
     const int n = basis.nodes();
     for (int k = 0; k < n; ++k) {
       pieces_.push_back(Piece::Zero());
-      for (int i = 0; i < n; ++i)
-        pieces_.back() += nodes[static_cast<std::size_t>(i)] * basis.coefficients(i, k);
+      for (int i = 0; i < n; ++i) pieces_.back() += nodes[i] * basis.coefficients(i, k);
     }
   }
 
@@ -89,7 +88,7 @@ class PeriodicSpline {
   template <int most = CardinalSpline::degree>
   [[gnu::noinline]] To<most> at(int piece, double s) const
   {
-    const Piece& p = pieces_[static_cast<std::size_t>(piece)];
+    const Piece& p = pieces_[piece];
     To<most> d;
     for (int order = 0; order <= most; ++order) {
       Point sum = Point::Zero();
@@ -98,7 +97,7 @@ class PeriodicSpline {
         for (int k = 0; k < order; ++k) factor *= j - k;
         sum = sum * s + factor * p.col(j);
       }
-      d[static_cast<std::size_t>(order)] = sum;
+      d[order] = sum;
     }
     return d;
   }

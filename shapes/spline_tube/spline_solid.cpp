@@ -83,7 +83,7 @@ Circle<J> circle_jet(double scale, const Ball& ball, const Reference& reference)
     double factor = 1.0;
     for (int k = 0; k <= order; ++k) {
       if (k > 0) factor *= scale / k;
-      x.c[static_cast<std::size_t>(k)] = value(from + k, axis) * factor;
+      x.c[k] = value(from + k, axis) * factor;
     }
     return x;
   };
@@ -121,11 +121,11 @@ struct BallDistance {
 Stretch::Stretch(const BallSpline& spline, int of_piece, double middle, double half_width)
     : piece(of_piece), at(middle), half(half_width), d(spline.at(of_piece, middle))
 {
-  const auto of_centre = [this](int k) { return d[static_cast<std::size_t>(k)].head<3>().norm(); };
-  const auto of_radius = [this](int k) { return std::abs(d[static_cast<std::size_t>(k)][3]); };
+  const auto of_centre = [this](int k) { return d[k].head<3>().norm(); };
+  const auto of_radius = [this](int k) { return std::abs(d[k][3]); };
   for (int k = 0; k < 4; ++k) {
-    centre[static_cast<std::size_t>(k)] = taylor_sum(k, k == 0 ? 1 : 0, half, of_centre);
-    radius[static_cast<std::size_t>(k)] = taylor_sum(k, k == 0 ? 1 : 0, half, of_radius);
+    centre[k] = taylor_sum(k, k == 0 ? 1 : 0, half, of_centre);
+    radius[k] = taylor_sum(k, k == 0 ? 1 : 0, half, of_radius);
   }
   slowest = d[1].head<3>().norm() - taylor_sum(1, 1, half, of_centre);
   thinnest = d[0][3] - radius[0];
@@ -199,9 +199,7 @@ ProbeDerivatives SplineSolid::probe(const ProbeAngles& at) const
   const auto ball = spline_.at(t);
   const auto reference = reference_->at(t);
   using J = kit::Jet<double, 1, 2>;
-  const auto of = [](const auto& d) {
-    return [&d](int order, int axis) { return d[static_cast<std::size_t>(order)][axis]; };
-  };
+  const auto of = [](const auto& d) { return [&d](int order, int axis) { return d[order][axis]; }; };
   const Circle<J> c = circle_jet<J>(scale, of(ball), of(reference));
   const auto order = [](const Triple<J>& x, std::size_t k, double factorial) {
     return Vec3(x[0].c[k] * factorial, x[1].c[k] * factorial, x[2].c[k] * factorial);
@@ -228,8 +226,8 @@ std::vector<SplineSolid::Part> SplineSolid::parts() const
   const double scale = spline_.period() / turn_around, half = 0.5 / parts_per_piece;
   const auto ranges = [half](const auto& d) {
     return [&d, half](int order, int axis) {
-      const auto size = [&](int k) { return std::abs(d[static_cast<std::size_t>(k)][axis]); };
-      const double x = d[static_cast<std::size_t>(order)][axis], off = taylor_sum(order, 1, half, size);
+      const auto size = [&](int k) { return std::abs(d[k][axis]); };
+      const double x = d[order][axis], off = taylor_sum(order, 1, half, size);
       return Interval(x - off - rounding * std::abs(x), x + off + rounding * std::abs(x));
     };
   };
@@ -272,8 +270,8 @@ ProbeBounds SplineSolid::probe_bounds(double at_u, double at_v, double half_u, d
     // The v-th derivative of cos v q + sin v w, and the next.
     const std::array<Vec3, 4> turns{cv * q + sv * w, cv * w - sv * q, -cv * q - sv * w, sv * q - cv * w};
     const Vec3 none = Vec3::Zero(), &p = v == 0 ? part.center[0][u] : none;
-    const double near = (p + turns[static_cast<std::size_t>(v)]).norm() +
-                        h * turns[static_cast<std::size_t>((v + 1) % 4)].norm() + 0.5 * h * h * S;
+    const double near =
+        (p + turns[v]).norm() + h * turns[static_cast<std::size_t>((v + 1) % 4)].norm() + 0.5 * h * h * S;
     const double off = (v == 0 ? part.off[0][u] : 0.0) + std::hypot(part.off[1][u], part.off[2][u]);
     out = std::max(out, (std::min(near, p.norm() + S) + off) * (1.0 + rounding));
   };

@@ -90,8 +90,7 @@ void StrutFrame::do_jacobians(std::span<const double> /*p*/, std::vector<Primiti
   out.clear();
   for (const Strut& s : struts_) {
     PrimitiveJacobian j((primitive_dofs + 2) * parameter_count, 0.0);
-    for (std::size_t i = 0; i < 3; ++i)
-      j[i * parameter_count + size_] = s.middle[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < 3; ++i) j[i * parameter_count + size_] = s.middle[i];
     j[primitive_dofs * parameter_count + size_] = s.half;
     j[(primitive_dofs + 1) * parameter_count + r_] = 1.0;
     out.push_back(std::move(j));

@@ -66,7 +66,7 @@ void TorusUnion::do_jacobians(std::span<const double> p, std::vector<PrimitiveJa
     PrimitiveJacobian jacobian(primitive_dofs * count, 0.0);
     for (std::size_t k = 0; k < torus.weights.size(); ++k) {
       for (std::size_t i = 0; i < 3; ++i) {
-        jacobian[i * count + k] = torus.weights[k] * torus.direction[static_cast<Eigen::Index>(i)];
+        jacobian[i * count + k] = torus.weights[k] * torus.direction[i];
       }
     }
     const std::size_t first = 3 * static_cast<std::size_t>(torus.group);

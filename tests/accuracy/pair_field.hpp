@@ -68,8 +68,7 @@ class PairField {
   {
     const std::array<Point<S>, 3> f = unit_axes(F), p = unit_axes(P);
     Point<S> shift;
-    for (std::size_t i = 0; i < 3; ++i)
-      shift[i] = S(P.center[static_cast<int>(i)]) - S(F.center[static_cast<int>(i)]);
+    for (std::size_t i = 0; i < 3; ++i) shift[i] = S(P.center[i]) - S(F.center[i]);
     for (std::size_t i = 0; i < 3; ++i) {
       a_[i] = dot(f[i], shift);
       e1_[i] = dot(f[i], p[0]);

@@ -82,7 +82,7 @@ TEST(Conform, TheSameInProcess)
 
 TEST(Conform, AsJson)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"plugins", "conform", mutants + "mutant_load_case.so", "--json", "--section",
                                  R"({"defect": "no_measure"})"});
   EXPECT_EQ(o.code, 1);
@@ -185,7 +185,7 @@ void expect_refused(const std::vector<std::string>& words, const std::string& me
 
 TEST(New, RefusesWhatMakesNoSense)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string to = folder / "project";
   expect_refused({"--kind", "shape", "oval"}, "expected NAME and DIR");
   expect_refused({"oval", to}, "--kind is missing");
@@ -219,7 +219,7 @@ std::vector<std::string> names_in(const fs::path& folder)
 
 TEST(New, WritesAllFilesOrNone)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"plugins", "new", "--kind", "load_case", "oval_link", folder / "a/b"});
   EXPECT_EQ(o.code, 0) << o.err;
   const std::vector<std::string> expected{"CMakeLists.txt", "README.md", "experiment.json", "oval_link.cpp",

@@ -37,14 +37,14 @@ class Bending : public ::testing::Test {
  protected:
   static void SetUpTestSuite()
   {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     ASSERT_EQ(run_program({"run", folder.write("p.json", patch_text()), "-o", folder / "out"}).code, 0);
     results_ = read_results(folder / "out");
   }
 
   static Outcome verify(const json::value& results)
   {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     return run_program({"verify", folder.write("results.json", write_json(results))});
   }
 
@@ -74,7 +74,7 @@ TEST_F(Bending, HasTheSymmetriesOfThePatch)
 
 TEST_F(Bending, ReportsTheParaboloidInUnitsOfTheFile)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text = with(with(patch_text(), "[0, 60, 120]", "[30], \"senses\": [\"up\"]"),
                                 "\"name\": \"patch\",", "\"name\": \"patch\", \"length_unit\": \"m\",");
   ASSERT_EQ(run_program({"run", folder.write("p.json", text), "-o", folder / "out"}).code, 0);
@@ -111,7 +111,7 @@ TEST_F(Bending, ScalesWithTheScene)
         std::pair("\"centre.r0\": 0.95, \"centre.r1\": 0.95", "\"centre.r0\": 9.5, \"centre.r1\": 9.5"),
         std::pair("\"side.r0\": 0.95, \"side.r1\": 0.95", "\"side.r0\": 9.5, \"side.r1\": 9.5")})
     text = with(text, one, ten);
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(run_program({"run", folder.write("p.json", text), "-o", folder / "out"}).code, 0);
   const double first = number_at(results_, "/limits/0/value");
   EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 0.1 * first, 1e-9 * first);

@@ -41,7 +41,7 @@ class Boundary : public ::testing::Test {
  protected:
   static void SetUpTestSuite()
   {
-    folder_ = std::make_unique<TemporaryFolder>();
+    folder_ = std::make_unique<WorkFolder>();
     file_ = folder_->write("b.json", threefold_text("{ \"sphere\": 1 }"));
     run_ = run_program({"run", file_, "-o", *folder_ / "out"});
     ASSERT_EQ(run_.code, 0) << run_.out << run_.err;
@@ -51,7 +51,7 @@ class Boundary : public ::testing::Test {
 
   static Outcome verify(const json::value& results)
   {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     return run_program({"verify", folder.write("results.json", write_json(results))});
   }
 
@@ -64,7 +64,7 @@ class Boundary : public ::testing::Test {
     EXPECT_NE(o.out.find(message), std::string::npos) << "missing: " << message << '\n' << o.out;
   }
 
-  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::unique_ptr<WorkFolder> folder_;
   static inline std::string file_;
   static inline Outcome run_;
   static inline json::value results_;
@@ -125,7 +125,7 @@ TEST_F(Boundary, AStateFurtherThanALimitMustBeNamed)
 
 TEST_F(Boundary, SameForAnyNumberOfThreadsAndResumed)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(run_program({"run", file_, "-o", folder / "one", "--threads", "1"}).code, 0);
   EXPECT_EQ(timeless(read_results(folder / "one")), timeless(results_));
   EXPECT_EQ(read_text(fs::path(folder / "one") / "boundary.ply"), read_text(*folder_ / "out/boundary.ply"));
@@ -149,7 +149,7 @@ TEST_F(Boundary, SameForAnyNumberOfThreadsAndResumed)
 
 TEST(BoundaryList, GivesTheLimitsOfAnglesAndLeavesNoFaces)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("l.json", threefold_text(three));
   const Outcome o = run_program({"run", file, "-o", folder / "out"});
   ASSERT_EQ(o.code, 0) << o.out << o.err;
@@ -169,7 +169,7 @@ TEST(BoundaryList, GivesTheLimitsOfAnglesAndLeavesNoFaces)
 /// on the way; spreading is unbounded.
 TEST(BoundaryList, SaysWhichDirectionsLinksDoNotHold)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // Neither tiny nor huge components lose their direction.
   const std::string text = with(with(chain_text(), R"("directions_deg": [0])",
                                      R"("directions": [[1e-320,0,0],[0,0,1],[1e300,1e300,0],[1,-1,0]])"),
@@ -186,7 +186,7 @@ TEST(BoundaryList, SaysWhichDirectionsLinksDoNotHold)
 
 TEST(BoundaryList, CurvaturesHaveTheirOwnMetric)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::string text = threefold_text("[[1, 0, 0], [2, 2, 0]]");
   text = with(text, "in_plane_periodic", "paraboloid_bending");
   text = with(text, R"("vectors": [[9.59123136, 5.5375], [0, 11.075]])",
@@ -205,7 +205,7 @@ TEST(BoundaryList, CurvaturesHaveTheirOwnMetric)
 
 TEST(BoundaryList, MistakesAreBadInput)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("b.json", threefold_text("[[1, 0, 0], [0, 0, 0]]"));
   const Outcome o = run_program({"check", file, "--thorough"});
   EXPECT_EQ(o.code, 2);
@@ -217,7 +217,7 @@ TEST(BoundaryList, MistakesAreBadInput)
 
 TEST(BoundaryList, RowsOfASweepTakeDirections)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text = with(threefold_text(three), "\"solver\"", R"("task": "sweep",
   "sweep": { "vary": [ { "name": "r", "pointers": [{ "pointer": "/elements/threefold/parameters/side.r0" },
                                                     { "pointer": "/elements/threefold/parameters/side.r1" }],

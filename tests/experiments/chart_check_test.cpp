@@ -24,7 +24,7 @@ TEST_F(ChartCheck, IsVerifiedFromTheFile)
   const auto after = [&](const std::string& pointer, const json::value& value) {
     json::value wrong = results_;
     wrong.at_pointer(pointer) = value;
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     const Outcome o = run_program({"verify", folder.write("results.json", write_json(wrong))});
     EXPECT_EQ(o.code, 1) << pointer;
     return o.out;
@@ -58,7 +58,7 @@ TEST_F(ChartCheck, IsVerifiedFromTheFile)
 
 TEST(ChartInput, MistakesOfTheFileAreBadInput)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto errors = [&](const std::string& from, const std::string& to) {
     const Outcome o =
         run_program({"check", folder.write("c.json", with(chart_text(), from, to)), "--thorough"});
@@ -84,7 +84,7 @@ TEST(ChartInput, MistakesOfTheFileAreBadInput)
 
 TEST(ChartInput, RefusedPointsAndFailedReferencesSaySo)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // The reference stalls; a method whose clearance leaves no room at rest is refused.
   const std::string file = folder.write(
       "c.json", with(with(chart_text(),

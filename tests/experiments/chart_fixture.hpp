@@ -34,13 +34,13 @@ class ChartFixture : public ::testing::Test {
  protected:
   static void SetUpTestSuite()
   {
-    folder_ = std::make_unique<TemporaryFolder>();
+    folder_ = std::make_unique<WorkFolder>();
     outcome_ = run_program({"run", folder_->write("c.json", chart_text()), "-o", *folder_ / "out"});
     results_ = read_results(*folder_ / "out");
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::unique_ptr<WorkFolder> folder_;
   static inline Outcome outcome_;
   static inline boost::json::value results_;
 };

@@ -70,7 +70,7 @@ std::size_t runs_of_last(const std::string& out)
 /// more would not do: an interrupt between points leaves the first ones a run ahead.
 Outcome interrupt_later(const std::vector<std::string>& arguments, const std::string& out)
 {
-  const TemporaryFolder streams;
+  const WorkFolder streams;
   const std::size_t before = runs_of_last(out);
   Process process(arguments, streams);
   for (int wait = 0; wait < 1200 && runs_of_last(out) <= before + 1; ++wait)

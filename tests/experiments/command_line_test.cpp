@@ -120,7 +120,7 @@ Options:
 /// The answers of commands as documents: exit codes and what they say are those of the text.
 TEST(CommandLine, Json)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const auto document = [](const Outcome& o) { return parse_json(o.out, "answer"); };
   Outcome o = run_program({"check", file, "--json", "--thorough"});
@@ -167,7 +167,7 @@ TEST(CommandLine, Json)
 
 TEST(CommandLine, Check)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const Outcome o = run_program({"check", file, "--thorough"});
   EXPECT_EQ(o.code, 0) << o.err;
@@ -176,7 +176,7 @@ TEST(CommandLine, Check)
 
 TEST(CommandLine, PlanAsJsonIsThatOfTheResults)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const Outcome text = run_program({"plan", file});
   EXPECT_EQ(text.code, 0);

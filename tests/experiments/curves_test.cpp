@@ -39,7 +39,7 @@ constexpr double period = 2.0 * (10.0 + 9.0) - 2.0 * (0.75 + 0.7);
 
 TEST(Curves, SensitivitiesOfAChainAreExact)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("links.json", links_text()), "-o", folder / "out"});
   ASSERT_EQ(o.code, 0) << o.err;
   const json::value results = read_results(folder / "out");
@@ -59,7 +59,7 @@ TEST(Curves, SensitivitiesOfAChainAreExact)
 
 TEST(Curves, ResultsWithAnotherCurveFailTheCheck)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(run_program({"run", folder.write("links.json", links_text()), "-o", folder / "out"}).code, 0);
   const json::value results = read_results(folder / "out");
   const auto verdict = [&](const std::string& pointer, double value) {
@@ -79,7 +79,7 @@ TEST(Curves, ResultsWithAnotherCurveFailTheCheck)
 /// the meshes, and their points are recomputed by other means.
 TEST(Curves, MeshesConverge)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("links.json", links_text());
   const auto limit = [&](int facets, double half_length) {
     const std::string out = folder / ("out" + std::to_string(facets));
@@ -117,7 +117,7 @@ TEST(Curves, MeshesOfWavyRingsAreRecomputed)
   std::string text = with(links_text(), R"("curve": "oval",)", R"("curve": "knot", "turns": [1, 2],)");
   text = with(text, R"("half_length": 10, "half_width": 4, "r": 0.75)",
               R"("R": 9, "a": 0.7, "b": 1.6, "r": 0.75)");
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("wavy.json", text), "-o", folder / "out", "--set",
                                  "/solver/contact=mesh", "--set", "/solver/facets=14"});
   ASSERT_EQ(o.code, 0) << o.err;
@@ -140,7 +140,7 @@ TEST(Curves, ADesignFindsTheLengthsThatGiveALimit)
     "quantity": "stretch",
     "variables": [ { "parameters": "half_length", "lower": 8, "upper": 14 } ],
     "targets": [ { "direction_deg": 0, "value": 0.15 } ] })");
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("design.json", text), "-o", folder / "out"});
   ASSERT_EQ(o.code, 0) << o.err << o.out;
   const json::value results = read_results(folder / "out");
@@ -155,7 +155,7 @@ TEST(Curves, ADesignFindsTheLengthsThatGiveALimit)
 
 TEST(Curves, TrefoilsRepeatEverySixtyDegrees)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = std::string(HAUBERK_SOURCE_DIR) + "/share/experiments/trefoils.json";
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=accurate"}).code, 0);
   const json::value results = read_results(folder / "out");
@@ -168,7 +168,7 @@ TEST(Curves, TrefoilsRepeatEverySixtyDegrees)
 
 TEST(Curves, WhatKnowsToriOnlySaysSo)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("links.json", links_text());
   for (const char* setting : {"/solver/contact=published", "/solver/ccd=sampled", "/solver/preset=paper"}) {
     const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", setting});

@@ -22,7 +22,7 @@ namespace json = boost::json;
 
 TEST(Design, MovesTheLimitToItsTarget)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   const std::string out = folder / "out";
   const Outcome o = run_program({"run", file, "-o", out});
@@ -52,7 +52,7 @@ TEST(Design, MovesTheLimitToItsTarget)
 
 TEST(Design, OfAWeaveThatIsAlsoSweptRunsByItself)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("w.json", R"({ "name": "w", "task": "design",
   "cell": { "weave": { "name": "chain", "parameters": { "inner_diameter": 8 } } },
   "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
@@ -75,7 +75,7 @@ class DesignBounds : public ::testing::TestWithParam<const char*> {};
 TEST_P(DesignBounds, MoveWhatBreaksThemAndNothingElse)
 {
   constexpr double wire = 0.95;
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string sense = GetParam();
   const auto designed = [&](const std::string& name, double bound, const std::string& aim) {
     const std::string file =
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Senses, DesignBounds, ::testing::Values("stretch", "com
 /// Two bounds in one direction are of one limit, which is computed once, and end up on either side of it.
 TEST(Design, ABandOfTwoBoundsIsKept)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto text = [](const std::string& targets) {
     return fmt::format(R"({{ "extends": "{0}/threefold_round.json", "name": "band", "task": "design",
   "load_case": {{ "senses": ["stretch"] }}, "solver": {{ "starts": 2, "lessons": false }},
@@ -171,7 +171,7 @@ TEST(Design, ABandOfTwoBoundsIsKept)
 
 TEST(Design, ABoundOfZeroIsRefused)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set",
                                  "/design/targets/0/aim=no_further", "--set", "/design/targets/0/value=0"});
@@ -183,7 +183,7 @@ TEST(Design, ABoundOfZeroIsRefused)
 
 TEST(Design, PlainValuesMoveTheLimitToItsTarget)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   ASSERT_EQ(run_program({"run", file, "-o", folder / "less"}).code, 0);
   ASSERT_EQ(run_program({"run", file, "-o", folder / "plain", "--set", "/design/value=plain"}).code, 0);
@@ -197,7 +197,7 @@ TEST(Design, PlainValuesMoveTheLimitToItsTarget)
 TEST(Design, EachSearchEndsWithTheFirstIterateThatMeetsItsTargets)
 {
   constexpr double tolerance = 0.02;
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   ASSERT_EQ(run_program({"run", file, "-o", folder / "on"}).code, 0);
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/design/tolerance=0.02"}).code, 0);
@@ -223,7 +223,7 @@ TEST(Design, EachSearchEndsWithTheFirstIterateThatMeetsItsTargets)
 /// on where a thorough look at its end finds others than those that it followed.
 TEST(Design, EndsWithTheLimitsThatItsDesignHas)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(run_program({"run", HAUBERK_DESIGNS "/folds_further.json", "-o", folder / "out"}).code, 0);
   const json::value r = read_results(folder / "out");
   const json::value& d = r.at("design");
@@ -250,7 +250,7 @@ TEST(Design, EndsWithTheLimitsThatItsDesignHas)
 
 TEST(Design, SameResultsForAnyNumberOfThreads)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   std::string first;
   for (const char* n : {"1", "2", "5"}) {
@@ -264,7 +264,7 @@ TEST(Design, SameResultsForAnyNumberOfThreads)
 
 TEST(Design, AnInterruptLeavesTheBestSoFar)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // So many starts that it cannot end before the signal.
   const std::string text =
       with(design_text(), R"("perturbation": 0,)", R"("starts": 100000, "perturbation": 0.1,)");

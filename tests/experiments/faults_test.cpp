@@ -27,7 +27,7 @@ void wait_for(const fs::path& file)
 /// The results are rescued, whole, and the run says where.
 TEST(Faults, TheFolderVanishes)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("m.json", chainmail_text()), out = folder / "out";
   ASSERT_EQ(run_program({"run", file, "-o", folder / "whole"}).code, 0);
   ::setenv("TMPDIR", folder.path().c_str(), 1);
@@ -50,7 +50,7 @@ TEST(Faults, TheFolderVanishes)
 /// when the superuser runs the tests, who is refused none.
 TEST(Faults, TheFolderBecomesReadOnly)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("m.json", chainmail_text()), out = folder / "out";
   fs::permissions(file, fs::perms::others_read, fs::perm_options::add);
   const std::string spare = folder / "spare";
@@ -94,7 +94,7 @@ TEST(Faults, TheFolderBecomesReadOnly)
 /// same.
 TEST(Faults, TheClockIsSetBack)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   for (const TaskCase& task : task_cases()) {
     if (std::string(task.name) == "chart") continue;  // its results are times
     const std::string file = folder.write("e.json", task.text());
@@ -117,7 +117,7 @@ TEST(Faults, TheClockIsSetBack)
 /// Two machines on one folder: namespaces of their own for host names and processes.
 TEST(Faults, TwoMachinesOnOneFolder)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   if (::geteuid() != 0 || std::system("unshare --uts --pid --fork true 2> /dev/null") != 0)
     GTEST_SKIP() << "no namespaces here";
   const std::string out = folder / "out", file = folder.write("e.json", endless_text());

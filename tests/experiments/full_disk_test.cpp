@@ -38,7 +38,7 @@ class SmallDisk {
 
 Outcome run_on_small_disk(const std::vector<std::string>& arguments, rlim_t bytes)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const SmallDisk disk(bytes);
   return Process(arguments, folder).wait();
 }
@@ -51,7 +51,7 @@ class FullDisk : public ::testing::TestWithParam<TaskCase> {};
 /// The limit cuts each file in turn near its end, and all of them.
 TEST_P(FullDisk, LeavesNothingOrEverything)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("e.json", GetParam().text());
   const Outcome whole = run_program({"run", file, "-o", folder / "whole"});
   ASSERT_EQ(whole.code, 0) << whole.out << whole.err;
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Tasks, FullDisk, ::testing::ValuesIn(task_cases()),
 
 TEST(FullDisk, FormerResultsStay)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
   ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
   const Contents before = contents(out);
@@ -132,7 +132,7 @@ bool appears(const fs::path& file)
 /// The folder is gone when results are to be written to it: they go where temporary files do.
 TEST(FullDisk, ResultsAreRescued)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", endless_text()), out = folder / "out";
   fs::create_directory(folder / "tmp");
   ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
@@ -159,7 +159,7 @@ TEST(FullDisk, ResultsAreRescued)
 TEST(FullDisk, StandardOutputAndProgress)
 {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   Process full_out({"run", file, "-o", folder / "a"}, folder, "/dev/full");
   const Outcome o = full_out.wait();
@@ -179,7 +179,7 @@ TEST(FullDisk, StandardOutputAndProgress)
 /// As root no permission helps, so these are folders that nobody can write to.
 TEST(FoldersThatCannotBeWritten, AreBadInputBeforeAnythingIsComputed)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", endless_text());
   for (const std::string& out :
        {file + "/below/a/file", std::string("/proc/hauberk"), std::string("/dev/null")}) {
@@ -193,7 +193,7 @@ TEST(FoldersThatCannotBeWritten, AreBadInputBeforeAnythingIsComputed)
 /// What no results there name is somebody's own, whatever it is called.
 TEST(ForeignFiles, StayWhereTheyAre)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
   fs::create_directories(out);
   for (const char* name : {"sweep.svg", "designed.json", "notes.txt"})
@@ -214,7 +214,7 @@ TEST(ForeignFiles, StayWhereTheyAre)
 /// Nor is anything removed that a link leads to.
 TEST(ForeignFiles, BehindALinkStay)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
   ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
   fs::create_directories(folder / "other");
@@ -233,7 +233,7 @@ TEST(ForeignFiles, BehindALinkStay)
 /// `...json` would be written to `out/..`.
 TEST(ForeignFiles, NamesThatAreNoFolders)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   for (const char* name : {"...json", "..json"}) {
     const Outcome o = run_program({"run", folder.write(name, chain_text())});
     EXPECT_EQ(o.code, 2) << o.out;
@@ -243,7 +243,7 @@ TEST(ForeignFiles, NamesThatAreNoFolders)
 
 TEST(FoldersThatCannotBeWritten, WhatAKilledRunLeftIsRemoved)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
   fs::create_directory(out);
   // No process has this number; one that runs has mine.

@@ -25,7 +25,7 @@ struct LoneLimit {
 
 void PrintTo(const LoneLimit& l, std::ostream* out) { *out << l.name; }
 
-json::value results_of(const LoneLimit& l, const TemporaryFolder& folder, const std::string& more)
+json::value results_of(const LoneLimit& l, const WorkFolder& folder, const std::string& more)
 {
   const std::string text =
       R"({ "name": "lone", "task": "limits", "length_unit": "mm", "cell": { "weave": { "name": ")" +
@@ -47,7 +47,7 @@ class LoneLimits : public testing::TestWithParam<LoneLimit> {};
 TEST_P(LoneLimits, GoAsFarAsInCompany)
 {
   const LoneLimit& l = GetParam();
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const double sign = std::string(l.sense) == "stretch" ? 1.0 : -1.0;
   const double by_default = sign * number_at(results_of(l, folder, ""), "/limits/0/value");
   EXPECT_GT(by_default, l.furthest - 1e-6);
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// end less far here: it begins again from the state of the sheet within it.
 TEST(ScenesWithin, AreInheritedByStretches)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   std::vector<std::string> run{"run",   HAUBERK_SCENES "/square_frames.json", "-o", out, "--force",
                                "--set", "/load_case/directions_deg=[45]"};
@@ -95,7 +95,7 @@ TEST(ScenesWithin, AreInheritedByStretches)
 /// A state with more held is a start, and at times the one that leads furthest, also for stretches.
 TEST(ScenesWithin, LeadOn)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   ASSERT_EQ(run_program({"run", HAUBERK_SCENES "/conforming.json", "-o", out, "--set",
                          "/load_case/directions_deg=[90]", "--set", "/solver/lessons=true"})
@@ -115,7 +115,7 @@ TEST(ScenesWithin, LeadOn)
 /// from rest alone end nearer.
 TEST(ScenesWithin, WithMoreHeldAreNoFurther)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   const auto pushed = [&](const std::string& hold) {
     const Outcome o = run_program(
@@ -141,7 +141,7 @@ TEST(ScenesWithin, WithMoreHeldAreNoFurther)
 /// Limits that a mirror makes of each other come from one search, seen twice: neither confirms the other.
 TEST(MirrorImages, ConfirmNothing)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   const std::string scene = HAUBERK_SCENES "/square_frames.json";
   const Outcome o = run_program({"run", scene, "-o", out, "--set", "/load_case/directions_deg=[42,48]",

@@ -27,7 +27,7 @@ bool acts(const std::string& text)
 
 TEST(HostileNames, ActNowhere)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string name = std::string(R"("name": ")") + acting + '"';
   std::string text = with(sweep_text(), R"("name": "chains")", name);
   text = with(text, R"("name": "R")", name);
@@ -64,7 +64,7 @@ TEST(HostileNames, ActNowhere)
 /// A results file is somebody else's, too.
 TEST(HostileNames, OfResultsActNowhere)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   ASSERT_EQ(run_program({"run", folder.write("e.json", chain_text()), "-o", out}).code, 0);
   boost::json::value results = read_results(out);
@@ -98,7 +98,7 @@ TEST(HostileNames, OfResultsActNowhere)
 
 TEST(HostileNames, FiftyProblemsAreEnough)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::string places;
   for (int k = 0; k < 80; ++k) places += R"({ "element": "none", "position": [0, 0, 0] }, )";
   const std::string file =

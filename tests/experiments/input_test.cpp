@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 /// Runs an experiment that must be refused with `problems`, each a line after "FILE:".
 void expect_refused(const std::string& text, const std::vector<std::string>& problems)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("bad.json", text);
   std::string expected;
   for (const std::string& p : problems) expected.append(file).append(":").append(p).append("\n");
@@ -154,7 +154,7 @@ TEST(BadInput, DesignsThatCannotWork)
 
 TEST(BadInput, FilesThatCannotBeRead)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder / "none.json";
   const Outcome o = run_program({"run", file, "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);
@@ -164,7 +164,7 @@ TEST(BadInput, FilesThatCannotBeRead)
 
 TEST(BadInput, ValuesOfTheCommandLineAreNamedAsSuch)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/preset=papr"});
   EXPECT_EQ(o.code, 2);
@@ -176,7 +176,7 @@ TEST(BadInput, ValuesOfTheCommandLineAreNamedAsSuch)
 
 TEST(BadInput, PluginFoldersThatDoNotExist)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o =
       run_program({"run", folder.write("c.json", chain_text()), "--plugin-path", folder / "none"});
   EXPECT_EQ(o.code, 2);
@@ -186,7 +186,7 @@ TEST(BadInput, PluginFoldersThatDoNotExist)
 /// Problems of a file are told at once, whatever its rest state takes.
 TEST(Check, SaysWhatItLeftOut)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string large =
       folder.write("l.json", with(chainmail_text(), R"("repeat": [2, 1],)", R"("repeat": [300, 250],)"));
   const Outcome o = run_program({"check", large});
@@ -204,7 +204,7 @@ TEST(Check, SaysWhatItLeftOut)
 /// What is beyond the budget is refused before anything is computed or written.
 TEST(Budget, WorkIsCountedFirst)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string chain = folder.write("c.json", chain_text()), out = folder / "out";
   const auto refused = [&](const std::vector<std::string>& more, const char* why) {
     std::vector<std::string> words{"run", chain, "-o", out};
@@ -236,7 +236,7 @@ TEST(Budget, WorkIsCountedFirst)
 /// The count is a lower bound of what is then evaluated.
 TEST(Budget, CountsNoMoreThanIsDone)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // Results do not say what limits took that are not reported: neither beside these nor of scenes with more
   // held.
   const std::string alone = with(chainmail_text(), R"("starts": 2)", R"("starts": 2, "neighbours": 0)");

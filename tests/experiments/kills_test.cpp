@@ -33,7 +33,7 @@ class Kills : public ::testing::TestWithParam<std::tuple<TaskCase, int>> {};
 TEST_P(Kills, LeaveWholeResultsThatCanBeResumed)
 {
   const auto& [task, signal] = GetParam();
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("e.json", task.text());
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(run_program({"run", file, "-o", folder / "whole", "--threads", "2"}).code, 0);
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(AnyMoment, Kills,
 /// At the worst moment: as soon as a file is seen that has no name yet.
 TEST(Kills, WhileFilesAreWritten)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const auto writing = [](const Contents& files) {
     return std::any_of(files.begin(), files.end(), [](const auto& f) {
@@ -115,7 +115,7 @@ TEST(Kills, WhileFilesAreWritten)
 /// Results of a former run are in their place or kept beside, whole, until another run is done.
 TEST(Kills, FormerResultsStayUntilTheRunIsDone)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out", mail = folder.write("m.json", chainmail_text());
   ASSERT_EQ(run_program({"run", folder.write("c.json", map_text()), "-o", out}).code, 0);
   const Contents before = contents(out);

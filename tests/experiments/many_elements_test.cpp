@@ -11,7 +11,7 @@ namespace {
 /// 64 rings in one cell lock at the period of two.
 TEST(ManyElements, ChainOf64)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file =
       folder.write("c.json", with(chain_text(), "\"place\": [", "\"repeat\": [32, 1], \"place\": ["));
   const Outcome plan = run_program({"plan", file});
@@ -27,7 +27,7 @@ TEST(ManyElements, ChainOf64)
 /// by the independent check, and the limit is that of the dense method.
 TEST(ManyElements, BentPatchOf54)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::vector<std::string> patch{HAUBERK_SOURCE_DIR "/share/experiments/speed/bending.json", "--set",
                                        "/cell/patch/outline={\"rectangle\": [3, 9]}", "--set",
                                        "/solver/clearance=0.05"};

@@ -32,7 +32,7 @@ double exact(int facets) { return 4.0 * (5.0 - 0.7 / std::cos(std::numbers::pi /
 TEST(Mesh, ExactLimitsOfMeshes)
 {
   for (const int facets : {8, 12, 20}) {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     const Outcome o = run_program(
         {"run", folder.write("m.json", mesh_text(facets)), "-o", folder / "out", "--set", "/expect=[]"});
     ASSERT_EQ(o.code, 0) << o.err;
@@ -49,7 +49,7 @@ TEST(Mesh, CirclesAsCurves)
       with(mesh_text(12), R"("shape": "torus_union", "tori": [ { "name": "ring" } ])",
            R"("shape": "closed_tube", "curve": "oval")"),
       R"("ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7)", R"("half_length": 5, "half_width": 5, "r": 0.7)");
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o =
       run_program({"run", folder.write("m.json", text), "-o", folder / "out", "--set", "/expect=[]"});
   ASSERT_EQ(o.code, 0) << o.err;
@@ -58,7 +58,7 @@ TEST(Mesh, CirclesAsCurves)
 
 TEST(Mesh, VerifyRecomputesMeshes)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(
       run_program({"run", folder.write("m.json", mesh_text(10)), "-o", folder / "out", "--set", "/expect=[]"})
           .code,
@@ -81,7 +81,7 @@ TEST(Mesh, VerifyRecomputesMeshes)
 
 TEST(Mesh, Refusals)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto refused = [&](const std::string& text, const std::string& message) {
     const Outcome o = run_program({"check", folder.write("m.json", text), "--thorough"});
     EXPECT_EQ(o.code, 2);
@@ -118,7 +118,7 @@ class MeshFiles : public testing::Test {
     EXPECT_NE(o.err.find(message), std::string::npos) << "missing: " << message << '\n' << o.err;
   }
 
-  TemporaryFolder folder_;
+  WorkFolder folder_;
   std::string text_;
 };
 

@@ -32,7 +32,7 @@ std::string chain_in(const std::string& unit, double per_mm, const std::string& 
 json::value run_chain(const std::string& unit, double per_mm, const std::string& solver,
                       const std::vector<std::string>& more = {})
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::vector<std::string> arguments{"run", folder.write("c.json", chain_in(unit, per_mm, solver)), "-o",
                                      folder / "out"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -92,7 +92,7 @@ TEST(Paper, SameResultsForAnyNumberOfThreads)
 
 TEST(Paper, WhatItCannotDoIsRefused)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto refusal = [&](const std::string& text) {
     const std::string file = folder.write("bad.json", text);
     const Outcome o = run_program({"check", file, "--thorough"});

@@ -26,7 +26,7 @@ std::string digest_of_shape(const fs::path& results)
 
 TEST(PluginOrigin, ResultsTellTheLibraryAndAreNotResumedWithAnother)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
   fs::create_directory(folder / "plugins");
   const std::string copy = folder / "plugins/torus_union.so";
@@ -54,7 +54,7 @@ TEST(PluginOrigin, ResultsTellTheLibraryAndAreNotResumedWithAnother)
 
 TEST(PluginOrigin, FoldersThatOthersCanWriteAreNamed)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const fs::path open = folder.path() / "open";
   fs::create_directory(open);
   fs::permissions(open, fs::perms(0777));

@@ -24,28 +24,28 @@ namespace hauberk::test {
 namespace fs = std::filesystem;
 namespace json = boost::json;
 
-TemporaryFolder::TemporaryFolder()
+WorkFolder::WorkFolder()
 {
   std::string name = (fs::temp_directory_path() / "hauberk-experiments-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   path_ = name;
 }
 
-TemporaryFolder::~TemporaryFolder()
+WorkFolder::~WorkFolder()
 {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
 }
 
-std::string TemporaryFolder::write(const std::string& name, const std::string& text) const
+std::string WorkFolder::write(const std::string& name, const std::string& text) const
 {
   std::string file = *this / name;
   std::ofstream(file) << text;
   return file;
 }
 
-Process::Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder,
-                 const std::string& out, const std::string& err)
+Process::Process(const std::vector<std::string>& arguments, const WorkFolder& folder, const std::string& out,
+                 const std::string& err)
     : out_(out.empty() ? folder / "stdout" : out), err_(err.empty() ? folder / "stderr" : err)
 {
   std::vector<char*> words{const_cast<char*>(HAUBERK_PROGRAM)};
@@ -76,7 +76,7 @@ Outcome Process::wait()
 
 Outcome run_program(const std::vector<std::string>& arguments)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   return Process(arguments, folder).wait();
 }
 

@@ -17,12 +17,12 @@ struct Outcome {
 };
 
 /// A folder that is removed at the end of a test.
-class TemporaryFolder {
+class WorkFolder {
  public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  WorkFolder();
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
   /// Writes a file and returns its path.
@@ -35,8 +35,8 @@ class TemporaryFolder {
 /// A running program. Its output goes to files of the folder, or to the places given.
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, const TemporaryFolder& folder,
-          const std::string& out = "", const std::string& err = "");
+  Process(const std::vector<std::string>& arguments, const WorkFolder& folder, const std::string& out = "",
+          const std::string& err = "");
   void signal(int number) const;
   Outcome wait();
 

@@ -53,7 +53,7 @@ class Relations : public testing::TestWithParam<Relation> {};
 TEST_P(Relations, HoldBetweenRows)
 {
   const auto& [name, pointer, values] = GetParam();
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(
       run_program({"run", folder.write("off.json", loose_text(pointer, values, false)), "-o", folder / "off"})
           .code,
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Sweep, Relations,
 /// Rows that teach are solved again where a run goes on, so that it ends where an uninterrupted one does.
 TEST(RelationsResumed, EndAtTheSame)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file =
       folder.write("s.json", loose_text("/solver/clearance", "[0, 0.05, 0.1, 0.15, 0.2]", true));
   ASSERT_EQ(run_program({"run", file, "-o", folder / "whole", "--threads", "2"}).code, 0);

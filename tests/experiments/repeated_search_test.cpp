@@ -28,7 +28,7 @@ struct Whole {
 };
 
 /// Runs to the end. The program removes its evaluations then; a second name keeps them.
-Whole run_whole(const TemporaryFolder& folder, const std::string& file)
+Whole run_whole(const WorkFolder& folder, const std::string& file)
 {
   const fs::path log = folder.path() / "whole" / log_name, kept = folder.path() / "kept";
   Process process({"run", file, "-o", folder / "whole", "--threads", "2"}, folder);
@@ -70,7 +70,7 @@ class RepeatedSearch : public ::testing::TestWithParam<std::pair<const char*, co
 
 TEST_P(RepeatedSearch, EndsAsOneRunWhereverItWasInterrupted)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // Two starts, so that interrupts hit the first, the second and the final search.
   const std::string file =
       folder.write("mail.json", with(with(with(design_text(), R"({ "plugin": "sqp" })", GetParam().second),
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(RepeatedSearch, EvaluationsThatAreNotTheSearchsOwnAreNotUsed)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   const Whole whole = run_whole(folder, file);
   const std::string expected = write_json(whole.results);
@@ -138,7 +138,7 @@ TEST_F(RepeatedSearch, EvaluationsThatAreNotTheSearchsOwnAreNotUsed)
 
 TEST_F(RepeatedSearch, AKilledRunIsGoneOnWith)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", design_text());
   const Whole whole = run_whole(folder, file);
   const std::string out = folder / "out";

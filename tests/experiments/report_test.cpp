@@ -51,7 +51,7 @@ class Report : public ::testing::Test {
  protected:
   static void SetUpTestSuite()
   {
-    folder_ = new TemporaryFolder;
+    folder_ = new WorkFolder;
     const std::string design = path("mail"), chain = path("chain");
     ASSERT_EQ(run_program({"run", folder_->write("m.json", published_design_text()), "-o", design}).code, 0);
     ASSERT_EQ(run_program({"run", design + "/designed.json", "-o", design + "/apart", "--set",
@@ -68,7 +68,7 @@ class Report : public ::testing::Test {
   static std::string path(const std::string& name) { return *folder_ / name; }
 
  private:
-  static inline TemporaryFolder* folder_ = nullptr;
+  static inline WorkFolder* folder_ = nullptr;
 };
 
 TEST_F(Report, TableHoldsWhatTheResultsSay)
@@ -159,7 +159,7 @@ TEST_F(Report, BadInputLeavesNothing)
     EXPECT_EQ(o.err.substr(0, o.err.find('\n')), "hauberk: " + message);
     EXPECT_FALSE(fs::exists(out));
   };
-  const TemporaryFolder bad;
+  const WorkFolder bad;
   refused({}, "RESULT is missing");
   refused({path("mail"), bad / "none.json"},
           "cannot read '" + (bad / "none.json") +

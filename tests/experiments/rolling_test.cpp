@@ -55,7 +55,7 @@ std::string taut_row(const std::string& plugin)
 
 json::value results_of(const std::string& text)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   EXPECT_EQ(run_program({"run", folder.write("e.json", text), "-o", folder / "out"}).code, 0);
   return read_results(folder / "out");
 }
@@ -67,7 +67,7 @@ class Rolling : public ::testing::Test {
  protected:
   static void SetUpTestSuite()
   {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     ASSERT_EQ(
         run_program({"run", HAUBERK_SOURCE_DIR "/loadcases/cylinder_roll/example.json", "-o", folder / "out",
                      "--set", "/load_case/directions_deg=[0, 60, 120]", "--set",
@@ -79,7 +79,7 @@ class Rolling : public ::testing::Test {
 
   static void expect_caught(const json::value& results, const std::string& message)
   {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     const Outcome o = run_program({"verify", folder.write("results.json", write_json(results))});
     EXPECT_EQ(o.code, 1);
     EXPECT_NE(o.out.find(message), std::string::npos) << "missing: " << message << '\n' << o.out;
@@ -102,7 +102,7 @@ TEST_F(Rolling, HasTheSymmetriesOfThePatch)
 
 TEST_F(Rolling, TheCheckSeesWhatIsNoStateOfIt)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   EXPECT_EQ(run_program({"verify", folder.write("results.json", write_json(results_))}).code, 0);
   json::value r = results_;
   for (int k = 0; k < 7; ++k) {  // a patch that left its roll as a whole
@@ -222,7 +222,7 @@ TEST_F(StripResults, KeepSymmetriesAndPeriods)
 
 TEST_F(StripResults, AreChecked)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto verified = [&](const json::value& results) {
     return run_program({"verify", folder.write("results.json", write_json(results))});
   };
@@ -272,7 +272,7 @@ std::string strip_design()
 /// A design of a strip leaves an experiment that is laid out, and that can be run.
 TEST(StripRolling, CanBeDesigned)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text = strip_design();
   ASSERT_EQ(run_program({"run", folder.write("d.json", text), "-o", folder / "out"}).code, 0);
   EXPECT_NEAR(number_at(read_results(folder / "out"), "/limits/0/value"), 0.07, 7e-4);
@@ -301,7 +301,7 @@ TEST(StripRolling, CanBeDesigned)
 
 TEST(StripRolling, SaysWhatIsNoStrip)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto refused = [&](const std::string& text, const std::string& message) {
     const Outcome o = run_program({"check", folder.write("e.json", text)});
     EXPECT_EQ(o.code, 2);

@@ -15,7 +15,7 @@ namespace json = boost::json;
 
 TEST(Run, ChainLocksAtTheFormula)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("chain.json", chain_text()), "-o", folder / "out"});
   EXPECT_EQ(o.code, 0) << o.err;
   const json::value r = read_results(folder / "out");
@@ -37,7 +37,7 @@ TEST(Run, ChainLocksAtTheFormula)
 
 TEST(Run, QuietShowsNoProgress)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o =
       run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--quiet"});
   EXPECT_EQ(o.code, 0);
@@ -46,7 +46,7 @@ TEST(Run, QuietShowsNoProgress)
 
 TEST(Run, SetReplacesValues)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program(
       {"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--set", "/solver/clearance=0.1"});
   EXPECT_EQ(o.code, 0) << o.err;
@@ -57,7 +57,7 @@ TEST(Run, SetReplacesValues)
 /// What a file expects is said of its own answers: another scene has others, another search has the same.
 TEST(Run, ExpectationsAreOfTheFileAsItIs)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text()), out = folder / "out";
   const auto run = [&](const std::vector<const char*>& settings) {
     std::vector<std::string> words{"run", file, "-o", out, "--force"};
@@ -81,7 +81,7 @@ TEST(Run, ExpectationsAreOfTheFileAsItIs)
 
 TEST(Run, MissedExpectationsFailAfterWriting)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", with(chain_text(), "0.43333333333333", "0.4334"));
   const Outcome o = run_program({"run", file, "-o", folder / "out"});
   EXPECT_EQ(o.code, 1);
@@ -96,7 +96,7 @@ TEST(Run, MissedExpectationsFailAfterWriting)
 /// What links do not stop is tried: rings of a chain jam when it is compressed, rows of chains part for ever.
 TEST(Run, UnboundedIsAnAnswer)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text = with(with(chain_text(), R"(, "senses": ["stretch"])", ""),
                                 R"("directions_deg": [0])", R"("directions_deg": [0, 90])");
   const Outcome o = run_program({"run", folder.write("c.json", text), "-o", folder / "out"});
@@ -114,7 +114,7 @@ TEST(Run, UnboundedIsAnAnswer)
 /// rings of a pair stay together, which their places in the stretched lattice do not.
 TEST(Run, ASheetThatComesApartHasAWitness)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text = with(
       with(with(chain_text(), "[12, 0]", "[18, 0]"), R"("position": [6, 0, 0])", R"("position": [5, 0, 0])"),
       R"("directions_deg": [0])", R"("directions_deg": [0, 90])");
@@ -137,7 +137,7 @@ TEST(Run, ASheetThatComesApartHasAWitness)
 
 TEST(Run, UnfinishedLimitsFailTheRun)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--set",
                                  "/solver/max_iterations=1", "--set", "/expect=[]"});
   EXPECT_EQ(o.code, 1) << o.out;
@@ -149,7 +149,7 @@ TEST(Run, UnfinishedLimitsFailTheRun)
 /// merge, the energy is flat to rounding, and the forces on what is left of them miss the load.
 TEST(Run, UnbalancedForcesAreNoLockedState)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", with(chain_text(), R"("degrees": 90)", R"("degrees": 32)"));
   const Outcome o = run_program({"run", file, "-o", folder / "out", "--set", "/solver/contact=nearest"});
   const json::value r = read_results(folder / "out");
@@ -167,7 +167,7 @@ TEST(Run, UnbalancedForcesAreNoLockedState)
 /// zero.
 TEST(Run, LimitsOnTheWrongSideOfRestAreNone)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file =
       folder.write("c.json", with(with(chain_text(), "[12, 0]", "[17.199999, 0]"), R"("position": [6, 0, 0])",
                                   R"("position": [8.5999995, 0, 0])"));
@@ -186,7 +186,7 @@ TEST(Run, LimitsOnTheWrongSideOfRestAreNone)
 
 TEST(Run, SameResultsForAnyNumberOfThreads)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("mail.json", chainmail_text());
   std::vector<json::value> results;
   std::vector<std::string> texts;
@@ -212,7 +212,7 @@ TEST(Run, SameResultsForAnyNumberOfThreads)
 
 TEST(Run, FolderWithResultsIsRefusedWithoutForce)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
   const std::string before = read_text(folder / "out/results.json");
@@ -231,7 +231,7 @@ TEST(Run, FolderWithResultsIsRefusedWithoutForce)
 
 TEST(Run, FolderThatCannotBeMade)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   const Outcome o = run_program({"run", file, "-o", file + "/out"});
   EXPECT_EQ(o.code, 2);

@@ -22,7 +22,7 @@ std::string outcome_at(const json::value& results, int k)
 
 TEST(StabilityRun, ClassifiesEveryCase)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("map.json", map_text()), "-o", folder / "out"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   const json::value r = read_results(folder / "out");
@@ -48,7 +48,7 @@ TEST(StabilityRun, ClassifiesEveryCase)
 
 TEST(StabilityRun, SameResultsForAnyNumberOfThreads)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("map.json", map_text());
   std::vector<std::string> texts;
   for (const char* n : {"1", "2", "5"}) {
@@ -62,7 +62,7 @@ TEST(StabilityRun, SameResultsForAnyNumberOfThreads)
 
 TEST(StabilityRun, ResumesWhatIsMissing)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("map.json", map_text()), out = folder / "out";
   ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
   const json::value whole = read_results(out);
@@ -87,7 +87,7 @@ TEST(StabilityRun, ResumesWhatIsMissing)
 
 TEST(StabilityRun, MistakesOfFormAreBadInput)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text =
       with(map_text(), R"("/solver/contact": "nearest")", R"("/solver/contact": "nearst")");
   const Outcome o = run_program({"run", folder.write("map.json", text), "-o", folder / "out"});

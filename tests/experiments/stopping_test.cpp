@@ -42,7 +42,7 @@ class Stopping : public ::testing::TestWithParam<int> {};
 
 TEST_P(Stopping, LeavesPartialResults)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   Process process({"run", folder.write("c.json", endless_text()), "-o", folder / "out", "--threads", "2"},
                   folder);
   ASSERT_TRUE(appears(folder.path() / "out" / "results.json"));
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, Stopping, ::testing::Values(SIGINT, SIGTERM));
 
 TEST(Stopping, AKillLosesNothingFinished)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   Process process({"run", folder.write("c.json", endless_text()), "-o", folder / "out", "--threads", "2"},
                   folder);
   ASSERT_TRUE(appears(folder.path() / "out" / "results.json"));
@@ -71,7 +71,7 @@ TEST(Stopping, AKillLosesNothingFinished)
 
 TEST(Resuming, GivesTheSameResultsAsOneRun)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // What was learnt from other limits is learnt again, so that nothing would be kept.
   const std::string file =
       folder.write("mail.json", with(chainmail_text(), R"("starts": 2)", R"("starts": 2, "lessons": false)"));
@@ -133,7 +133,7 @@ TEST(Resuming, GivesTheSameResultsAsOneRun)
 /// A limit that was finished before the kill learns from one that was not.
 TEST(Resuming, FinishedLimitsLearnFromNewOnes)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string alone_text =
       with(with(with(chainmail_text(), R"("repeat": [2, 1])", R"("repeat": [2, 2])"), "[0, 30, 90]",
                 R"([0], "senses": ["compress"], "hold": [])"),
@@ -165,7 +165,7 @@ TEST(Resuming, FinishedLimitsLearnFromNewOnes)
 
 TEST(Resuming, StartsAnewWhereNothingIs)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o =
       run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out", "--resume"});
   EXPECT_EQ(o.code, 0);
@@ -174,7 +174,7 @@ TEST(Resuming, StartsAnewWhereNothingIs)
 
 TEST(Resuming, RefusesOtherExperiments)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
   const std::string results = folder / "out/results.json", before = read_text(results);
@@ -192,7 +192,7 @@ TEST(Resuming, RefusesOtherExperiments)
 /// A number that somebody has changed is not gone on from, and neither is what nothing vouches for.
 TEST(Resuming, RefusesWhatWasChanged)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("e.json", endless_text()), out = folder / "out";
   Process process({"run", file, "-o", out, "--quiet"}, folder);
   for (int k = 0; k < 3000 && !fs::exists(out + "/results.json"); ++k)
@@ -216,7 +216,7 @@ TEST(Resuming, RefusesWhatWasChanged)
 
 TEST(Resuming, RefusesOtherFormats)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("c.json", chain_text());
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out"}).code, 0);
   const std::string results = folder / "out/results.json";
@@ -233,7 +233,7 @@ TEST(Resuming, RefusesOtherFormats)
 
 TEST(Resuming, RefusesFilesThatAreNoResults)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   fs::create_directory(folder / "out");
   const std::string results = folder.write("out/results.json", "{\"experiment\": 1}");
   const Outcome o =

@@ -33,7 +33,7 @@ constexpr std::size_t good_rows = 6, bad_rows = 3;
 /// Two kinds of rings, the second half as large again as 5: its period is 2 (R_A + R_B - r_A - r_B).
 TEST(SweepRun, ChainsFollowTheirFormula)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"run", folder.write("s.json", sweep_text()), "-o", folder / "out"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   const json::value r = read_results(folder / "out");
@@ -61,7 +61,7 @@ TEST(SweepRun, ChainsFollowTheirFormula)
 /// each.
 TEST(SweepRun, NamedValuesAreVariedWithAllThatIsMadeOfThem)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::string text = with(sweep_text(), R"("cell": {)",
                           R"("values": { "R": 5, "r": 0.7, "other": "$R / 2 + 2.5" }, "cell": {)");
   const std::string sizes = R"("ring.R": 5.0, "ring.r0": 0.7, "ring.r1": 0.7)";
@@ -98,7 +98,7 @@ TEST(SweepRun, NamedValuesAreVariedWithAllThatIsMadeOfThem)
 
 TEST(SweepRun, BadRowsAreRowsWithAMessage)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write(
       "s.json",
       with(with(sweep_text(), R"([4.8, 5.2, 0.6])", R"([0.6, 5.0, 2, 5.6])"), "[0.5, 0.6, 0.7]", "[0.7]"));
@@ -120,7 +120,7 @@ TEST(SweepRun, BadRowsAreRowsWithAMessage)
 
 TEST(SweepRun, TableAndPicture)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", folder / "out"}).code, 0);
   std::istringstream table(read_text(folder.path() / "out" / "sweep.csv"));
   std::string line;
@@ -138,7 +138,7 @@ TEST(SweepRun, TableAndPicture)
 /// What rows replace is not said of all of them.
 TEST(SweepRun, PicturesNameNoSweptQuantityAbove)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const auto picture = [&](const std::string& vary) {
     const std::string file = folder.write(
         "s.json",
@@ -168,7 +168,7 @@ TEST(SweepRun, PicturesNameNoSweptQuantityAbove)
 
 TEST(SweepRun, ListsStandOnOneLine)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file =
       folder.write("s.json", R"({ "name": "lists", "task": "sweep", "cell": { "weave": { "name": "chain" } },
   "load_case": { "plugin": "in_plane_periodic", "directions_deg": [0], "senses": ["stretch"] },
@@ -188,7 +188,7 @@ TEST(SweepRun, ListsStandOnOneLine)
 
 TEST(SweepRun, SameResultsForAnyNumberOfThreads)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("s.json", sweep_text());
   std::vector<std::string> texts;
   for (const char* n : {"1", "2", "5"}) {
@@ -202,7 +202,7 @@ TEST(SweepRun, SameResultsForAnyNumberOfThreads)
 
 TEST(SweepRun, ResumesWhatIsMissing)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("s.json", sweep_text()), out = folder / "out";
   ASSERT_EQ(run_program({"run", file, "-o", out}).code, 0);
   const json::value whole = read_results(out);
@@ -229,7 +229,7 @@ TEST(SweepRun, ResumesWhatIsMissing)
 
 TEST(SweepRun, InterruptKeepsWhatThereIs)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   // The second row is never done.
   const std::string file = folder.write(
       "s.json",
@@ -254,7 +254,7 @@ TEST(SweepRun, InterruptKeepsWhatThereIs)
 
 TEST(SweepRun, RowsAreVerifiedFromTheFile)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", out}).code, 0);
   const Outcome good = run_program({"verify", out});
@@ -281,7 +281,7 @@ TEST(SweepRun, RowsAreVerifiedFromTheFile)
 
 TEST(SweepRun, TableIsVerifiedAgainstWhatWasAskedFor)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   ASSERT_EQ(run_program({"run", folder.write("s.json", sweep_text()), "-o", out}).code, 0);
   const json::value whole = read_results(out);
@@ -323,7 +323,7 @@ TEST(SweepRun, TableIsVerifiedAgainstWhatWasAskedFor)
 
 TEST(SweepRun, RangesAreVerified)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string out = folder / "out";
   const std::string file =
       folder.write("s.json", with(with(sweep_text(), R"("values": [4.8, 5.2, 0.6])",

@@ -15,7 +15,7 @@ namespace json = boost::json;
 
 TEST(TransitionRun, ComputesAndWritesEverything)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("turn.json", transition_text()), out = folder / "out";
   EXPECT_EQ(run_program({"check", file, "--thorough"}).out,
             file + ": no problems; 1 paths, 2 formulations\n");
@@ -37,7 +37,7 @@ TEST(TransitionRun, ComputesAndWritesEverything)
 
 TEST(TransitionRun, OverlappingPathsAreBadInput)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("turn.json", with(transition_text(), "[4, -1.5]", "[4, -4]"));
   const Outcome o = run_program({"run", file, "-o", folder / "out"});
   EXPECT_EQ(o.code, 2);

@@ -161,7 +161,7 @@ class Tutorial : public ::testing::Test {
     return argument.ends_with(".json") || argument.starts_with("out/") ? folder_ / argument : argument;
   }
 
-  TemporaryFolder folder_;
+  WorkFolder folder_;
   Lines files_;
   std::vector<Command> commands_;
 };

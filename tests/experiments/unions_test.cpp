@@ -48,7 +48,7 @@ const char* turned_part = R"("shape": "union", "parts": [
 /// A period of these is 5 + 4 between the centres, and 5 + 4 - (0.7 + 0.7) from there to the next.
 constexpr double pairs_limit = (2.0 * 9.0 - 1.4) / 15.0 - 1.0;
 
-json::value results_of(const TemporaryFolder& folder, const std::string& name, const std::string& text)
+json::value results_of(const WorkFolder& folder, const std::string& name, const std::string& text)
 {
   const Outcome o = run_program({"run", folder.write(name + ".json", text), "-o", folder / name});
   EXPECT_EQ(o.code, 0) << o.err << o.out;
@@ -73,7 +73,7 @@ json::object limit_alone(const json::value& results)
 
 TEST(Unions, AreTheSameAsOneShapeWithTheirPrimitives)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const json::value one = results_of(folder, "one", pairs_text(one_shape));
   const json::value two = results_of(folder, "two", pairs_text(two_parts));
   EXPECT_NEAR(number_at(one, "/limits/0/value"), pairs_limit, 1e-9);
@@ -90,7 +90,7 @@ TEST(Unions, AreTheSameAsOneShapeWithTheirPrimitives)
 /// Parts that nothing joins move as one, which nothing that is made does: whoever asks is told.
 TEST(Unions, PartsThatNothingJoinsAreTold)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text =
       with(union_text(), R"("position": [0, 0, 4], "axis": [1, 0, 0])",
            R"("position": [0, 0, 4], "axis": [1, 0, 0] }, { "name": "far", "position": [0, 0, 40])");
@@ -126,7 +126,7 @@ TEST(Unions, AreDesignedAsOneShapeIs)
                    { "parameters": "right)" + ring + R"(.r0", "lower": 0.4, "upper": 1 } ],
     "targets": [ { "direction_deg": 0, "value": 0.125 } ] })");
   };
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const json::value one = results_of(folder, "one", design(pairs_text(one_shape), ""));
   const json::value two = results_of(folder, "two", design(pairs_text(two_parts), ".ring"));
   for (const char* pointer : {"/design/variables/0/final", "/design/variables/1/final", "/limits/0/value"})
@@ -143,7 +143,7 @@ TEST(Unions, PlacesOfPartsAreDesigned)
     "optimizer": { "plugin": "sqp", "max_iterations": 20 }, "quantity": "stretch",
     "variables": [ { "parameters": "eye.x", "lower": -3, "upper": 3 } ],
     "targets": [ { "direction_deg": 0, "value": 0.2 } ] })");
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const json::value results = results_of(folder, "out", text);
   EXPECT_NEAR(number_at(results, "/design/variables/0/final"), 0.08 * 15.0, 1e-4);
   EXPECT_NEAR(number_at(results, "/limits/0/value"), 0.2, 1e-5);
@@ -151,7 +151,7 @@ TEST(Unions, PlacesOfPartsAreDesigned)
 
 TEST(Unions, SensitivitiesOfPlacesAreExact)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const json::value results = results_of(folder, "out", union_text());
   const std::pair<const char*, double> expected[] = {
       {"0/eye.x", 1.0},        {"0/hook.x", -1.0}, {"0/eye.ring.R", 1.0},  {"0/hook.half_length", 1.0},
@@ -164,7 +164,7 @@ TEST(Unions, SensitivitiesOfPlacesAreExact)
 /// a period of two is 2 sqrt(2) size - 4 sqrt(3) r, and only the loop of both halves holds it.
 TEST(Unions, PartsCloseLoopsTogether)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::string text = read_text(HAUBERK_SOURCE_DIR "/shapes/strut_frame/example.json");
   text = with(text, R"("shape": "strut_frame", "polyhedron": "square",)", R"("shape": "union", "parts": [
         { "name": "a", "shape": "strut_frame", "nodes": [[1, -1, 0], [1, 1, 0], [-1, 1, 0]], "struts": [[0, 1], [1, 2]] },
@@ -182,7 +182,7 @@ TEST(Unions, PartsCloseLoopsTogether)
 
 TEST(Unions, ResultsWithAnotherPlaceOfAPartFailTheCheck)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   json::value results = results_of(folder, "out", union_text());
   EXPECT_EQ(results.at_pointer("/scene/elements/0/primitives/1/name"), "hook.tube");
   for (const char* pointer : {"/experiment/elements/link/parts/1/rotation/degrees",

@@ -18,7 +18,7 @@ class Verify : public ::testing::Test {
  protected:
   static void SetUpTestSuite()
   {
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     ASSERT_EQ(run_program({"run", folder.write("c.json", chain_text()), "-o", folder / "out"}).code, 0);
     results_ = read_results(folder / "out");
   }
@@ -27,7 +27,7 @@ class Verify : public ::testing::Test {
   {
     json::value results = results_;
     tamper(results);
-    const TemporaryFolder folder;
+    const WorkFolder folder;
     return run_program({"verify", folder.write("results.json", write_json(results))});
   }
 
@@ -77,7 +77,7 @@ TEST_F(Verify, CatchesALostLink)
 /// Cells of three vectors: every number that only they have is looked at.
 TEST_F(Verify, Solids)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   ASSERT_EQ(run_program({"run", HAUBERK_SOURCE_DIR "/loadcases/volumetric_periodic/example.json", "-o",
                          folder / "out"})
                 .code,
@@ -118,7 +118,7 @@ TEST_F(Verify, Solids)
 
 TEST_F(Verify, FilesThatAreNoResults)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome other = run_program({"verify", folder.write("a.json", "{}")});
   EXPECT_EQ(other.code, 1);
   EXPECT_EQ(other.out.find("FAIL "), 0U) << other.out;

@@ -49,7 +49,7 @@ class Weaves : public ::testing::TestWithParam<Weave> {};
 TEST_P(Weaves, AreLinkedAsTheySay)
 {
   const Weave& weave = GetParam();
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome o = run_program({"plan", "--json", folder.write("w.json", experiment(weave))});
   ASSERT_EQ(o.code, 0) << o.err;
   std::vector<int> links;
@@ -69,7 +69,7 @@ TEST_P(Weaves, AreLinkedAsTheySay)
 TEST_P(Weaves, HaveRoomFromTheirSmallestRatioOn)
 {
   const Weave& weave = GetParam();
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("w.json", experiment(weave));
   const auto check = [&](double ratio) {
     // The side rings of the threefold element must stay as large as its lattice needs them.
@@ -126,7 +126,7 @@ class FoldedWeaves : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FoldedWeaves, HaveThePlacesOfAnIndependentSearch)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("w.json", experiment({GetParam(), {}, "", "", 0.0}));
   ASSERT_EQ(run_program({"run", file, "-o", folder / "out", "--set", "/solver/lessons=false"}).code, 0);
   const json::value scene = read_results(folder / "out").at("scene");
@@ -151,7 +151,7 @@ TEST_P(FoldedWeaves, HaveThePlacesOfAnIndependentSearch)
                              1.0 - 2.0 * (q(1) * q(1) + q(2) * q(2))};
     double same = 0.0, opposite = 0.0;  // distances of the normals
     for (int c = 0; c < 3; ++c) {
-      const json::value& expected_ring = rings[static_cast<std::size_t>(k)];
+      const json::value& expected_ring = rings[k];
       EXPECT_NEAR(number_at(scene, fmt::format("{}/position/{}", ring, c)) / R,
                   number_at(expected_ring, fmt::format("/centre/{}", c)), in_length)
           << ring;
@@ -182,7 +182,7 @@ class SmallestRatio : public ::testing::TestWithParam<std::tuple<Weave, double>>
 TEST_P(SmallestRatio, IsFound)
 {
   const auto& [weave, expected] = GetParam();
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string found = folder / "found.json";
   const Outcome o = run_program({"room", folder.write("w.json", experiment(weave)), "-o", found});
   ASSERT_EQ(o.code, 0) << o.err;
@@ -233,7 +233,7 @@ const char* const patch = R"({ "name": "patch",
 
 TEST(RoomFiles, PatchesCanBeLoaded)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string found = folder / "found.json";
   const Outcome o = run_program({"room", folder.write("p.json", patch), "-o", found, "--starts", "3"});
   ASSERT_EQ(o.code, 0) << o.err;
@@ -252,7 +252,7 @@ TEST(RoomFiles, PatchesCanBeLoaded)
 
 TEST(RoomFiles, AWeaveThatIsSweptCanBeLoaded)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string found = folder / "found.json";
   const Outcome o = run_program({"room", folder.write("s.json", R"({ "name": "s", "task": "sweep",
   "cell": { "weave": { "name": "chain", "parameters": { "inner_diameter": 8 } } },
@@ -267,7 +267,7 @@ TEST(RoomFiles, AWeaveThatIsSweptCanBeLoaded)
 
 TEST(RoomFiles, AreNotReplacedAndNothingElseIs)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string file = folder.write("p.json", patch);
   const Outcome own = run_program({"room", file, "-o", file, "--starts", "1"});
   EXPECT_EQ(own.code, 2);
@@ -285,7 +285,7 @@ TEST(RoomFiles, AreNotReplacedAndNothingElseIs)
 
 TEST(WeaveFiles, ArePathsToo)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   folder.write("own.json", read_text(std::string(HAUBERK_WEAVES) + "/chain.json"));
   const std::string text =
       with(experiment({"chain", {}, "", "", 0.0}), R"("name": "chain")", R"("name": "own.json")");
@@ -300,7 +300,7 @@ TEST(WeaveFiles, ArePathsToo)
 
 TEST(WeaveFiles, PatchesAreCutFromThem)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string text = R"({ "name": "p", "length_unit": "mm",
   "cell": { "weave": { "name": "european_4in1" }, "patch": { "outline": { "rectangle": [2, 3] } } },
   "load_case": { "plugin": "cylinder_roll", "directions_deg": [0], "senses": ["up"],
@@ -326,7 +326,7 @@ TEST(WeaveFiles, PatchesAreCutFromThem)
 
 TEST(WeaveFiles, SweepsAreResumedOnlyFromTheSame)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string weave = read_text(std::string(HAUBERK_WEAVES) + "/chain.json");
   folder.write("own.json", weave);
   const std::string file =
@@ -350,7 +350,7 @@ TEST(WeaveFiles, SweepsAreResumedOnlyFromTheSame)
 
 TEST(WeaveFiles, MistakesAreReported)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const std::string good = experiment({"chain", {}, "", "", 0.0});
   const auto after = [&](const std::string& from, const std::string& to) {
     const std::string file = folder.write("w.json", with(good, from, to));

@@ -33,9 +33,8 @@ void Turned::do_jacobians(std::span<const double> p, std::vector<PrimitiveJacobi
     for (Eigen::Index i = 0; i < 3; ++i) {
       const Vec3 omega = turns.col(i), moved = omega.cross(here[k].position);
       for (std::size_t row = 0; row < 3; ++row) {
-        J[row * p.size() + 3 * k + static_cast<std::size_t>(i)] = moved[static_cast<Eigen::Index>(row)];
-        J[(first + row) * p.size() + 3 * k + static_cast<std::size_t>(i)] =
-            omega[static_cast<Eigen::Index>(row)];
+        J[row * p.size() + 3 * k + static_cast<std::size_t>(i)] = moved[row];
+        J[(first + row) * p.size() + 3 * k + static_cast<std::size_t>(i)] = omega[row];
       }
     }
     out.push_back(std::move(J));

@@ -1,5 +1,5 @@
 #pragma once
-/// The errors that cross the boundary of plugins, one for each exit code.
+/// The errors that cross the boundary of plugins, with the exit code that each ends in.
 
 #include <stdexcept>
 #include <string>

@@ -42,7 +42,7 @@ struct Path {
   Vec3 velocity(const PositionMap& map) const
   {
     Vec3 out = Vec3::Zero();
-    for (std::size_t i = 0; i < all; ++i) out += map.J.col(static_cast<Eigen::Index>(i)) * dy[i];
+    for (std::size_t i = 0; i < all; ++i) out += map.J.col(i) * dy[i];
     return out;
   }
   Vec3 acceleration(const PositionMap& map) const

@@ -112,7 +112,7 @@ TEST(CylinderRoll, HeldCoordinatesAreThoseOfZero)
     const PositionMap map = position(load, y, X);
     EXPECT_EQ(map.x, whole.x);
     for (std::size_t a = 0; a < columns.size(); ++a) {
-      EXPECT_EQ(map.J.col(static_cast<Eigen::Index>(a)), whole.J.col(columns[a]));
+      EXPECT_EQ(map.J.col(a), whole.J.col(columns[a]));
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t b = 0; b < columns.size(); ++b)
           EXPECT_EQ(map.H[i][a][b],
@@ -222,7 +222,7 @@ TEST(CylinderRoll, NoHeightsMakeUpForACurvature)
   EXPECT_LT((rows * rows.transpose() - Eigen::MatrixXd::Identity(9, 9)).norm(), 1e-13);
   const auto violation = [&](const auto& motion) {
     Eigen::VectorXd e(36);
-    for (Eigen::Index i = 0; i < 12; ++i) e.segment<3>(3 * i) = motion(X[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < 12; ++i) e.segment<3>(3 * i) = motion(X[i]);
     return (rows * e).norm() / e.norm();
   };
   using V = Vec3;

@@ -96,7 +96,7 @@ TEST(InPlanePeriodic, DerivativeOfPositionIsExact)
       std::vector<double> y = q;
       y[k] += 0.5;
       const Vec3 difference = (at(y).x - base.x) / 0.5;
-      EXPECT_NEAR((base.J.col(static_cast<Eigen::Index>(k)) - difference).norm(), 0.0, 1e-14) << k;
+      EXPECT_NEAR((base.J.col(k) - difference).norm(), 0.0, 1e-14) << k;
       EXPECT_GT(difference.norm(), 0.9);
     }
     for (auto k = static_cast<Eigen::Index>(q.size()); k < PositionMap::n; ++k) {

@@ -116,10 +116,11 @@ Description export_description()
       .form = fmt::format("FILE.json -o OUT.{{{}}} [--state S]", export_endings_between_commas()),
       .line = "a fabric to print, to look at or to compute with",
       .synopsis = "export FILE.json -o OUT [options]",
-      .summary =
-          "Writes the elements of an experiment or of results (or of a folder of results) as closed surfaces: "
-          "STL, OBJ, 3MF, GLB, VTU by the ending of the file's name, a picture as PNG, or as HTML a page that "
+      .summary = fmt::format(
+          "Writes the elements of an experiment or of results (or of a folder of results) as closed "
+          "surfaces, in the format that the file's name ends in: {}. PNG is a picture, HTML a page that "
           "shows all states, to be turned by hand.",
+          export_endings()),
       .more =
           "Primitives of one element that overlap become one surface. What is said of gaps is certified, and "
           "is that of the exact surfaces, not of their triangles.",

@@ -1,5 +1,5 @@
 #pragma once
-/// The formats of `hauberk export`, by the ending of a file's name: the one place that lists them.
+/// The formats of `hauberk export`, by the ending of a file's name; what users read of them follows.
 
 #include "export/page.hpp"
 #include "opened_fabric.hpp"

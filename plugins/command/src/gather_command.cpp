@@ -178,8 +178,9 @@ int gather_command(const std::vector<std::string>& words)
   request.resume = !request.force;
   const int code = run_experiment(job, request);
   if (const auto [checked, all] = logs.checked(); checked > 0)
-    say("{} parts, of whose {} searches {} were taken over; one of {} of {} logs was done once more and is the same\n",
-        division.count, logs.known(), logs.recalled(), checked, all);
+    say("{} parts with {} searches{}; one of {} of {} logs was done once more and is the same\n",
+        division.count, logs.known(),
+        logs.done_again() > 0 ? fmt::format(", {} of them of no use", logs.done_again()) : "", checked, all);
   return code;
 }
 

@@ -36,7 +36,7 @@ boost::json::value row_of(boost::json::value results, const Options& options, co
   if (number < 0 || static_cast<std::size_t>(number) >= rows.size())
     throw InputError(fmt::format("--row {}: {} has {} rows, 0 to {}", number, file, rows.size(),
                                  static_cast<int>(rows.size()) - 1));
-  const detail::JsonPlace row = rows[static_cast<std::size_t>(number)];
+  const detail::JsonPlace row = rows[number];
   const auto result = row.find("result");
   if (!result)
     throw InputError(fmt::format("--row {}: it has no result: {}, {}", number, row.at("status").text(),

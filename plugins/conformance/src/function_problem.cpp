@@ -43,7 +43,7 @@ bool FunctionProblem::allowed(const VectorXd& v) const
 void FunctionProblem::check_evaluation(const VectorXd& v)
 {
   for (std::size_t i = 0; i < lower_bounds.size(); ++i) {
-    const double x = v[static_cast<Eigen::Index>(i)];
+    const double x = v[i];
     breaks(!(x >= lower_bounds[i] && x <= upper_bounds[i]),
            fmt::format("it evaluated x[{}] = {} outside its bounds [{}, {}]", i, x, lower_bounds[i],
                        upper_bounds[i]));

@@ -121,7 +121,7 @@ void first_derivatives(Trial& trial)
     const State state = draw_state(load_case, trial.random);
     const PositionMap here = state.of(load_case, state.y);
     for (std::size_t k = 0; k < state.y.size(); ++k) {
-      const Vec3 column = here.J.col(static_cast<Eigen::Index>(k));
+      const Vec3 column = here.J.col(k);
       const Along moved = [&](double s) {
         const Vec3 x = state.of(load_case, state.moved(k, s)).x;
         return Values(x.begin(), x.end());
@@ -235,7 +235,7 @@ struct Path {
     for (std::size_t k = 0; k < d.size(); ++k) y[k] += at * d[k];
     const PositionMap map = from.of(load_case, y);
     Vec3 v = Vec3::Zero();
-    for (std::size_t k = 0; k < d.size(); ++k) v += map.J.col(static_cast<Eigen::Index>(k)) * d[k];
+    for (std::size_t k = 0; k < d.size(); ++k) v += map.J.col(k) * d[k];
     return v;
   }
   double acceleration(const LoadCase& load_case) const

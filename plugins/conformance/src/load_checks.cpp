@@ -120,7 +120,7 @@ std::pair<Values, Vec3> macro_and_translation(const Values& x, const Vec3& like)
 {
   Vec3 T = like;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (T[static_cast<Eigen::Index>(k)] != 0.0) T[static_cast<Eigen::Index>(k)] = x[x.size() - 3 + k];
+    if (T[k] != 0.0) T[k] = x[x.size() - 3 + k];
   }
   return {Values(x.begin(), x.end() - 3), T};
 }

@@ -54,7 +54,7 @@ class Columns {
   /// Into three rows.
   void set(std::size_t row, std::size_t column, const Vec3& v)
   {
-    for (std::size_t i = 0; i < coordinates; ++i) at(row + i, column) = v[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < coordinates; ++i) at(row + i, column) = v[i];
   }
 
  private:
@@ -78,7 +78,7 @@ void place_jacobian(const PrimitiveJacobian& own, std::size_t n, const Vec3& x, 
   }
   const Vec3 arm = part.rotation * x;
   for (std::size_t i = 0; i < coordinates; ++i) {
-    const Vec3 omega = part.turns.col(static_cast<Eigen::Index>(i));
+    const Vec3 omega = part.turns.col(i);
     J.at(i, first + n + i) = 1.0;
     J.set(0, first + n + coordinates + i, omega.cross(arm));
     J.set(turn, first + n + coordinates + i, omega);
@@ -135,10 +135,9 @@ UnionShape::UnionShape(std::vector<UnionPart> parts) : parts_(std::move(parts))
       parameters_.push_back(std::move(info));
     }
     for (std::size_t i = 0; i < coordinates; ++i)
-      parameters_.push_back({part.name + "." + place_parameters[i], "length",
-                             part.position[static_cast<Eigen::Index>(i)], -farthest, farthest,
-                             std::string(place_parameters[i]) + " of the part's origin in the element frame",
-                             true});
+      parameters_.push_back(
+          {part.name + "." + place_parameters[i], "length", part.position[i], -farthest, farthest,
+           std::string(place_parameters[i]) + " of the part's origin in the element frame", true});
     for (std::size_t i = coordinates; i < place_parameters.size(); ++i)
       parameters_.push_back(
           {part.name + "." + place_parameters[i], "degree", 0.0, -farthest_turn, farthest_turn,

@@ -113,7 +113,7 @@ void search_jumps(CurveItem& item, const KeepGoing& keep_going)
 
 void measure_quadrature(CurveItem& item, const KeepGoing& keep_going)
 {
-  if (item.settings.formulation != Formulation::arc) return;
+  if (!traits(item.settings.formulation).is_integral) return;
   ContactSettings finer = item.settings;
   finer.panel_ratio *= finer_panels;
   double energy = 0.0, force = 0.0;

@@ -68,7 +68,7 @@ bool is_asked(const Asked& asked, const Limit& limit)
     return std::abs(std::remainder(limit.direction_deg - asked.direction_deg, 180.0)) < same_angle;
   bool same = static_cast<std::size_t>(limit.direction->size()) == asked.components.size();
   for (std::size_t k = 0; same && k < asked.components.size(); ++k)
-    same = equal((*limit.direction)[static_cast<Eigen::Index>(k)], asked.components[k], rounding);
+    same = equal((*limit.direction)[k], asked.components[k], rounding);
   return same;
 }
 

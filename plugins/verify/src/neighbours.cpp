@@ -32,7 +32,7 @@ std::array<Vec3, 2> images_within(const Mat3& inverse, const Vec3& d, double rea
 Mat3 cell_matrix(const Scene& scene, const Mat3& F)
 {
   Mat3 A = Mat3::Identity();
-  for (std::size_t k = 0; k < scene.cell.size(); ++k) A.col(static_cast<Eigen::Index>(k)) = F * scene.cell[k];
+  for (std::size_t k = 0; k < scene.cell.size(); ++k) A.col(k) = F * scene.cell[k];
   return A;
 }
 

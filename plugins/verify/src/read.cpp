@@ -224,7 +224,7 @@ Macro read_macro(const json::value& v, Load load, const std::string& where)
   out.load = load;
   out.values.resize(static_cast<Eigen::Index>(names.size()));
   for (std::size_t k = 0; k < names.size(); ++k)
-    out.values[static_cast<Eigen::Index>(k)] = number(member(v, names[k], where), where + "/" + names[k]);
+    out.values[k] = number(member(v, names[k], where), where + "/" + names[k]);
   return out;
 }
 
@@ -302,8 +302,7 @@ Scene read_scene(const json::value& scene, const std::string& where, const Shape
     const json::array& a = array(vector, where + "/cell_vectors");
     if (a.empty() || a.size() > 3) throw Malformed(where + "/cell_vectors: one to three numbers expected");
     Vec3 out_vector = Vec3::Zero();
-    for (std::size_t k = 0; k < a.size(); ++k)
-      out_vector[static_cast<Eigen::Index>(k)] = number(a[k], where + "/cell_vectors");
+    for (std::size_t k = 0; k < a.size(); ++k) out_vector[k] = number(a[k], where + "/cell_vectors");
     out.cell.push_back(out_vector);
   }
   const bool sheet = out.cell.size() == 2 && std::abs(out.cell[0].cross(out.cell[1]).z()) > 0.0 &&
@@ -374,7 +373,7 @@ Limit read_limit(const json::value& limit, Load load, const std::string& where)
       throw Malformed(at + ": three numbers expected, of a solid six");
     out.direction = Macros(static_cast<Eigen::Index>(components.size()));
     for (std::size_t k = 0; k < components.size(); ++k)
-      (*out.direction)[static_cast<Eigen::Index>(k)] = number(components[k], at + "/" + std::to_string(k));
+      (*out.direction)[k] = number(components[k], at + "/" + std::to_string(k));
     if (!(out.direction->cwiseAbs().maxCoeff() > 0.0)) throw Malformed(at + ": not all zeros expected");
     out.direction_deg = std::numeric_limits<double>::quiet_NaN();
     if (!member(limit, "direction_deg", where).is_null())

@@ -118,7 +118,7 @@ TEST_P(RotationParameters, OfTheGaps)
         std::array<double, 2> v{};
         for (std::size_t side = 0; side < 2; ++side)
           v[side] = smallest(find_gaps(turned(element, k, side == 0 ? h : -h), state, range, false), a).gap;
-        error[j] = std::abs((v[0] - v[1]) / (2.0 * h) - claimed[static_cast<Eigen::Index>(k)]);
+        error[j] = std::abs((v[0] - v[1]) / (2.0 * h) - claimed[k]);
       }
       expect_second_order(error, 1.0, 1e-9);
     }

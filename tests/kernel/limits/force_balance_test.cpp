@@ -59,7 +59,7 @@ TEST(BalancedForces, AreTheNearest)
   ASSERT_TRUE(parts);
   double found = 0.0;
   for (std::size_t k = 0; k < sheet.contacts.points.size(); ++k) {
-    const double roundings = (*parts)[static_cast<Eigen::Index>(k)] / sheet.rounding(k);
+    const double roundings = (*parts)[k] / sheet.rounding(k);
     found += roundings * roundings;
   }
   ASSERT_TRUE(change_forces(sheet.contacts, sheet.model, sheet.locked.state, Formulation::nearest, *parts));

@@ -118,7 +118,7 @@ TEST_P(LastMoment, IsFound)
   const Model m = make_model(scene, load, clearance);
   const State from = rest_state(m);
   Vector dy = Vector::Zero(m.dofs());
-  for (int k = 0; k < 2; ++k) dy[k] = meeting.step[static_cast<std::size_t>(k)] * (k == 1 ? m.length : 1.0);
+  for (int k = 0; k < 2; ++k) dy[k] = meeting.step[k] * (k == 1 ? m.length : 1.0);
   for (int i = 0; i < m.element_count(); ++i)
     for (int c = 0; c < 3; ++c)
       dy[m.offset(i) + c] = meeting.step[static_cast<std::size_t>(2 + 3 * i + c)] / m.length;

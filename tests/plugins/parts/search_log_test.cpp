@@ -76,20 +76,23 @@ TEST_F(SearchLog, RecallsWhatWasRecorded)
   EXPECT_EQ(warnings_, "");
 }
 
-TEST_F(SearchLog, TellsOnceThatSearchesCannotBeRead)
+TEST_F(SearchLog, TellsOnceOfSearchesThatAreDoneAgain)
 {
-  const fs::path file = written({0.25, 0.5});
+  const fs::path file = written({0.25, 0.5, 0.75});
   SearchLogs in = logs();
   ASSERT_TRUE(in.read(file));
   EXPECT_TRUE(in.recall("s0"));
-  EXPECT_EQ(in.recalled(), 1U);
   const std::string blanks(fs::file_size(file), ' ');
   std::ofstream(file, std::ios::binary) << blanks;
-  EXPECT_FALSE(in.recall("s1"));
-  EXPECT_FALSE(in.recall("s0"));
-  EXPECT_EQ(in.recalled(), 1U);
-  EXPECT_EQ(warnings_, file.string() +
-                           ": the search 's1' is there and cannot be read; it and the like are done again\n");
+  for (const char* name : {"s1", "s2"}) {
+    EXPECT_FALSE(in.recall(name));
+    in.record(name, outcome(0.5), 0.1);
+  }
+  in.record("s3", outcome(1.0), 0.1);  // one that no log has
+  EXPECT_EQ(in.done_again(), 2U);
+  EXPECT_EQ(warnings_,
+            "warning: " + file.string() +
+                ": what it has of the search 's1' is of no use; this one and the like are done again\n");
 }
 
 TEST_F(SearchLog, TwoRunsNeverShareAFile)

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <string>
 #include <thread>
 
 namespace hauberk::test {
@@ -49,25 +49,46 @@ TEST(Processors, AreNoMoreThanTheSchedulerSays)
   ::unsetenv("SLURM_CPUS_PER_TASK");
 }
 
-TEST(Memory, OfAGroupIsTheLeastOfAllAboveIt)
+TEST(Memory, OfGroupsIsTheLeastOfAllAboveThem)
 {
-  const TemporaryFolder folder;
-  const std::filesystem::path root = folder.path();
-  std::filesystem::create_directories(root / "job/step/task");
-  const auto limit = [&](const char* group, const char* text) {
-    std::ofstream(root / group / "memory.max") << text << '\n';
+  const TemporaryFolder root;
+  const std::string second = "1:name=systemd:/else\n0::/job/step/task\n",
+                    first = "5:cpu,cpuacct:/else\n4:memory:/slurm/job\n" + second;
+  const auto limit = [&](const std::string& group, const char* file, const char* text) {
+    root.folder(group);
+    root.file(group + "/" + file, std::string(text) + "\n");
   };
-  EXPECT_FALSE(memory_of_groups(root, "/job/step/task"));
-  limit("job/step/task", "max");
-  EXPECT_FALSE(memory_of_groups(root, "/job/step/task"));
-  limit("job", "2000000000");
-  EXPECT_EQ(memory_of_groups(root, "/job/step/task"), 2e9);
-  limit("job/step", "1073741824");
-  EXPECT_EQ(memory_of_groups(root, "/job/step/task"), 1073741824.0);
-  EXPECT_EQ(memory_of_groups(root, "/job"), 2e9);
-  limit("job/step/task", "0x10");
-  EXPECT_EQ(memory_of_groups(root, "/job/step/task"), 1073741824.0);
-  EXPECT_GT(available_memory(), 0.0);
+  EXPECT_FALSE(memory_of_groups(root.path(), second));
+  limit("job/step/task", "memory.max", "max");
+  limit("else", "memory.max", "1");
+  EXPECT_FALSE(memory_of_groups(root.path(), second));
+  limit("job", "memory.max", "2000000000");
+  EXPECT_EQ(memory_of_groups(root.path(), second), 2e9);
+  limit("job/step", "memory.max", "1073741824");
+  EXPECT_EQ(memory_of_groups(root.path(), second), 1073741824.0);
+  EXPECT_EQ(memory_of_groups(root.path(), "0::/job\n"), 2e9);
+  limit("job/step/task", "memory.max", "0x10");
+  EXPECT_EQ(memory_of_groups(root.path(), second), 1073741824.0);
+  limit("memory/slurm/job", "memory.limit_in_bytes", "9223372036854771712");
+  EXPECT_EQ(memory_of_groups(root.path(), first), 1073741824.0);
+  limit("memory/slurm", "memory.limit_in_bytes", "1000000000");
+  EXPECT_EQ(memory_of_groups(root.path(), first), 1e9);
+  EXPECT_EQ(memory_of_groups(root.path(), second), 1073741824.0);
+  limit("unified/job", "memory.max", "500000000");
+  EXPECT_EQ(memory_of_groups(root.path(), first), 5e8);
+}
+
+TEST(Memory, IsNoMoreThanTheAddressSpaceMayHold)
+{
+  rlimit former{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &former), 0);
+  const double before = available_memory();
+  const rlim_t less = static_cast<rlim_t>(before / 2.0);
+  const rlimit half{less, former.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &half), 0);
+  EXPECT_EQ(available_memory(), static_cast<double>(less));
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &former), 0);
+  EXPECT_EQ(available_memory(), before);
 }
 
 }  // namespace

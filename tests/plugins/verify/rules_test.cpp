@@ -133,6 +133,19 @@ TEST(Scenes, AreThoseOfTheExperiment)
                   "measure equation_12 expected, found tensor"));
 }
 
+TEST(Tasks, AreThoseThatTheCheckKnows)
+{
+  const auto text = [](const char* task) {
+    boost::json::value document = chain_document();
+    document.at("experiment").as_object()["task"] = task;
+    return verify(document).text();
+  };
+  EXPECT_EQ(text("limits").find("FAIL"), std::string::npos);
+  EXPECT_NE(text("limit").find("FAIL /experiment/task: 'limit' is no task that this check knows"),
+            std::string::npos);
+  EXPECT_NE(text("design").find("FAIL /design: null, a design expected"), std::string::npos);
+}
+
 TEST(Scenes, RelaxedRestIsLinkedAsPlaced)
 {
   // Placed 0.1 mm aside and relaxed: what can be said is that links are those of the places, and nothing

@@ -84,7 +84,7 @@ class Mutation : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Mutation, IsCaughtOrListed)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::vector<std::string> words{"run"};
   words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
   words.insert(words.end(), {"-o", folder / "out"});
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Results, Mutation, ::testing::ValuesIn(cases()),
 /// Experiments that are texts of the tests.
 void mutate_text(const std::string& name, const std::string& text, int code = 0)
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   const Outcome run = run_program(
       {"run", folder.write("e.json", text), "-o", folder / "out", "--plugin-path", HAUBERK_SOLID_SHAPES});
   ASSERT_EQ(run.code, code) << run.err;

@@ -18,7 +18,7 @@ namespace json = boost::json;
 
 json::value results_of(const std::string& experiment, const std::vector<std::string>& more = {})
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::vector<std::string> words{"run", experiment, "-o", folder / "out"};
   words.insert(words.end(), more.begin(), more.end());
   const Outcome run = run_program(words);
@@ -30,13 +30,13 @@ json::value squares() { return results_of(HAUBERK_SOURCE_DIR "/shapes/strut_fram
 
 json::value solid_chain()
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   return results_of(folder.write("chain.json", solid_chain_text()), {"--plugin-path", HAUBERK_SOLID_SHAPES});
 }
 
 Outcome verified(const json::value& results, const std::vector<std::string>& more = {})
 {
-  const TemporaryFolder folder;
+  const WorkFolder folder;
   std::vector<std::string> words{"verify", folder.write("results.json", write_json(results))};
   words.insert(words.end(), more.begin(), more.end());
   return run_program(words);

@@ -1,4 +1,4 @@
-#include "limits/held_state.hpp"
+#include "limits/state_forces.hpp"
 
 #include "limits/kinks.hpp"
 
@@ -71,7 +71,7 @@ void fill_kink(LimitResult& r, const Model& m, const LimitTask& task, const Lock
 
 }  // namespace
 
-HeldState::HeldState(const Model& of, const LimitTask& asked, const Locked& found, const KeepGoing& keep)
+StateForces::StateForces(const Model& of, const LimitTask& asked, const Locked& found, const KeepGoing& keep)
     : model(of),
       task(asked),
       locked(found),
@@ -85,18 +85,18 @@ HeldState::HeldState(const Model& of, const LimitTask& asked, const Locked& foun
   driving = load.pull.norm() / full;
 }
 
-double energy_imbalance(const HeldState& h)
+double energy_imbalance(const StateForces& h)
 {
   Vector rest = h.locked.stage.mu * h.contacts.gradient;
   rest.head(h.model.macro_count) -= h.load.pull;
   return unheld(h.model, h.load.held, rest).cwiseAbs().maxCoeff();
 }
 
-void balance_forces(HeldState& h)
+void balance_forces(StateForces& h)
 {
   const Formulation f = h.locked.stage.contact.formulation;
   if (h.locked.status != LockStatus::locked || h.locked.pressed || !traits(f).is_of_gaps) return;
-  const double mu = h.locked.stage.mu, most = unbalanced * h.driving * h.full;
+  const double mu = h.locked.stage.mu, most = noticed_imbalance * h.driving * h.full;
   const auto imbalance = [&] {
     return force_balance(h.model, h.locked.state, h.load, h.contacts.points, mu).imbalance;
   };
@@ -112,7 +112,7 @@ void balance_forces(HeldState& h)
     h.contacts = std::move(as_found);
 }
 
-void fill_forces(LimitResult& r, const HeldState& h, const Vec3& shift)
+void fill_forces(LimitResult& r, const StateForces& h, const Vec3& shift)
 {
   for (const ContactEnergy::Point& p : h.contacts.points)
     r.contacts.push_back(reported_contact(h.model, p, h.locked.stage.mu, shift));
@@ -121,7 +121,7 @@ void fill_forces(LimitResult& r, const HeldState& h, const Vec3& shift)
   r.force_balance = forces.imbalance / h.full;
   const std::vector<MacroCondition> conditions = h.model.load->conditions(h.task.direction);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
-    const double rise = forces.reactions[static_cast<Eigen::Index>(k)];
+    const double rise = forces.reactions[k];
     r.reactions.emplace_back(conditions[k].name, h.task.sense == Sense::positive ? rise : -rise);
   }
   r.contact = h.locked.pressed ? "constrained" : name_of(h.locked.stage.contact.formulation);
@@ -129,7 +129,7 @@ void fill_forces(LimitResult& r, const HeldState& h, const Vec3& shift)
     r.quadrature_error = quadrature_error(h.model, h.load.held, h.locked, h.contacts, h.keep_going) / h.full;
 }
 
-void fill_sensitivities(LimitResult& r, const HeldState& h, const SceneSpec& spec)
+void fill_sensitivities(LimitResult& r, const StateForces& h, const SceneSpec& spec)
 {
   const double by = -h.sign() * h.locked.stage.mu;
   r.sensitivity_clearance = by * h.contacts.d_clearance * h.scale / h.model.length;

@@ -9,11 +9,11 @@
 namespace hauberk {
 
 /// Forces that miss the load by more than this part of it are said so.
-inline constexpr double unbalanced = 3e-5;
+inline constexpr double noticed_imbalance = 3e-5;
 
 /// Contacts and load of a state that a search ended in; the contacts are those of the last stage. Model,
 /// task, search and `keep_going` must outlive it.
-struct HeldState {
+struct StateForces {
   const Model& model;
   const LimitTask& task;
   const Locked& locked;
@@ -27,25 +27,25 @@ struct HeldState {
   /// they were not.
   std::optional<double> missed_before;
 
-  HeldState(const Model& of, const LimitTask& asked, const Locked& found, const KeepGoing& keep);
+  StateForces(const Model& of, const LimitTask& asked, const Locked& found, const KeepGoing& keep);
 
   double sign() const { return task.sense == Sense::positive ? 1.0 : -1.0; }
 };
 
 /// Largest component of the energy's gradient by which it misses the load, scaled.
-double energy_imbalance(const HeldState& held);
+double energy_imbalance(const StateForces& forces);
 
 /// Forces of a locked state that miss the load by what rounding of gaps leaves of them are changed to such
 /// that do not. Resultants of `arc` that balance no better than where they are listed are another matter:
 /// there the energy's gradient tells.
-void balance_forces(HeldState& held);
+void balance_forces(StateForces& forces);
 
 /// Enters contacts, their balance, reactions of what is held and the error of quadrature, in file units;
 /// `shift`: what reported poses are moved by (scaled).
-void fill_forces(LimitResult& result, const HeldState& held, const Vec3& shift);
+void fill_forces(LimitResult& result, const StateForces& forces, const Vec3& shift);
 
 /// Enters how the limit changes with clearance and parameters, at a kink to both sides:
 /// E_min = -(+-value) + mu contact, so d value/dp = -+ mu d contact/dp (envelope theorem).
-void fill_sensitivities(LimitResult& result, const HeldState& held, const SceneSpec& spec);
+void fill_sensitivities(LimitResult& result, const StateForces& forces, const SceneSpec& spec);
 
 }  // namespace hauberk

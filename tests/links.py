@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Relative links of the Markdown pages lead to files that are there, and their anchors to headings of these.
+"""Relative links of the Markdown pages lead to files that are there, and their anchors to headings of these; paths
+that they name in the tree of sources are there, too.
 
     tests/links.py ROOT
 """
@@ -8,6 +9,9 @@ import pathlib
 import re
 import sys
 
+# A path of the tree between backticks; a file without its ending stands for header and source.
+NAMED = re.compile(r"`((?:kernel|plugins|tests|shapes|loadcases|optimizers|share)/[\w/.-]+)`")
+NOT_OF_THE_TREE = {"shapes/chain_link", "share/hauberk/weaves"}  # an example; where weaves are installed
 LINK = re.compile(r"\[[^\]]*\]\(([^()\s]+)\)")
 
 
@@ -55,6 +59,13 @@ def main():
                 wrong += 1
             elif anchor and anchor not in anchors(file.read_text()):
                 print(f"{page.relative_to(root)}: {target}: there is no such heading")
+                wrong += 1
+        if not (root / "kernel").exists():  # pages that were installed
+            continue
+        for name in NAMED.findall(text):
+            file = root / name
+            if name not in NOT_OF_THE_TREE and not file.exists() and not list(file.parent.glob(file.name + ".*")):
+                print(f"{page.relative_to(root)}: `{name}`: there is nothing of that name")
                 wrong += 1
     if seen == 0:
         print("no links found")

@@ -63,24 +63,16 @@ std::optional<T> least(std::optional<T> a, std::optional<T> b)
   return a && b ? std::min(a, b) : a ? a : b;
 }
 
-/// The least limit that a file of a group, or of any above it, says.
+/// The least of the limits that `limit` reads in the folders of a group and of all above it.
 template <class Limit>
-auto least_of_groups(const std::filesystem::path& tree, std::filesystem::path group, const char* file,
-                     const Limit& limit) -> decltype(limit(std::string()))
+auto least_of_groups(const std::filesystem::path& tree, std::filesystem::path group, const Limit& limit)
+    -> decltype(limit(tree))
 {
-  decltype(limit(std::string())) out;
+  decltype(limit(tree)) out;
   for (;; group = group.parent_path()) {
-    out = least(out, limit(first_line(tree / group.relative_path() / file)));
+    out = least(out, limit(tree / group.relative_path()));
     if (!group.has_relative_path()) return out;
   }
-}
-
-std::optional<unsigned> quota_of_groups()
-{
-  const std::string period = first_line(groups / "cpu/cpu.cfs_period_us");
-  return least(
-      least_of_groups(groups, group_of(whole_text("/proc/self/cgroup"), ""), "cpu.max", processors_of_quota),
-      processors_of_quota(first_line(groups / "cpu/cpu.cfs_quota_us") + " " + period));
 }
 
 double limit_of(int resource)
@@ -128,14 +120,31 @@ std::optional<double> bytes_of_limit(std::string_view memory_max)
   return error == std::errc() && at == end && bytes > 0.0 ? std::optional(bytes) : std::nullopt;
 }
 
+std::optional<unsigned> processors_of_groups(const std::filesystem::path& root, std::string_view own)
+{
+  const auto second = [](const std::filesystem::path& folder) {
+    return processors_of_quota(first_line(folder / "cpu.max"));
+  };
+  const auto first = [](const std::filesystem::path& folder) {
+    return processors_of_quota(first_line(folder / "cpu.cfs_quota_us") + " " +
+                               first_line(folder / "cpu.cfs_period_us"));
+  };
+  return least(least_of_groups(root, group_of(own, ""), second),
+               least_of_groups(root / "cpu", group_of(own, "cpu"), first));
+}
+
 std::optional<double> memory_of_groups(const std::filesystem::path& root, std::string_view own)
 {
-  const std::string second = group_of(own, "");
-  std::optional<double> out;
+  const auto second = [](const std::filesystem::path& folder) {
+    return bytes_of_limit(first_line(folder / "memory.max"));
+  };
+  const auto first = [](const std::filesystem::path& folder) {
+    return bytes_of_limit(first_line(folder / "memory.limit_in_bytes"));
+  };
+  std::optional<double> out = least_of_groups(root / "memory", group_of(own, "memory"), first);
   for (const std::filesystem::path& tree : {root, root / "unified"})
-    out = least(out, least_of_groups(tree, second, "memory.max", bytes_of_limit));
-  return least(out, least_of_groups(root / "memory", group_of(own, "memory"), "memory.limit_in_bytes",
-                                    bytes_of_limit));
+    out = least(out, least_of_groups(tree, group_of(own, ""), second));
+  return out;
 }
 
 double available_memory()
@@ -150,7 +159,7 @@ unsigned available_processors()
 {
   std::optional<unsigned> out = affinity();
   if (!out) out = std::thread::hardware_concurrency();
-  out = least(out, quota_of_groups());
+  out = least(out, processors_of_groups(groups, whole_text("/proc/self/cgroup")));
   out = least(out, count_in(std::getenv("SLURM_CPUS_PER_TASK")));
   return std::max(1U, *out);
 }

@@ -13,14 +13,18 @@ namespace hauberk {
 /// Thread safe.
 Machine this_machine();
 
-/// Processors that this process may use, at least 1: those of its affinity, no more than the quota of its
-/// control groups allows (cpu.max of version 2 of the group and all above it, cfs_quota_us of version 1), and
-/// no more than SLURM_CPUS_PER_TASK says. Thread safe.
+/// Processors that this process may use, at least 1: those of its affinity, no more than its control groups
+/// (processors_of_groups) allow, and no more than SLURM_CPUS_PER_TASK says. Thread safe.
 unsigned available_processors();
 
 /// Whole processors that a quota amounts to, rounded up: `cpu_max` is the text of cpu.max, a quota and a
 /// period in microseconds. Null where there is no limit, or none that can be read.
 std::optional<unsigned> processors_of_quota(std::string_view cpu_max);
+
+/// The least quota of processors of the groups that `own`, the text of /proc/self/cgroup, names, and of all
+/// above them: cpu.max of version 2, cpu.cfs_quota_us and cpu.cfs_period_us of version 1. `root`: where the
+/// trees of groups are. Null: none of them limits it.
+std::optional<unsigned> processors_of_groups(const std::filesystem::path& root, std::string_view own);
 
 /// Bytes of memory that this process may use: those of the machine, no more than its control groups
 /// (memory_of_groups) and its limits of address space and data allow. Whether others use them is not asked.

@@ -23,6 +23,28 @@ TEST(Processors, OfAQuotaAreRoundedUp)
     EXPECT_FALSE(processors_of_quota(none)) << none;
 }
 
+TEST(Processors, OfGroupsAreTheFewestOfAllAboveThem)
+{
+  const TemporaryFolder root;
+  const std::string second = "0::/job/step\n", first = "5:cpu,cpuacct:/slurm/job\n" + second;
+  const auto write = [&](const std::string& group, const char* file, const char* text) {
+    root.folder(group);
+    root.file(group + "/" + file, std::string(text) + "\n");
+  };
+  EXPECT_FALSE(processors_of_groups(root.path(), first));
+  write("job/step", "cpu.max", "800000 100000");
+  EXPECT_EQ(processors_of_groups(root.path(), second), 8U);
+  write("job", "cpu.max", "600000 100000");
+  EXPECT_EQ(processors_of_groups(root.path(), second), 6U);
+  write("cpu/slurm/job", "cpu.cfs_quota_us", "-1");
+  write("cpu/slurm/job", "cpu.cfs_period_us", "100000");
+  EXPECT_EQ(processors_of_groups(root.path(), first), 6U);
+  write("cpu/slurm", "cpu.cfs_quota_us", "300000");
+  write("cpu/slurm", "cpu.cfs_period_us", "100000");
+  EXPECT_EQ(processors_of_groups(root.path(), first), 3U);
+  EXPECT_EQ(processors_of_groups(root.path(), second), 6U);
+}
+
 TEST(Processors, AreThoseOfTheAffinity)
 {
   // Of a thread of its own, so that the others keep theirs.

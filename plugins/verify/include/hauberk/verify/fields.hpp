@@ -41,7 +41,6 @@ class VerifyParts {
     for (const VerifyPart part : parts) bits_ |= 1U << static_cast<unsigned>(part);
   }
   constexpr bool empty() const { return bits_ == 0; }
-  constexpr bool contains(VerifyPart part) const { return (bits_ >> static_cast<unsigned>(part) & 1U) != 0; }
   /// In the order of the enumeration.
   std::vector<VerifyPart> list() const
   {

@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <vector>
 
 namespace hauberk::conformance {
 namespace {
@@ -67,6 +68,27 @@ State draw_state(const LoadCase& load_case, Random& random)
   state.X = random.vector(2.0);
   state.T = draw_translation(load_case, random);
   return state;
+}
+
+std::vector<Vec3> draw_positions(Eigen::Index elements, Random& random)
+{
+  std::vector<Vec3> X;
+  for (Eigen::Index i = 0; i < elements; ++i) X.push_back(random.vector(3.0));
+  return X;
+}
+
+/// Coefficients of the equalities among the coordinates of elements at X, one row each.
+Eigen::MatrixXd equality_rows(const LoadCase& load_case, std::span<const Vec3> X,
+                              std::span<const LinearEquality> held)
+{
+  const Eigen::Index coordinates = load_case.coordinate_count();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(held.size()),
+                                               static_cast<Eigen::Index>(X.size()) * coordinates);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    for (const LinearTerm& t : held[i].terms)
+      rows(static_cast<Eigen::Index>(i), t.element * coordinates + t.coordinate) += t.coefficient;
+  }
+  return rows;
 }
 
 void unknowns(Trial& trial)
@@ -388,9 +410,7 @@ void walls(Trial& trial)
   constexpr int elements = 5;
   const Object object = trial.make();
   const LoadCase& load_case = *object.load_case;
-  std::vector<Vec3> X;
-  X.reserve(elements);
-  for (int i = 0; i < elements; ++i) X.push_back(trial.random.vector(3.0));
+  const std::vector<Vec3> X = draw_positions(elements, trial.random);
   const auto in_range = [&](const std::string& name, const std::vector<LinearTerm>& terms) {
     require(!name.empty(), "a wall or condition has no name");
     require(!terms.empty(), "'{}' has no terms", name);
@@ -407,15 +427,9 @@ void walls(Trial& trial)
             wall.name, -wall.offset);
   }
   const std::vector<LinearEquality> held = load_case.equalities(X);
-  Eigen::MatrixXd rows =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(held.size()), elements * load_case.coordinate_count());
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    in_range(held[i].name, held[i].terms);
-    for (const LinearTerm& t : held[i].terms)
-      rows(static_cast<Eigen::Index>(i), t.element * load_case.coordinate_count() + t.coordinate) +=
-          t.coefficient;
-  }
   if (held.empty()) return;
+  for (const LinearEquality& condition : held) in_range(condition.name, condition.terms);
+  const Eigen::MatrixXd rows = equality_rows(load_case, X, held);
   const auto rank = Eigen::FullPivLU<Eigen::MatrixXd>(rows).rank();
   require(rank == rows.rows(), "of {} conditions only {} are independent", held.size(), rank);
 }
@@ -504,6 +518,41 @@ void require_contained(const LoadCase& load_case, const StricterLoadCase& less, 
   }
 }
 
+/// What moves several elements by the equalities of a stricter load case moves them by those of the one that
+/// names it: both say which motions of all elements together are drifts.
+void require_equalities_kept(const LoadCase& load_case, const StricterLoadCase& less, Random& random)
+{
+  constexpr Eigen::Index elements = 6;
+  const Eigen::Index coordinates = less.load->coordinate_count(), own = load_case.coordinate_count();
+  State state = draw_state(*less.load, random);
+  const auto macro = std::span<const double>(state.y).first(state.macros);
+  const std::vector<Vec3> X = draw_positions(elements, random);
+  const std::vector<LinearEquality> held = load_case.equalities(X);
+  if (held.empty()) return;
+  // Small motions: walls are the other check's.
+  Eigen::VectorXd e(elements * coordinates);
+  for (double& c : e) c = random.between(-1e-2, 1e-2);
+  const Eigen::MatrixXd there = equality_rows(*less.load, X, less.load->equalities(X));
+  if (there.rows() > 0) e -= there.completeOrthogonalDecomposition().solve(there * e);
+  Eigen::VectorXd here(elements * own);
+  for (Eigen::Index i = 0; i < elements; ++i) {
+    State at = state;
+    at.X = X[static_cast<std::size_t>(i)];
+    at.T.setZero();
+    at.y.resize(at.macros);
+    at.y.insert(at.y.end(), e.data() + i * coordinates, e.data() + (i + 1) * coordinates);
+    const Vec3 x = at.of(*less.load, at.y).x;
+    const Values y = coordinates_at(load_case, at, macro, x);
+    std::copy(y.begin() + static_cast<std::ptrdiff_t>(at.macros), y.end(), here.data() + i * own);
+  }
+  const Eigen::MatrixXd rows = equality_rows(load_case, X, held);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const double off = std::abs(rows.row(i).dot(here));
+    require(off <= 1e-9 * (1.0 + rows.row(i).norm()), "a state of '{}' is off its condition '{}' by {:.3g}",
+            less.name, held[static_cast<std::size_t>(i)].name, off);
+  }
+}
+
 void stricter(Trial& trial)
 {
   const Object object = trial.make();
@@ -513,6 +562,7 @@ void stricter(Trial& trial)
   if (all.empty()) skip("it names no stricter load case");
   for (const StricterLoadCase& less : all) {
     require_contained(load_case, less, trial.random);
+    for (int draw = 0; draw < states; ++draw) require_equalities_kept(load_case, less, trial.random);
     for (const StricterLoadCase& least : less.load->stricter())
       require(least.load != nullptr && load_case.contains(*least.load), "it does not contain '{}' with '{}'",
               less.name, least.name);

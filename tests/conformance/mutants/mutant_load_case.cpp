@@ -120,7 +120,8 @@ class Mutant final : public LoadCase {
   }
   std::vector<StricterLoadCase> do_stricter() const override
   {
-    const std::string defect = is("stricter_has_another_value") ? "value_not_zero_at_rest" : defect_;
+    std::string defect = is("stricter_has_another_value") ? "value_not_zero_at_rest" : defect_;
+    if (is("stricter_keeps_another_mean")) defect = "keeps_another_mean";
     const double height = (is("stricter_is_higher") ? 2.0 : 0.5) * half_height_;
     std::vector<StricterLoadCase> out;
     out.push_back({"lower", std::make_unique<Mutant>(defect, height, weighted_)});
@@ -150,6 +151,7 @@ class Mutant final : public LoadCase {
     for (int i = 0; i < static_cast<int>(X.size()); ++i) {
       for (int k = 0; k < 2; ++k) held[k].terms.push_back({i, k, 1.0});
     }
+    if (is("keeps_another_mean")) held.front().terms.front().coefficient = 2.0;
     if (is("condition_twice")) held.push_back(held.front());
     return held;
   }

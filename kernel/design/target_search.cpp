@@ -127,9 +127,9 @@ MinimumOf TargetSearch::minimum_of(const DesignPoint& p, const WarmStart& warm, 
     const HeldModel held(p.model, load.held);
     size = load_size(held.model(), held.pull(load.pull));
   }
-  return {
-      barrier_stage(p.model, size, contact, schedule_, planned_stage(contact, schedule_, warm.g_hat, last)),
-      load};
+  return {barrier_stage(p.model, size, contact, schedule_,
+                        planned_stage(p.model, contact, schedule_, warm.g_hat, last)),
+          load};
 }
 
 bool TargetSearch::lock_by_following(const DesignPoint& p, const DesignPoint& from, const MacroLoad& load,

@@ -60,7 +60,7 @@ class Path {
 
   Locked run()
   {
-    for (const PlannedStage& planned : planned_stages(choice_, schedule_)) {
+    for (const PlannedStage& planned : planned_stages(m_, choice_, schedule_)) {
       if (stage(planned)) continue;
       end_wider_than(planned.g_hat);
       return std::move(out_);
@@ -198,7 +198,7 @@ class Path {
     for (const double wider : std::span(wider_ends).first(ends_for_balance)) {
       const double g_hat = wider * schedule_.last;
       if (!go_back(narrowest, g_hat)) break;
-      if (!stage(planned_stage(choice_, schedule_, g_hat, true))) {
+      if (!stage(planned_stage(m_, choice_, schedule_, g_hat, true))) {
         if (out_.status == LockStatus::interrupted) return;
         continue;
       }
@@ -236,7 +236,7 @@ class Path {
     for (const double wider : wider_ends) {
       const double g_hat = wider * failed;
       if (!go_back(stalled, g_hat)) break;
-      if (stage(planned_stage(choice_, schedule_, g_hat, true))) {
+      if (stage(planned_stage(m_, choice_, schedule_, g_hat, true))) {
         if (out_.stages.back().residual > unbalanced) continue;
         out_.status = LockStatus::locked;
         out_.error_estimate = room_under_load();

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hauberk {
@@ -28,8 +29,10 @@ class Approach {
         size_(load_size(m, load.pull)),
         most_evaluations_(schedule.most_evaluations)
   {
-    stage_ =
-        barrier_stage(m, size_, choice, schedule, planned_stage(choice, schedule, schedule.first, false));
+    PlannedStage plan = planned_stage(m, choice, schedule, schedule.first, false);
+    // It is one stage, which nothing follows where contacts merge.
+    plan.formulation = formulation_at(choice, schedule.first, schedule);
+    stage_ = barrier_stage(m, size_, choice, schedule, plan);
     stage_.tether = load.held;
     for (Eigen::Index k = 0; k < stage_.tether.cols(); ++k) stage_.tether.col(k).normalize();
     out_.state = start;
@@ -173,9 +176,13 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
   return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
 }
 
-PlannedStage planned_stage(ContactChoice choice, const Schedule& schedule, double g_hat, bool last)
+PlannedStage planned_stage(const Model& m, ContactChoice choice, const Schedule& schedule, double g_hat,
+                           bool last)
 {
   PlannedStage out{g_hat, formulation_at(choice, g_hat, schedule)};
+  const auto surface = [](const Body& b) { return b.solid && solid_probe_dimension(b) == 2; };
+  if (choice == ContactChoice::automatic && std::ranges::any_of(m.bodies, surface))
+    out.formulation = Formulation::nearest;
   out.last = last;
   // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
   const bool wide = g_hat > schedule.change;
@@ -184,11 +191,11 @@ PlannedStage planned_stage(ContactChoice choice, const Schedule& schedule, doubl
   return out;
 }
 
-std::vector<PlannedStage> planned_stages(ContactChoice choice, const Schedule& schedule)
+std::vector<PlannedStage> planned_stages(const Model& m, ContactChoice choice, const Schedule& schedule)
 {
   std::vector<PlannedStage> out;
   for (const double g_hat : activation_distances(schedule))
-    out.push_back(planned_stage(choice, schedule, g_hat, g_hat == schedule.last));
+    out.push_back(planned_stage(m, choice, schedule, g_hat, g_hat == schedule.last));
   return out;
 }
 

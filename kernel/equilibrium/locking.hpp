@@ -14,7 +14,8 @@ namespace hauberk {
 
 /// How contact is treated along the stages.
 enum class ContactChoice {
-  automatic,  ///< arc while contacts may merge and split, nearest to finish; arc again where nearest stalls
+  automatic,  ///< arc while contacts may merge and split, nearest to finish (see planned_stages); arc again
+              ///< where nearest stalls
   nearest,
   arc,
   published,   ///< the paper's, in every stage
@@ -81,10 +82,12 @@ struct PlannedStage {
 };
 
 /// The stages that a limit runs, in this order. `automatic` takes arc for one of them again where contacts
-/// merge, and for all that follow from where nearest stalls.
-std::vector<PlannedStage> planned_stages(ContactChoice choice, const Schedule& schedule);
+/// merge, and for all that follow from where nearest stalls. With solids that are probed over their surface
+/// it begins with nearest: an integral over such a surface costs ten times as many distances as its minima.
+std::vector<PlannedStage> planned_stages(const Model& m, ContactChoice choice, const Schedule& schedule);
 /// The same for one activation distance.
-PlannedStage planned_stage(ContactChoice choice, const Schedule& schedule, double g_hat, bool last);
+PlannedStage planned_stage(const Model& m, ContactChoice choice, const Schedule& schedule, double g_hat,
+                           bool last);
 
 /// Gap (L) that `constrained` leaves: a tenth of the last activation distance, as barriers do.
 double constrained_margin(const Schedule& schedule);

@@ -90,7 +90,7 @@ Plan make_plan(const Model& m, const std::vector<LimitTask>& tasks, const LimitS
   p.contact = settings.contact;
   p.schedule = settings.schedule;
   if (settings.contact != ContactChoice::constrained)
-    p.stages = planned_stages(settings.contact, settings.schedule);
+    p.stages = planned_stages(m, settings.contact, settings.schedule);
   if (settings.contact == ContactChoice::mesh) p.mesh = mesh_plan(m);
   p.company = rest_searches(m, tasks, settings).size() - tasks.size();
   p.searches = count_searches(m, tasks, settings);

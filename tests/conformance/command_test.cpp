@@ -61,8 +61,8 @@ TEST(Conform, SaysOnceWhatHasOneCause)
 /// A section that is refused is one cause, in other processes, too.
 TEST(Conform, SaysOnceThatTheSectionIsRefused)
 {
-  const Outcome o =
-      run_program({"plugins", "conform", plugins + "spline_tube.so", "--filter", "bad_values|processes|shape"});
+  const Outcome o = run_program(
+      {"plugins", "conform", plugins + "spline_tube.so", "--filter", "bad_values|processes|shape"});
   EXPECT_EQ(o.code, 1);
   EXPECT_NE(o.out.find("\nFAILED   processes: as bad_values\n"), std::string::npos) << o.out;
   EXPECT_EQ(o.out.find("    again: "), o.out.rfind("    again: ")) << o.out;

@@ -104,7 +104,8 @@ class DesignTask final : public TaskRun {
     const auto search = [this](double last) {
       Schedule schedule = spec_.schedule;
       schedule.last = std::max(schedule.last, last);
-      const std::vector<PlannedStage> stages = planned_stages(prepared_.settings.contact, schedule);
+      const std::vector<PlannedStage> stages =
+          planned_stages(prepared_.model, prepared_.settings.contact, schedule);
       return boost::json::object{{"stages", stages.size()},
                                  {"last_activation_distance", stages.back().g_hat}};
     };

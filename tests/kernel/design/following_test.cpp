@@ -94,7 +94,7 @@ TEST(DesignProblem, WhatIsHeldIsKeptWhereGapsAreOpened)
   const MacroLoad load(macro, held);
   const HeldModel kept(at.model, held);
   const Schedule& schedule = start.design.schedule;
-  const PlannedStage plan = planned_stage(ContactChoice::automatic, schedule, tight.g_hat, true);
+  const PlannedStage plan = planned_stage(at.model, ContactChoice::automatic, schedule, tight.g_hat, true);
   const MinimumOf minimum{barrier_stage(at.model, load_size(kept.model(), kept.pull(macro)),
                                         ContactChoice::automatic, schedule, plan),
                           load};

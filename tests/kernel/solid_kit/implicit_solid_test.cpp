@@ -327,6 +327,60 @@ TEST(ImplicitSolid, FindsFeetWhereTheyAreCertain)
   expect_distance<RoundedRing>({4.0, 1.0, 0.8}, 2.0, 0.2);
 }
 
+/// A torus whose section leaves the half plane u = 0.
+struct TwistedTorus {
+  static constexpr const char* kind = "test_twisted_torus";
+  static constexpr std::array size_names{"R", "r"};
+  static constexpr bool revolved = true;
+
+  template <class S>
+  static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q)
+  {
+    // Turned by an angle whose half has the tangent 1/5 sin v.
+    const S t = 0.2 * v.s, by = 1.0 / (1.0 + t * t), c = (1.0 - t * t) * by, s = 2.0 * t * by;
+    return Torus::chart(Turn<S>{u.c * c - u.s * s, u.s * c + u.c * s}, v, q);
+  }
+};
+
+/// Segments along a section bound the distance of the surface, to two hundredths of it or as far as asked.
+template <class Author>
+void expect_segments(const std::vector<double>& q)
+{
+  const kit::ChartBounds<kit::Chart<Author, false>> chart(q.data());
+  const kit::SectionSegments<Author> segments(q.data(), chart);
+  constexpr int samples = 4000;
+  std::vector<Vec3> section;
+  for (int k = 0; k < samples; ++k)
+    section.push_back(kit::chart_point<Author>(turn(0.0), turn(2.0 * pi * k / samples), q.data()));
+  // Half a step between samples, along a curve that is no longer than this.
+  const double missed = 2.0 * pi * (q[0] + q[1]) / samples;
+  Random random;
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 x = k < 20 ? Vec3(0.0, 0.0, 0.4 * k - 4.0) : random.in_cube(2.5 * (q[0] + q[1]));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec3& y : section)
+      nearest =
+          std::min(nearest, std::hypot(std::hypot(x.x(), x.y()) - std::hypot(y.x(), y.y()), x.z() - y.z()));
+    const kit::BallDistance whole = segments.of(x, std::numeric_limits<double>::infinity());
+    ASSERT_LE(whole.at_least, nearest) << x.transpose();
+    ASSERT_GE(whole.at_least, 0.98 * (nearest - missed) - missed) << x.transpose();
+    EXPECT_GE(whole.distance, nearest - missed);
+    EXPECT_NEAR((x - whole.near).norm(), whole.distance, 1e-12 * (1.0 + whole.distance));
+    EXPECT_LE(whole.distance, nearest / 0.98 + missed);
+    const kit::BallDistance some = segments.of(x, 0.5 * nearest);
+    EXPECT_LE(some.at_least, nearest);
+    EXPECT_GE(some.at_least, 0.5 * nearest * (1.0 - 1e-12));
+  }
+}
+
+TEST(SectionSegments, BoundTheDistance)
+{
+  expect_segments<Torus>({3.0, 1.0});
+  expect_segments<Capsule>({2.0, 1.0});
+  expect_segments<RoundedRing>({4.0, 1.0, 0.8});
+  expect_segments<TwistedTorus>({3.0, 1.0});
+}
+
 TEST(ImplicitSolid, StaysFiniteWhereTheFieldHasNoDerivative)
 {
   for (const Vec3& x : {Vec3(0.0, 0.0, 0.0), Vec3(3.0, 0.0, 0.0), Vec3(0.0, 0.0, 2.0)}) {

@@ -4,6 +4,7 @@
 
 #include <hauberk/kit/lazy.hpp>
 #include <hauberk/kit/reach.hpp>
+#include <hauberk/kit/section_segments.hpp>
 #include <hauberk/kit/size_motion.hpp>
 #include <hauberk/kit/surface_balls.hpp>
 
@@ -188,7 +189,7 @@ class ImplicitSolid final : public Solid {
   {
     constexpr double tight = 0.98;
     const double known = first ? first->distance : std::numeric_limits<double>::infinity();
-    const BallDistance balls = this->balls().of(x, tight * known);
+    const BallDistance balls = bounded(x, tight * known);
     SolidDistance s = first ? *first : level_surface(f);
     bool has_foot = first != nullptr;
     if (!has_foot) s.distance = s.at_least = std::copysign(balls.distance, f.value);
@@ -202,9 +203,12 @@ class ImplicitSolid final : public Solid {
     return s;
   }
 
-  const SurfaceBalls<Author>& balls() const
+  /// What balls around the surface tell of x, of a surface of revolution segments along its section.
+  BallDistance bounded(const Vec3& x, double enough) const
   {
-    return balls_.get([&] { return SurfaceBalls<Author>(q(), surface()); });
+    if (revolved_.get([&] { return ChartDomain::of<Author>(q()).revolved; }))
+      return segments_.get([&] { return SectionSegments<Author>(q(), surface()); }).of(x, enough);
+    return balls_.get([&] { return SurfaceBalls<Author>(q(), surface()); }).of(x, enough);
   }
 
   std::vector<double> sizes_;
@@ -215,6 +219,8 @@ class ImplicitSolid final : public Solid {
   Lazy<double> reach_;
   Lazy<SolidSmoothness> smoothness_;
   Lazy<double> radius_;
+  Lazy<bool> revolved_;
+  Lazy<SectionSegments<Author>> segments_;
   Lazy<SurfaceBalls<Author>> balls_;
 };
 

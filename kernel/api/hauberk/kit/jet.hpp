@@ -37,6 +37,12 @@ struct Jet {
     return x;
   }
 
+  bool is_constant() const requires(exact)
+  {
+    for (std::size_t k = 1; k < size; ++k)
+      if (c[k] != 0.0) return false;
+    return true;
+  }
   const S& value() const { return c[0]; }
   const S& slope(int k) const { return c[1 + k]; }
   /// The derivative by the unknowns named, for instance (0, 0, 2).
@@ -59,8 +65,21 @@ struct Jet {
   {
     return each([&](std::size_t k) { return a.c[k] - b.c[k]; });
   }
-  friend Jet operator*(const Jet& a, const Jet& b) { return product<0, 0>(a, b); }
-  friend Jet operator/(const Jet& a, const Jet& b) { return product<0, 0>(a, inverse(b)); }
+  friend Jet operator*(const Jet& a, const Jet& b)
+  {
+    // Sizes are constants where derivatives by coordinates are taken.
+    if constexpr (exact) {
+      if (b.is_constant()) return a * b.c[0];
+      if (a.is_constant()) return b * a.c[0];
+    }
+    return product<0, 0>(a, b);
+  }
+  friend Jet operator/(const Jet& a, const Jet& b)
+  {
+    if constexpr (exact)
+      if (b.is_constant()) return a * (1.0 / b.c[0]);
+    return product<0, 0>(a, inverse(b));
+  }
 
   friend Jet operator+(Jet a, double b)
   {

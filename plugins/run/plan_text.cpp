@@ -107,6 +107,9 @@ std::string contact_words(const Plan& p)
           "nothing is certified on the way",
           constrained_margin(p.schedule));
   }
+  if (!p.stages.empty() && p.stages.front().formulation == Formulation::nearest)
+    return "contact: nearest, as solids are probed over their surface; arc where contacts merge, and from "
+           "where nearest stalls";
   return fmt::format(
       "contact: arc down to an activation distance of {:g} L, nearest below; arc again where "
       "contacts merge, and from where nearest stalls",

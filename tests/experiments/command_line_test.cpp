@@ -202,6 +202,19 @@ TEST(CommandLine, PlanAsJsonIsThatOfTheResults)
   EXPECT_EQ(shown, read_results(folder / "out").at("plan"));
 }
 
+TEST(CommandLine, PlansSayWhichContactLeads)
+{
+  const WorkFolder folder;
+  const auto contact_of = [](const std::string& file) {
+    const std::string text = run_program({"plan", file}).out;
+    const std::size_t at = text.find("contact: ");
+    return at == std::string::npos ? text : text.substr(at, text.find_first_of(",\n", at) - at);
+  };
+  EXPECT_EQ(contact_of(folder.write("c.json", chain_text())),
+            "contact: arc down to an activation distance of 0.0003 L");
+  EXPECT_EQ(contact_of(HAUBERK_SOURCE_DIR "/shapes/rounded_ring/example.json"), "contact: nearest");
+}
+
 TEST(CommandLine, PlansOfTasksSayWhatTheyTake)
 {
   // Six ratios, each of a stretch and a compression; stages from 0.03 L, by factors not below a tenth, to the

@@ -155,10 +155,10 @@ Field solver_field()
            with_default(
                choice(
                    "contact",
-                   "Contact formulation; auto: arc, then nearest, with preset paper published; for "
-                   "comparison, "
-                   "mesh: of triangle meshes, what others compute, and constrained: gaps as constraints of "
-                   "sequential quadratic programs, without energy or certificate.",
+                   "Contact formulation; auto: arc, then nearest, with solids that are probed over their "
+                   "surface nearest, with preset paper published; for comparison, mesh: of triangle meshes, "
+                   "what others compute, and constrained: gaps as constraints of sequential quadratic "
+                   "programs, without energy or certificate.",
                    contact_names()),
                "\"auto\""),
            at_most(at_least(integer("facets",

@@ -88,6 +88,28 @@ TEST_P(SolidLimits, OfAChainAreThoseOfTori)
   EXPECT_EQ(y.sensitivity_parameters.size(), 4U);
 }
 
+/// Integrals over the surfaces of solids cost ten times as many distances as their minima.
+TEST(SolidStages, OfSurfacesBeginWithMinima)
+{
+  const auto formulations = [](Written how, ContactChoice choice) {
+    SceneSpec scene = chain({5, 0.7, 0.7}, {4.6, 0.7, 0.7}, 15.5);
+    scene.length = 5.0;
+    for (ElementType& type : scene.types) type.shape = shape(how);
+    for (PlacedElement& element : scene.elements) element.parameters.resize(2);
+    const Sheet load(3);
+    std::vector<Formulation> out;
+    for (const PlannedStage& stage : planned_stages(make_model(scene, load, 0.1), choice, Schedule()))
+      out.push_back(stage.formulation);
+    return out;
+  };
+  using enum Formulation;
+  const std::vector<Formulation> surfaces = formulations(Written::kit_surface, ContactChoice::automatic);
+  EXPECT_EQ(surfaces, std::vector<Formulation>(surfaces.size(), nearest));
+  EXPECT_EQ(formulations(Written::kit_surface, ContactChoice::arc),
+            std::vector<Formulation>(surfaces.size(), arc));
+  EXPECT_EQ(formulations(Written::kit_core, ContactChoice::automatic).front(), arc);
+}
+
 /// Two upright rings that cross each other, and a ring around one of them, which `through` makes.
 SceneSpec crossed(std::shared_ptr<const Shape> through, std::vector<double> sizes)
 {

@@ -82,7 +82,8 @@ class Path {
   bool stage(PlannedStage plan)
   {
     const State before = out_.state;
-    if (arc_to_the_end_) plan.formulation = Formulation::arc;
+    if (arc_to_the_end_ || (arc_while_wide_ && is_wide(plan.g_hat, schedule_)))
+      plan.formulation = Formulation::arc;
     const bool ribbons = flat_tubes_ && plan.formulation == Formulation::arc && plan.sides == Sides::ribbon;
     if (ribbons && blind_) plan.sides = Sides::one;
     StageResult r = attempt(before, plan);
@@ -148,7 +149,9 @@ class Path {
     PlannedStage arc = plan;
     arc.formulation = Formulation::arc;
     if (gave_up(r)) {
-      arc_to_the_end_ = r.status != StageStatus::merging;
+      // What a wide stage of nearest did not lead to, narrow ones may end all the same.
+      const bool gave_up_for_good = r.status != StageStatus::merging;
+      (is_wide(plan.g_hat, schedule_) ? arc_while_wide_ : arc_to_the_end_) = gave_up_for_good;
       plan = arc;
       r = attempt_with_arc(before, plan);
       return;
@@ -319,6 +322,7 @@ class Path {
   long most_evaluations_;  ///< in all, but for what balances forces
   GapBounds bounds_;
   bool arc_to_the_end_ = false;
+  bool arc_while_wide_ = false;
   bool flat_tubes_ = false;  ///< there are some, which ribbons are of
   bool blind_ = false;       ///< a stage over ribbons was blocked by what they do not see
   bool before_valid_ = false;

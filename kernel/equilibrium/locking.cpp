@@ -30,7 +30,7 @@ class Approach {
         most_evaluations_(schedule.most_evaluations)
   {
     PlannedStage plan = planned_stage(m, choice, schedule, schedule.first, false);
-    // It is one stage, which nothing follows where contacts merge.
+    // It is one stage, and nearest would end in it where contacts merge.
     plan.formulation = formulation_at(choice, schedule.first, schedule);
     stage_ = barrier_stage(m, size_, choice, schedule, plan);
     stage_.tether = load.held;
@@ -157,6 +157,11 @@ std::vector<double> activation_distances(const Schedule& s)
   return out;
 }
 
+bool is_wide(double g_hat, const Schedule& schedule)
+{
+  return g_hat > schedule.change * 1.001;  // slack for the rounding of powers
+}
+
 Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule)
 {
   switch (choice) {
@@ -172,20 +177,20 @@ Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& s
     case ContactChoice::automatic:
       break;
   }
-  // Slack for the rounding of powers.
-  return g_hat > schedule.change * 1.001 ? Formulation::arc : Formulation::nearest;
+  return is_wide(g_hat, schedule) ? Formulation::arc : Formulation::nearest;
 }
 
 PlannedStage planned_stage(const Model& m, ContactChoice choice, const Schedule& schedule, double g_hat,
                            bool last)
 {
   PlannedStage out{g_hat, formulation_at(choice, g_hat, schedule)};
-  const auto surface = [](const Body& b) { return b.solid && solid_probe_dimension(b) == 2; };
-  if (choice == ContactChoice::automatic && std::ranges::any_of(m.bodies, surface))
-    out.formulation = Formulation::nearest;
   out.last = last;
   // What a wide stage leaves of the gaps is a larger error than that of a rough integral.
   const bool wide = g_hat > schedule.change;
+  // A wide stage that is the last is one of a fold or of a design's first search, whose values are compared.
+  const auto surface = [](const Body& b) { return b.solid && solid_probe_dimension(b) == 2; };
+  if (choice == ContactChoice::automatic && !(wide && last) && std::ranges::all_of(m.bodies, surface))
+    out.formulation = Formulation::nearest;
   out.quadrature = wide ? Quadrature::rough : last ? schedule.last_quadrature : Quadrature::fine;
   out.sides = wide && !last ? Sides::ribbon : Sides::both;
   return out;

@@ -43,7 +43,7 @@ struct Schedule {
   double first = 0.03;
   double ratio = 0.1;
   double last = 2e-9;
-  double change = 3e-4;     ///< `automatic` changes from arc to nearest at this activation distance
+  double change = 3e-4;     ///< `automatic` changes from arc to nearest here, see planned_stages
   double stiffness = 0.03;  ///< sets gaps at equilibrium to about a tenth of g_hat
   double tolerance = 1e-3;  ///< of a stage, relative to its mu
   double last_tolerance = 1e-8;
@@ -68,8 +68,11 @@ struct Schedule {
 /// Activation distances of a schedule's stages, falling.
 std::vector<double> activation_distances(const Schedule& schedule);
 
-/// The formulation that a choice means at an activation distance, before anything has stalled: `automatic` is
-/// arc above schedule.change, else nearest.
+/// Whether an activation distance is above schedule.change.
+bool is_wide(double g_hat, const Schedule& schedule);
+
+/// The formulation that a choice means at an activation distance, whatever the scene: `automatic` is arc
+/// above schedule.change, else nearest.
 Formulation formulation_at(ContactChoice choice, double g_hat, const Schedule& schedule);
 
 /// A stage as it is decided before anything is solved.
@@ -82,8 +85,9 @@ struct PlannedStage {
 };
 
 /// The stages that a limit runs, in this order. `automatic` takes arc for one of them again where contacts
-/// merge, and for all that follow from where nearest stalls. With solids that are probed over their surface
-/// it begins with nearest: an integral over such a surface costs ten times as many distances as its minima.
+/// merge, and for all that follow from where nearest stalls. In scenes of nothing but solids that are probed
+/// over their surface it begins with nearest: an integral over two of these costs ten times as many distances
+/// as their minima.
 std::vector<PlannedStage> planned_stages(const Model& m, ContactChoice choice, const Schedule& schedule);
 /// The same for one activation distance.
 PlannedStage planned_stage(const Model& m, ContactChoice choice, const Schedule& schedule, double g_hat,

@@ -108,7 +108,7 @@ std::string contact_words(const Plan& p)
           constrained_margin(p.schedule));
   }
   if (!p.stages.empty() && p.stages.front().formulation == Formulation::nearest)
-    return "contact: nearest, as solids are probed over their surface; arc where contacts merge, and from "
+    return "contact: nearest, as all are solids that are probed over their surface; arc where contacts merge, and from "
            "where nearest stalls";
   return fmt::format(
       "contact: arc down to an activation distance of {:g} L, nearest below; arc again where "

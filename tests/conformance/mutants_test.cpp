@@ -92,7 +92,7 @@ const Planted all[] = {
     {"load_case", "transform_stretches", "load_case.transform", "changes the square of the metric's norm"},
     {"load_case", "stricter_has_another_value", "load_case.stricter", "the value of a state of 'lower'"},
     {"load_case", "stricter_is_higher", "load_case.stricter", "beyond its walls"},
-    {"load_case", "stricter_keeps_another_mean", "load_case.stricter", "off its condition 'mean x'"},
+    {"load_case", "stricter_keeps_another_mean", "load_case.stricter", "off the condition 'mean x'"},
     {"load_case", "contains_nothing", "load_case.stricter", "it does not contain 'lower'"},
     {"load_case", "forgets_the_length", "load_case.scaling", "in another unit of length"},
     {"load_case", "crash", "load_case.rest", "ended by signal 11"},

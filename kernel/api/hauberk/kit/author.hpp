@@ -11,8 +11,8 @@
 ///       static std::vector<std::vector<Vec3>> cores(const double* q);
 ///     };
 ///
-/// q points at the sizes, in the order of their names. The chart covers the surface over [0, 2 pi]^2 and is
-/// periodic. Optional members:
+/// q points at the sizes, in the order of their names. The chart covers the surface over [0, 2 pi]^2, is
+/// periodic, and has continuous first derivatives. Optional members:
 ///
 ///     template <class S>
 ///     static Point<S> core(const Turn<S>& u, const S* q);

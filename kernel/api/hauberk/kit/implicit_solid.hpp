@@ -184,7 +184,8 @@ class ImplicitSolid final : public Solid {
   bool is_nearest(double distance) const { return distance <= 0.0 || distance < reach(); }
 
   /// The distance where `first`, that from a foot, may not be the least, or where no foot is known: balls
-  /// around the surface bound it, and Newton's method begins once more at the nearest point of theirs.
+  /// around the surface (segments along the section of a revolved one) bound it, and Newton's method begins
+  /// once more at the nearest point of theirs.
   SolidDistance searched(const Vec3& x, const FieldAt& f, const SolidDistance* first) const
   {
     constexpr double tight = 0.98;

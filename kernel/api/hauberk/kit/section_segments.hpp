@@ -9,13 +9,15 @@ namespace hauberk::kit {
 ///
 /// Turned about z into the half plane of the point x, a surface is the curve (rho, z)(v), and its distance
 /// from x is the distance of (rho, z)(x) from this curve in the plane. Turning a point into a half plane
-/// brings no two points farther apart, so that a part of the curve in space within `radius` of its middle is
-/// so in the plane; and one that lies in the half plane u = 0 itself and within `sag` of a straight segment
+/// brings no two points farther apart, so that a part of the section that is within `radius` of its middle in
+/// space is so in the plane. With the middle c and the half width k a part is also within `sag` of a straight
+/// segment,
 ///
-///     |x(0, v) - c - (v - v_c) x_v(c)| <= 1/2 |x_vv| k^2
+///     |x(0, v) - c - (v - v_c) x_v(c)| <= 1/2 |x_vv| k^2,
 ///
-/// is known by its distance from that segment. Divided where it is asked for as SurfaceBalls is; immutable,
-/// so that all calls are thread safe; q and the chart's bounds must outlive it.
+/// and where this segment lies in a half plane of the axis, the distance from it bounds the part's. Divided
+/// where it is asked for as SurfaceBalls is; immutable, so that all calls are thread safe; q and the chart's
+/// bounds must outlive it.
 template <class Author>
 class SectionSegments {
  public:
@@ -41,7 +43,7 @@ class SectionSegments {
   {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const double rho = std::hypot(x.x(), x.y());
-    Search search{{rho, x.z()}, enough, unknown, unknown, {}};
+    Search search{{rho, x.z()}, enough, unknown, unknown, Vec2::Zero()};
     const Segment& whole = segments_[0];
     descend(0, 0, whole, from(search.x, whole), search);
     const Eigen::Vector2d out =
@@ -79,8 +81,11 @@ class SectionSegments {
     const ProbeBounds b = chart_.over(0.0, v, 0.0, half);
     const auto x = Chart<Author, false>::template jet<2>(turn(0.0), turn(v), q_);
     Segment s{{std::hypot(x[0].c[0], x[1].c[0]), x[2].c[0]}, b.v * half * (1.0 + 1e-12)};
-    const Vec2 along(half * x[0].c[2], half * x[2].c[2]);
-    const bool in_half_plane = x[1].c[0] == 0.0 && x[1].c[2] == 0.0 && x[0].c[0] >= std::abs(along.x());
+    // A section that goes beyond the axis comes back on the other side, as that of a chart with poles does.
+    const double side = x[0].c[0] < 0.0 ? -1.0 : 1.0;
+    const Vec2 along(side * half * x[0].c[2], half * x[2].c[2]);
+    const bool in_half_plane =
+        x[1].c[0] == 0.0 && x[1].c[2] == 0.0 && side * x[0].c[0] >= std::abs(along.x());
     if (in_half_plane) s.half = along, s.sag = 0.5 * b.vv * half * half * (1.0 + 1e-12);
     return s;
   }

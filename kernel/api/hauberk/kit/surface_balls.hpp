@@ -5,7 +5,7 @@
 
 namespace hauberk::kit {
 
-/// What a tree of balls tells of a point.
+/// What a tree of balls, or of segments, tells of a point.
 struct BallDistance {
   double at_least = 0.0;  ///< no point of the surface is nearer
   Vec3 near;              ///< a point of the surface, the nearest of those that were looked at

@@ -107,9 +107,10 @@ std::string contact_words(const Plan& p)
           "nothing is certified on the way",
           constrained_margin(p.schedule));
   }
-  if (!p.stages.empty() && p.stages.front().formulation == Formulation::nearest)
-    return "contact: nearest, as all are solids that are probed over their surface; arc where contacts merge, and from "
-           "where nearest stalls";
+  if (!p.stages.empty() && is_wide(p.stages.front().g_hat, p.schedule) &&
+      p.stages.front().formulation == Formulation::nearest)
+    return "contact: nearest, as all are solids that are probed over their surface; arc where contacts "
+           "merge, and from where nearest stalls";
   return fmt::format(
       "contact: arc down to an activation distance of {:g} L, nearest below; arc again where "
       "contacts merge, and from where nearest stalls",

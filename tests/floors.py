@@ -18,6 +18,7 @@ TASK = ["kernel", "plugins/document", "plugins/experiment", "plugins/results", "
 PLAN = {
     "kernel/api": [],  # what plugins see
     "kernel/numerics": [],
+    "kernel/on_demand": ["kernel/numerics"],  # what is loaded where it is used
     "kernel/geometry": ["kernel/api"],
     "kernel/interfaces": ["kernel/api", "kernel/numerics", "kernel/geometry"],
     "kernel/contact": ["kernel/api", "kernel/geometry", "kernel/numerics"],
@@ -37,8 +38,9 @@ PLAN = {
     "plugins/experiment": ["kernel", "plugins/host", "plugins/document"],
     "plugins/results": ["kernel", "plugins/document"],
     "plugins/pictures": ["kernel", "plugins/document"],
-    "plugins/export": ["kernel", "plugins/document", "plugins/results"],
-    "plugins/inspect": ["kernel", "shapes"],
+    "plugins/archive": ["kernel/api", "kernel/numerics"],
+    "plugins/export": ["kernel", "plugins/archive", "plugins/document", "plugins/results"],
+    "plugins/inspect": ["kernel", "shapes", "plugins/archive"],
     "plugins/report": ["kernel", "plugins/document", "plugins/results", "plugins/pictures"],
     "plugins/verify": ["kernel/api"],  # independent: it reads results by itself; the interface of primitives alone
     "plugins/conformance": ["kernel", "plugins/host", "plugins/document"],

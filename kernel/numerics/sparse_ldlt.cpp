@@ -1,12 +1,12 @@
 #include "numerics/sparse_ldlt.hpp"
 
 #include "numerics/dense_product.hpp"
+#include "numerics/on_demand.hpp"
+#include "numerics/symbolic_factor.hpp"
 
-#include <cholmod.h>
 #include <algorithm>
-#include <memory>
-#include <mutex>
 #include <new>
+#include <utility>
 
 namespace hauberk {
 namespace {
@@ -48,47 +48,6 @@ bool eliminate(Eigen::Map<MatrixXd>& front, int columns, int most_negative, int&
   return true;
 }
 
-/// CHOLMOD's workspace and settings.
-class Workspace {
- public:
-  Workspace()
-  {
-    cholmod_start(&common_);
-    common_.supernodal = CHOLMOD_SUPERNODAL;
-    common_.print = 0;
-    common_.error_handler = nullptr;
-  }
-  ~Workspace() { cholmod_finish(&common_); }
-  Workspace(const Workspace&) = delete;
-  Workspace& operator=(const Workspace&) = delete;
-
-  cholmod_common* operator&() { return &common_; }
-  cholmod_common* operator->() { return &common_; }
-
- private:
-  cholmod_common common_{};
-};
-
-/// Its view of a lower triangle.
-cholmod_sparse view(const Sparse& lower)
-{
-  cholmod_sparse a{};
-  a.nrow = static_cast<std::size_t>(lower.rows());
-  a.ncol = static_cast<std::size_t>(lower.cols());
-  a.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  // Read only; the interface has no const.
-  a.p = const_cast<int*>(lower.outerIndexPtr());
-  a.i = const_cast<int*>(lower.innerIndexPtr());
-  a.x = const_cast<double*>(lower.valuePtr());
-  a.stype = -1;
-  a.itype = CHOLMOD_INT;
-  a.xtype = CHOLMOD_REAL;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = 1;
-  a.packed = 1;
-  return a;
-}
-
 }  // namespace
 
 SparseLdlt::SparseLdlt(const Sparse& lower, const std::vector<int>& order)
@@ -103,35 +62,22 @@ SparseLdlt::SparseLdlt(const Sparse& lower, const std::vector<int>& order)
 
 void SparseLdlt::analyze(const Sparse& lower, const std::vector<int>& order)
 {
-  Workspace common;
-  cholmod_sparse a = view(lower);
-  std::vector<int> given = order;
-  if (!given.empty()) {
-    common->nmethods = 1;
-    common->method[0].ordering = CHOLMOD_GIVEN;
-  }
-  const auto release = [&common](cholmod_factor* f) { cholmod_free_factor(&f, &common); };
-  std::unique_ptr<cholmod_factor, decltype(release)> symbolic(nullptr, release);
-  {
-    // METIS, which CHOLMOD tries where minimum degree leaves much to do, draws random numbers of one
-    // generator for the whole process. It seeds it anew each time, so one call at a time is reproducible.
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    symbolic.reset(cholmod_analyze_p(&a, given.empty() ? nullptr : given.data(), nullptr, 0, &common));
-  }
-  if (!symbolic) throw std::bad_alloc();
-  const auto ints = [](const void* p) { return static_cast<const int*>(p); };
-  order_.assign(ints(symbolic->Perm), ints(symbolic->Perm) + symbolic->n);
+  SymbolicFactor symbolic;
+  auto* find =
+      reinterpret_cast<FindSymbolicFactor*>(on_demand("cholmod_symbolic", "hauberk_symbolic_factor"));
+  if (!find(static_cast<int>(lower.cols()), lower.outerIndexPtr(), lower.innerIndexPtr(),
+            order.empty() ? nullptr : order.data(), symbolic))
+    throw std::bad_alloc();
+  order_ = std::move(symbolic.order);
 
-  const int *first = ints(symbolic->super), *begin = ints(symbolic->pi), *rows = ints(symbolic->s);
-  std::vector<int> block_of(symbolic->n);
-  blocks_.resize(symbolic->nsuper);
+  std::vector<int> block_of(order_.size());
+  blocks_.resize(symbolic.first.size() - 1);
   std::size_t size = 0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     Block& b = blocks_[k];
-    b.first = first[k];
-    b.columns = first[k + 1] - first[k];
-    b.rows.assign(rows + begin[k], rows + begin[k + 1]);
+    b.first = symbolic.first[k];
+    b.columns = symbolic.first[k + 1] - b.first;
+    b.rows.assign(symbolic.rows.begin() + symbolic.begin[k], symbolic.rows.begin() + symbolic.begin[k + 1]);
     b.at = size;
     size += b.rows.size() * static_cast<std::size_t>(b.columns);
     std::fill_n(block_of.begin() + b.first, b.columns, static_cast<int>(k));

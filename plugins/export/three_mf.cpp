@@ -1,19 +1,15 @@
 #include "export/formats.hpp"
 
+#include "archive/archive.hpp"
+
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
-#ifdef HAUBERK_LIBZIP
-#include <zip.h>
-#endif
 
 #include <iterator>
 #include <limits>
-#include <memory>
 
 namespace hauberk::exporting {
-
-#ifdef HAUBERK_LIBZIP
 namespace {
 
 /// Text between tags; what a document of XML cannot hold becomes "?".
@@ -142,64 +138,17 @@ constexpr const char* relationships =
     "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship Target=\"/3D/3dmodel.model\" "
     "Id=\"rel0\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
 
-[[noreturn]] void fail(const char* what)
-{
-  throw ComputationError(fmt::format("3MF: the archive cannot be {}", what));
-}
-
-/// Names and contents as an archive in memory. Times in it are constant.
-std::string archive(const std::vector<std::pair<std::string, std::string>>& files)
-{
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, &error);
-  if (target == nullptr) fail("made");
-  zip_source_keep(target);
-  const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> kept(target, zip_source_free);
-  zip_t* zip = zip_open_from_source(target, ZIP_TRUNCATE, &error);
-  if (zip == nullptr) {
-    zip_source_free(target);
-    fail("opened");
-  }
-  for (const auto& [name, content] : files) {
-    zip_source_t* source = zip_source_buffer(zip, content.data(), content.size(), 0);
-    const zip_int64_t index =
-        source == nullptr ? -1 : zip_file_add(zip, name.c_str(), source, ZIP_FL_ENC_UTF_8);
-    constexpr zip_uint16_t day = (40 << 9) | (1 << 5) | 1, hour = 0;  // 2020-01-01, in the format of MS-DOS
-    const auto number = static_cast<zip_uint64_t>(index);
-    constexpr zip_uint32_t level =
-        2;  // of 9: the repetitions of long lists of triangles cost it ten times the time
-    if (index < 0 || zip_set_file_compression(zip, number, ZIP_CM_DEFLATE, level) != 0 ||
-        zip_file_set_dostime(zip, number, hour, day, 0) != 0) {
-      zip_discard(zip);
-      fail("filled");
-    }
-  }
-  if (zip_close(zip) != 0) fail("written");
-  zip_stat_t size;
-  if (zip_source_open(target) != 0 || zip_source_stat(target, &size) != 0) fail("read");
-  std::string out(size.size, '\0');
-  const zip_int64_t read = zip_source_read(target, out.data(), out.size());
-  zip_source_close(target);
-  if (read != static_cast<zip_int64_t>(out.size())) fail("read");
-  return out;
-}
-
 }  // namespace
 
 std::string three_mf(const Assembly& assembly, Objects objects)
 {
-  return archive({{"[Content_Types].xml", content_types},
-                  {"_rels/.rels", relationships},
-                  {"3D/3dmodel.model", model_xml(assembly, objects)}});
+  if (!archives::available())
+    throw InputError(
+        "this program was built without libzip, which 3MF needs; install libzip-dev and build again, or export STL, "
+        "OBJ or GLB");
+  return archives::pack({{"[Content_Types].xml", content_types},
+                         {"_rels/.rels", relationships},
+                         {"3D/3dmodel.model", model_xml(assembly, objects)}});
 }
-#else
-std::string three_mf(const Assembly&, Objects)
-{
-  throw InputError(
-      "this program was built without libzip, which 3MF needs; install libzip-dev and build again, or export STL, OBJ "
-      "or GLB");
-}
-#endif
 
 }  // namespace hauberk::exporting

@@ -1,14 +1,14 @@
 #include "inspect/model_file.hpp"
 
+#include "archive/archive.hpp"
 #include "common/mesh_file.hpp"
 #include "common/text_file.hpp"
 
 #include <hauberk/error.hpp>
 
 #include <fmt/format.h>
-#ifdef HAUBERK_READS_3MF
+#ifdef HAUBERK_EXPAT
 #include <expat.h>
-#include <zip.h>
 #endif
 
 #include <charconv>
@@ -18,8 +18,8 @@
 
 namespace hauberk::inspecting {
 
-#ifdef HAUBERK_READS_3MF
 namespace {
+#ifdef HAUBERK_EXPAT
 
 /// Components of components of ... : an object that holds itself never ends.
 constexpr int deepest = 16;
@@ -267,57 +267,57 @@ class Model {
 };
 
 /// A file of the archive, as far as it is not larger than what is read.
-std::string unpacked(zip_t* archive, const char* file, const std::string& name)
+std::string unpacked(std::string_view bytes, const std::string& file, const std::string& name)
 {
-  zip_stat_t stat;
-  if (zip_stat(archive, file, 0, &stat) != 0)
-    throw InputError(fmt::format("{}: holds no {}; is it a 3MF file?", name, file));
-  constexpr std::size_t most = std::size_t{most_megabytes} << 20;
-  if ((stat.valid & ZIP_STAT_SIZE) == 0 || stat.size > most)
-    throw InputError(fmt::format("{}: its {} is larger than {} MB", name, file, most_megabytes));
-  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> opened(zip_fopen(archive, file, 0), &zip_fclose);
-  if (!opened)
-    throw InputError(fmt::format("{}: {} cannot be unpacked: {}", name, file, zip_strerror(archive)));
-  std::string out(stat.size, '\0');
-  std::size_t got = 0;
-  while (got < out.size()) {
-    const zip_int64_t n = zip_fread(opened.get(), out.data() + got, out.size() - got);
-    if (n <= 0) throw InputError(fmt::format("{}: {} is damaged, or cut short", name, file));
-    got += static_cast<std::size_t>(n);
+  archives::Content content = archives::unpack(bytes, file, std::size_t{most_megabytes} << 20);
+  switch (content.result) {
+    case archives::Unpacked::done:
+      break;
+    case archives::Unpacked::no_archive:
+      throw InputError(
+          fmt::format("{}: cannot be opened as the archive that 3MF is: {}", name, content.text));
+    case archives::Unpacked::no_such_file:
+      throw InputError(fmt::format("{}: holds no {}; is it a 3MF file?", name, file));
+    case archives::Unpacked::too_large:
+      throw InputError(fmt::format("{}: its {} is larger than {} MB", name, file, most_megabytes));
+    case archives::Unpacked::not_readable:
+      throw InputError(fmt::format("{}: {} cannot be unpacked: {}", name, file, content.text));
+    case archives::Unpacked::damaged:
+      throw InputError(fmt::format("{}: {} is damaged, or cut short", name, file));
   }
-  return out;
+  return std::move(content.text);
 }
 
-}  // namespace
-
-ModelFile read_three_mf(std::string_view bytes, const std::string& name)
+/// The model in the bytes of an archive.
+ModelFile read_model(std::string_view bytes, const std::string& name)
 {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  zip_t* opened = source == nullptr ? nullptr : zip_open_from_source(source, ZIP_RDONLY, &error);
-  if (opened == nullptr) {
-    const std::string why = zip_error_strerror(&error);
-    if (source != nullptr) zip_source_free(source);
-    zip_error_fini(&error);
-    throw InputError(fmt::format("{}: cannot be opened as the archive that 3MF is: {}", name, why));
-  }
-  const std::unique_ptr<zip_t, void (*)(zip_t*)> archive(opened, &zip_discard);
   Model model(name);
-  model.read(unpacked(archive.get(), "3D/3dmodel.model", name));
+  model.read(unpacked(bytes, "3D/3dmodel.model", name));
   return model.result();
 }
 
 #else
 
-ModelFile read_three_mf(std::string_view, const std::string& name)
-{
-  throw InputError(fmt::format(
-      "{}: this program was built without libzip and expat, and reads no 3MF; install libzip-dev and libexpat1-dev and "
-      "build it again, or give .stl or .obj",
-      name));
-}
+ModelFile read_model(std::string_view, const std::string&) { return {}; }
 
 #endif
+
+#ifdef HAUBERK_EXPAT
+constexpr bool has_expat = true;
+#else
+constexpr bool has_expat = false;
+#endif
+
+}  // namespace
+
+ModelFile read_three_mf(std::string_view bytes, const std::string& name)
+{
+  if (!has_expat || !archives::available())
+    throw InputError(fmt::format(
+        "{}: this program was built without libzip and expat, and reads no 3MF; install libzip-dev and libexpat1-dev "
+        "and build it again, or give .stl or .obj",
+        name));
+  return read_model(bytes, name);
+}
 
 }  // namespace hauberk::inspecting

@@ -38,6 +38,7 @@ class SolidCheck {
     distances_are_those_of_samples();
     derivatives_of_the_distance();
     probe();
+    kinks_of_probe();
     probe_bounds();
     smoothness();
   }
@@ -170,6 +171,50 @@ class SolidCheck {
           "derivatives of the probe of '{}' are not those of differences at u = {:.6g}, v = {:.6g}: {:.3g}",
           name_, u, v, off);
       folded(u, v, here.x);
+    }
+  }
+
+  /// Bounds of second derivatives say nothing of a probe whose first ones jump: over a step of h its second
+  /// difference is at most h^2 times the largest second derivative, over a step with a jump in its middle h
+  /// times the jump. Steps around lines of the chart are halved towards where it is largest, so that a jump
+  /// shows wherever it lies.
+  void kinks_of_probe()
+  {
+    constexpr int pieces = 48, halvings = 20;
+    constexpr double most = 1e-4;  // of the size; rounding leaves 1e-8, a second derivative of 100 sizes 1e-5
+    const bool line = solid_.probe_dimension() == 1;
+    for (int k = 0; k < searches; ++k) {
+      const double u = angle(), v = line ? 0.0 : angle();
+      for (const bool along_u : {true, false}) {
+        if (line && !along_u) continue;
+        const auto at = [&](double by) {
+          return solid_.probe(along_u ? angles(u + by, v) : angles(u, v + by)).x;
+        };
+        for (int i = 0; i < pieces; ++i) {
+          double from = 2.0 * pi * i / pieces, h = pi / pieces;
+          Vec3 a = at(from), b = at(from + h), c = at(from + 2.0 * h);
+          double steepest = 0.0;
+          for (int n = 0; n < halvings; ++n) {
+            h *= 0.5;
+            const Vec3 ab = at(from + h), bc = at(from + 3.0 * h);
+            const double left = (a - 2.0 * ab + b).norm(), right = (b - 2.0 * bc + c).norm();
+            if (left < right) {
+              from += 2.0 * h;
+              a = b, b = bc;
+            } else {
+              c = b, b = ab;
+            }
+            // A jump near the end of one step is near the middle of another.
+            if (n > halvings - 4) steepest = std::max(steepest, std::max(left, right) / h);
+          }
+          require(
+              steepest <= most * size_,
+              "the first derivative of the probe of '{}' jumps by {:.3g} or more near {} = {:.9g}, where {} "
+              "is {:.6g}: its bounds hold for continuous ones alone",
+              name_, steepest, along_u ? 'u' : 'v', (along_u ? u : v) + from, along_u ? 'v' : 'u',
+              along_u ? v : u);
+        }
+      }
     }
   }
 

@@ -34,6 +34,19 @@ class Torus final : public Solid {
 
   ProbeDerivatives probe(const ProbeAngles& at) const override
   {
+    ProbeDerivatives p = regular_probe(bent(at));
+    if (is("first_derivative_jumps")) {
+      const double side = at.sin_v < 0.0 ? -1.0 : 1.0;
+      const double first = 1.0 + kink * side * at.cos_v, second = -kink * side * at.sin_v;
+      p.vv = first * first * p.vv + second * p.v;
+      p.v *= first;
+      p.uv *= first;
+    }
+    return p;
+  }
+
+  ProbeDerivatives regular_probe(const ProbeAngles& at) const
+  {
     const double out = R_ + r_ * at.cos_v;
     ProbeDerivatives p;
     p.x = Vec3(out * at.cos_u, out * at.sin_u, r_ * at.sin_v);
@@ -55,6 +68,10 @@ class Torus final : public Solid {
     const double across =
         r_ * std::max(largest_cosine(v - half_pi, half_v), largest_cosine(v + half_pi, half_v));
     ProbeBounds b{out, r_, out, across, r_, out, r_, r_, r_};
+    if (is("first_derivative_jumps")) {
+      const double most = R_ + r_, more = (1.0 + kink) * (1.0 + kink) * (1.0 + kink) + 4.0 * kink;
+      b = {most, more * r_, most, more * r_, more * r_, most, more * r_, more * r_, more * r_};
+    }
     if (is("probe_bounds_times_0.9")) b.u *= 0.9;
     if (is("probe_bounds_times_0.5")) b.vv *= 0.5;
     if (is("probe_bounds_of_the_middle")) b.u = R_ + r_ * std::cos(v);
@@ -112,8 +129,9 @@ class Torus final : public Solid {
     if (is("distance_by_R_nearly_right")) out[0] *= 1.0 + 1e-6;
   }
 
-  void probe_sizes(const ProbeAngles& at, const Vec3& n, std::span<double> out) const override
+  void probe_sizes(const ProbeAngles& given, const Vec3& n, std::span<double> out) const override
   {
+    const ProbeAngles at = bent(given);
     out[0] = n.x() * at.cos_u + n.y() * at.sin_u;
     out[1] = at.cos_v * out[0] + n.z() * at.sin_v;
     if (is("probe_by_r_forgets_z")) out[1] -= n.z() * at.sin_v;
@@ -132,7 +150,17 @@ class Torus final : public Solid {
 
  private:
   static constexpr double half_pi = 1.5707963267948966;
+  static constexpr double kink = 0.05;
   bool is(const char* defect) const { return defect_ == defect; }
+
+  /// The same circle by v + kink |sin v|: its first derivative is right wherever it exists, and jumps at v =
+  /// 0 and pi.
+  ProbeAngles bent(const ProbeAngles& at) const
+  {
+    if (!is("first_derivative_jumps")) return at;
+    const double by = kink * std::abs(at.sin_v), c = std::cos(by), s = std::sin(by);
+    return {at.cos_u, at.sin_u, at.cos_v * c - at.sin_v * s, at.sin_v * c + at.cos_v * s};
+  }
 
   static double largest_cosine(double v, double half)
   {

@@ -19,7 +19,7 @@ namespace hauberk {
 namespace {
 
 /// Between partial results; a kill loses at most this much.
-constexpr std::chrono::seconds write_interval{2};
+constexpr std::chrono::milliseconds write_interval{2000}, first_interval{250};
 
 /// Writes into a new folder for temporary files and returns its name; empty where that fails, too.
 std::string rescue(const std::vector<NamedContent>& files)
@@ -80,7 +80,8 @@ RunFolder::RunFolder(std::filesystem::path directory, std::span<const char* cons
       names_(names),
       progress_(progress),
       content_(std::move(content)),
-      own_(resuming)
+      own_(resuming),
+      next_(std::chrono::steady_clock::now() + first_interval)
 {
   const std::vector<std::string> former = former_files(directory_);
   std::copy_if(names_.begin(), names_.end(), std::back_inserter(ours_), [&former](const char* name) {
@@ -92,7 +93,8 @@ RunFolder::RunFolder(std::filesystem::path directory, std::span<const char* cons
 
 void RunFolder::replace(const std::vector<NamedContent>& files)
 {
-  last_ = std::chrono::steady_clock::now();  // also when it fails: a full disk is not asked at every iterate
+  next_ = std::chrono::steady_clock::now() +
+          write_interval;  // also when it fails: a full disk is not asked at every iterate
   // Before the results: where a kill comes between, they are those before.
   std::vector<NamedContent> all = files;
   const auto results = std::find_if(all.begin(), all.end(),
@@ -146,7 +148,7 @@ void RunFolder::write_partial()
 
 void RunFolder::write_sometimes()
 {
-  if (std::chrono::steady_clock::now() - last_ >= write_interval) write_partial();
+  if (std::chrono::steady_clock::now() >= next_) write_partial();
 }
 
 void RunFolder::done()

@@ -45,7 +45,8 @@ class RunFolder {
   void write();
   /// Writes what there is. Never throws.
   void write_partial();
-  /// Does so if the last time was a few seconds ago.
+  /// Does so if the last time was a few seconds ago, or this is as old as a short run takes in all: that one
+  /// writes once.
   void write_sometimes();
 
   /// Results are complete: those of former runs go.
@@ -65,7 +66,7 @@ class RunFolder {
   std::string digest_;  ///< of the results.json that was written last
   bool own_;            ///< the folder's results are this run's
   std::string warned_;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::steady_clock::time_point next_;  ///< when partial results are due
 };
 
 }  // namespace hauberk

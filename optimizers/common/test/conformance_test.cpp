@@ -64,14 +64,15 @@ const bool registered = [] {
   for (const Configuration& c : configurations()) {
     // Their subproblems take a minute; the kit tries them among the choices of the others' sections.
     if (c.name == "nlopt_mma" || c.name == "nlopt_ccsaq") continue;
-    register_tests(("Conforms_" + c.name).c_str(), plugin_folder + "/" + c.plugin + ".so", c.section, 1,
-                   false);
+    register_tests(PluginKind::optimizer, ("Conforms_" + c.name).c_str(),
+                   plugin_folder + "/" + c.plugin + ".so", c.section, 1, false);
   }
   // Of these no more is asked than of those from elsewhere.
-  register_tests("Conforms_nelder_mead", plugin_folder + "/nelder_mead.so");
+  register_tests(PluginKind::optimizer, "Conforms_nelder_mead", plugin_folder + "/nelder_mead.so");
 #ifdef HAUBERK_WITH_PAGMO
-  register_tests("Conforms_pagmo", plugin_folder + "/pagmo.so");
-  register_tests("Conforms_pagmo_seed_2", plugin_folder + "/pagmo.so", R"({"seed": 2})");
+  register_tests(PluginKind::optimizer, "Conforms_pagmo", plugin_folder + "/pagmo.so");
+  register_tests(PluginKind::optimizer, "Conforms_pagmo_seed_2", plugin_folder + "/pagmo.so",
+                 R"({"seed": 2})");
 #endif
   return true;
 }();

@@ -77,6 +77,30 @@ inline bool register_tests(const char* suite, const std::string& file, const std
   return true;
 }
 
+/// The same of a library with one plugin of kind `kind`, which is loaded when a test of it runs: a program
+/// with tests of many plugins, each in a process of its own, would load them all each time.
+inline bool register_tests(PluginKind kind, const char* suite, const std::string& file,
+                           const std::string& section = {}, std::uint64_t seed = 1, bool switches = true)
+{
+  for (const Check& check : checks(kind)) {
+    std::string name = check.name;
+    std::replace(name.begin(), name.end(), '.', '_');
+    testing::RegisterTest(
+        suite, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+        [kind, check, file, section, seed, switches]() -> testing::Test* {
+          try {
+            const PluginLibrary library = PluginLibrary::load(file);
+            if (library.tables().size() != 1 || library.tables().front()->kind != kind)
+              return new LoadTest(file + " is no library with one plugin of the kind that was said");
+            return new ConformanceTest(check, *library.tables().front(), Setup{section, switches}, seed);
+          } catch (const PluginError& error) {
+            return new LoadTest(error.what());
+          }
+        });
+  }
+  return true;
+}
+
 }  // namespace hauberk::conformance
 
 #define HAUBERK_CONFORMANCE_TESTS(suite, ...)        \

@@ -250,7 +250,8 @@ void surroundings(Trial& trial)
 
 using Clock = std::chrono::steady_clock;
 
-/// The least time of a call among many: what else the machine does only adds, as does what a first call loads.
+/// The least time of a call among many: what else the machine does only adds, as does what a first call
+/// loads.
 template <class F>
 double least_seconds(F&& f)
 {

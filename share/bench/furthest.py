@@ -2,7 +2,7 @@
 """How often limits that are found with default settings are short of the furthest state that is known.
 
     share/bench/furthest.py HAUBERK FOLDER [--only NAME,NAME] [--senses stretch,compress] [--defaults | --stronger KIND,KIND]
-                            [--variants NAME,NAME] [--threads N] [--known FILE]
+                            [--variants NAME,NAME] [--directions DEGREES,DEGREES] [--threads N] [--known FILE]
 
 Families of periodic cells (weaves at several ratios of ring to wire, sheets of other elements), z fixed, z fixed with a
 clearance of 0.1 mm, and z free; axial limits at five directions, all of them in one run and each alone. The furthest
@@ -73,9 +73,9 @@ def processor_seconds():
 
 
 class Study:
-    def __init__(self, program, folder, senses, stronger, variants, threads, known):
+    def __init__(self, program, folder, senses, stronger, variants, directions, threads, known):
         self.program, self.folder, self.senses, self.stronger = program, pathlib.Path(folder), senses, stronger
-        self.variants = variants
+        self.variants, self.directions = variants, directions
         self.options = [] if threads is None else ["--threads", str(threads)]
         self.folder.mkdir(parents=True, exist_ok=True)
         self.file = known
@@ -137,15 +137,16 @@ class Study:
                 limit = (float(at.split()[0]), at.split()[1])
                 contained[limit] = max(value, contained.get(limit, float("-inf")))
             found, seconds = {}, {}
-            found["fan"], seconds["fan"] = self.run(f"{where} fan", experiment, load, solver, DIRECTIONS)
+            found["fan"], seconds["fan"] = self.run(f"{where} fan", experiment, load, solver, self.directions)
             found["alone"], seconds["alone"] = {}, 0.0
-            for degrees in DIRECTIONS:
+            for degrees in self.directions:
                 values, took = self.run(f"{where} {degrees}", experiment, load, solver, [degrees])
                 found["alone"].update(values)
                 seconds["alone"] += took
             self.relate(name, variant, {kind: found[kind] for kind in ("fan", "alone")})
             for kind, (directions, settings) in self.stronger.items():
-                found[kind], seconds[kind] = self.run(f"{where} {kind}", experiment, load, {**solver, **settings}, directions)
+                found[kind], seconds[kind] = self.run(f"{where} {kind}", experiment, load, {**solver, **settings},
+                                                     [d for d in directions if directions is not DIRECTIONS or d in self.directions])
             for limit in sorted(found["fan"] | found["alone"]):
                 furthest, by = max((values[limit][0], kind) for kind, values in found.items() if limit in values)
                 furthest, by = max((furthest, by), (contained.get(limit, float("-inf")), "a scene within"))
@@ -173,6 +174,7 @@ def main():
     which.add_argument("--defaults", action="store_true", help="no stronger searches")
     which.add_argument("--stronger", default=",".join(STRONGER), help="which stronger searches (default: %(default)s)")
     parser.add_argument("--variants", default=",".join(VARIANTS), help="of every family (default: %(default)s)")
+    parser.add_argument("--directions", default=",".join(map(str, DIRECTIONS)), help="of the five (default: %(default)s)")
     parser.add_argument("--threads", type=int, help="of every run (default: the program's)")
     parser.add_argument("--known", type=pathlib.Path, default=pathlib.Path(__file__).with_suffix(".json"))
     options = parser.parse_args()
@@ -187,7 +189,9 @@ def main():
 
     study = Study(options.program, options.folder, options.senses.split(","),
                   chosen("--stronger", "" if options.defaults else options.stronger, STRONGER),
-                  chosen("--variants", options.variants, VARIANTS), options.threads, options.known)
+                  chosen("--variants", options.variants, VARIANTS),
+                  list(chosen("--directions", options.directions, {str(d): d for d in DIRECTIONS}).values()),
+                  options.threads, options.known)
     table = {}
     for name, experiment in families().items():
         if any(part in name for part in options.only.split(",")):

@@ -22,7 +22,8 @@ class SparseLdlt {
  public:
   /// For a matrix given by its lower triangle. `order`: the rows in the order of elimination, as another
   /// matrix had it; empty: the one of minimum degree or, where that leaves much to do, of nested dissection
-  /// that fills less. Throws std::bad_alloc.
+  /// that fills less. Throws std::bad_alloc; std::runtime_error where the library that finds the order
+  /// cannot be loaded.
   SparseLdlt(const Sparse& lower, const std::vector<int>& order);
 
   /// The rows in the order of elimination.

@@ -18,7 +18,7 @@
 namespace hauberk {
 namespace {
 
-/// Between partial results; a kill loses at most this much.
+/// Between partial results, and before the first ones; a kill loses at most this much.
 constexpr std::chrono::milliseconds write_interval{2000}, first_interval{250};
 
 /// Writes into a new folder for temporary files and returns its name; empty where that fails, too.
@@ -93,8 +93,8 @@ RunFolder::RunFolder(std::filesystem::path directory, std::span<const char* cons
 
 void RunFolder::replace(const std::vector<NamedContent>& files)
 {
-  next_ = std::chrono::steady_clock::now() +
-          write_interval;  // also when it fails: a full disk is not asked at every iterate
+  // Also when it fails: a full disk is not asked at every iterate.
+  next_ = std::chrono::steady_clock::now() + write_interval;
   // Before the results: where a kill comes between, they are those before.
   std::vector<NamedContent> all = files;
   const auto results = std::find_if(all.begin(), all.end(),

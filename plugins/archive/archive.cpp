@@ -7,26 +7,21 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 namespace hauberk::archives {
 namespace {
 
-#ifdef HAUBERK_LIBZIP
 template <class Function>
 Function* of_library(const char* name)
 {
+  if (!available()) throw ComputationError("this program was built without libzip");
   try {
     return reinterpret_cast<Function*>(on_demand("zip_archive", name));
   } catch (const std::runtime_error& e) {
     throw ComputationError(e.what());
   }
 }
-#else
-template <class Function>
-Function* of_library(const char*)
-{
-  throw ComputationError("this program was built without libzip");
-}
-#endif
 
 }  // namespace
 

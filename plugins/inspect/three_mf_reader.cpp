@@ -288,36 +288,22 @@ std::string unpacked(std::string_view bytes, const std::string& file, const std:
   return std::move(content.text);
 }
 
-/// The model in the bytes of an archive.
-ModelFile read_model(std::string_view bytes, const std::string& name)
-{
-  Model model(name);
-  model.read(unpacked(bytes, "3D/3dmodel.model", name));
-  return model.result();
-}
-
-#else
-
-ModelFile read_model(std::string_view, const std::string&) { return {}; }
-
 #endif
-
-#ifdef HAUBERK_EXPAT
-constexpr bool has_expat = true;
-#else
-constexpr bool has_expat = false;
-#endif
-
 }  // namespace
 
-ModelFile read_three_mf(std::string_view bytes, const std::string& name)
+ModelFile read_three_mf([[maybe_unused]] std::string_view bytes, const std::string& name)
 {
-  if (!has_expat || !archives::available())
-    throw InputError(fmt::format(
-        "{}: this program was built without libzip and expat, and reads no 3MF; install libzip-dev and libexpat1-dev "
-        "and build it again, or give .stl or .obj",
-        name));
-  return read_model(bytes, name);
+#ifdef HAUBERK_EXPAT
+  if (archives::available()) {
+    Model model(name);
+    model.read(unpacked(bytes, "3D/3dmodel.model", name));
+    return model.result();
+  }
+#endif
+  throw InputError(fmt::format(
+      "{}: this program was built without libzip and expat, and reads no 3MF; install libzip-dev and libexpat1-dev "
+      "and build it again, or give .stl or .obj",
+      name));
 }
 
 }  // namespace hauberk::inspecting

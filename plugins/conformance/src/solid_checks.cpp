@@ -174,13 +174,36 @@ class SolidCheck {
     }
   }
 
-  /// Bounds of second derivatives say nothing of a probe whose first ones jump: over a step of h its second
-  /// difference is at most h^2 times the largest second derivative, over a step with a jump in its middle h
-  /// times the jump. Steps around lines of the chart are halved towards where it is largest, so that a jump
-  /// shows wherever it lies.
+  /// Most that the derivative of a curve turns near a place between `from` and from + 2 h: over a step of h
+  /// the second difference is at most h^2 times the largest second derivative, over one with a jump in its
+  /// middle h times the jump. Steps are halved towards where it is largest; `from` is moved there.
+  template <class Curve>
+  static double jump_within(const Curve& at, double& from, double h)
+  {
+    constexpr int halvings = 20;
+    Vec3 a = at(from), b = at(from + h), c = at(from + 2.0 * h);
+    double steepest = 0.0;
+    for (int n = 0; n < halvings; ++n) {
+      h *= 0.5;
+      const Vec3 ab = at(from + h), bc = at(from + 3.0 * h);
+      const double left = (a - 2.0 * ab + b).norm(), right = (b - 2.0 * bc + c).norm();
+      if (left < right) {
+        from += 2.0 * h;
+        a = b, b = bc;
+      } else {
+        c = b, b = ab;
+      }
+      // A jump near the end of one step is near the middle of another.
+      if (n > halvings - 4) steepest = std::max(steepest, std::max(left, right) / h);
+    }
+    return steepest;
+  }
+
+  /// Bounds of second derivatives say nothing of a probe whose first ones jump: lines of the chart are
+  /// searched for a place where they do.
   void kinks_of_probe()
   {
-    constexpr int pieces = 48, halvings = 20;
+    constexpr int pieces = 48;
     constexpr double most = 1e-4;  // of the size; rounding leaves 1e-8, a second derivative of 100 sizes 1e-5
     const bool line = solid_.probe_dimension() == 1;
     for (int k = 0; k < searches; ++k) {
@@ -191,28 +214,13 @@ class SolidCheck {
           return solid_.probe(along_u ? angles(u + by, v) : angles(u, v + by)).x;
         };
         for (int i = 0; i < pieces; ++i) {
-          double from = 2.0 * pi * i / pieces, h = pi / pieces;
-          Vec3 a = at(from), b = at(from + h), c = at(from + 2.0 * h);
-          double steepest = 0.0;
-          for (int n = 0; n < halvings; ++n) {
-            h *= 0.5;
-            const Vec3 ab = at(from + h), bc = at(from + 3.0 * h);
-            const double left = (a - 2.0 * ab + b).norm(), right = (b - 2.0 * bc + c).norm();
-            if (left < right) {
-              from += 2.0 * h;
-              a = b, b = bc;
-            } else {
-              c = b, b = ab;
-            }
-            // A jump near the end of one step is near the middle of another.
-            if (n > halvings - 4) steepest = std::max(steepest, std::max(left, right) / h);
-          }
+          double by = 2.0 * pi * i / pieces;
+          const double jump = jump_within(at, by, pi / pieces);
           require(
-              steepest <= most * size_,
+              jump <= most * size_,
               "the first derivative of the probe of '{}' jumps by {:.3g} or more near {} = {:.9g}, where {} "
               "is {:.6g}: its bounds hold for continuous ones alone",
-              name_, steepest, along_u ? 'u' : 'v', (along_u ? u : v) + from, along_u ? 'v' : 'u',
-              along_u ? v : u);
+              name_, jump, along_u ? 'u' : 'v', (along_u ? u : v) + by, along_u ? 'v' : 'u', along_u ? v : u);
         }
       }
     }

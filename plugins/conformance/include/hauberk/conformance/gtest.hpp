@@ -50,6 +50,19 @@ class LoadTest : public testing::Test {
   std::string why_;
 };
 
+/// Registers a test of suite `suite` for each check of plugins of kind `kind`: `make`(check) makes it when it
+/// runs.
+template <class Make>
+void register_checks(const std::string& suite, PluginKind kind, const Make& make)
+{
+  for (const Check& check : checks(kind)) {
+    std::string name = check.name;
+    std::replace(name.begin(), name.end(), '.', '_');
+    testing::RegisterTest(suite.c_str(), name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+                          [check, make]() -> testing::Test* { return make(check); });
+  }
+}
+
 /// Registers the checks of the plugin in `file` as tests of suite `suite`, where the file has several those
 /// of each as tests of suite `suite`_ID; `switches` as in Setup. Returns true.
 inline bool register_tests(const char* suite, const std::string& file, const std::string& section = {},
@@ -60,14 +73,9 @@ inline bool register_tests(const char* suite, const std::string& file, const std
     for (const PluginTable* table : library.tables()) {
       const std::string group =
           library.tables().size() == 1 ? std::string(suite) : std::string(suite) + "_" + table->id;
-      for (const Check& check : checks(table->kind)) {
-        std::string name = check.name;
-        std::replace(name.begin(), name.end(), '.', '_');
-        testing::RegisterTest(group.c_str(), name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
-                              [check, table, section, seed, switches]() -> testing::Test* {
-                                return new ConformanceTest(check, *table, Setup{section, switches}, seed);
-                              });
-      }
+      register_checks(group, table->kind, [=](const Check& check) {
+        return new ConformanceTest(check, *table, Setup{section, switches}, seed);
+      });
     }
   } catch (const PluginError& error) {
     testing::RegisterTest(
@@ -82,22 +90,16 @@ inline bool register_tests(const char* suite, const std::string& file, const std
 inline bool register_tests(PluginKind kind, const char* suite, const std::string& file,
                            const std::string& section = {}, std::uint64_t seed = 1, bool switches = true)
 {
-  for (const Check& check : checks(kind)) {
-    std::string name = check.name;
-    std::replace(name.begin(), name.end(), '.', '_');
-    testing::RegisterTest(
-        suite, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
-        [kind, check, file, section, seed, switches]() -> testing::Test* {
-          try {
-            const PluginLibrary library = PluginLibrary::load(file);
-            if (library.tables().size() != 1 || library.tables().front()->kind != kind)
-              return new LoadTest(file + " is no library with one plugin of the kind that was said");
-            return new ConformanceTest(check, *library.tables().front(), Setup{section, switches}, seed);
-          } catch (const PluginError& error) {
-            return new LoadTest(error.what());
-          }
-        });
-  }
+  register_checks(suite, kind, [=](const Check& check) -> testing::Test* {
+    try {
+      const PluginLibrary library = PluginLibrary::load(file);
+      if (library.tables().size() != 1 || library.tables().front()->kind != kind)
+        return new LoadTest(file + " is no library with one plugin of the kind that was said");
+      return new ConformanceTest(check, *library.tables().front(), Setup{section, switches}, seed);
+    } catch (const PluginError& error) {
+      return new LoadTest(error.what());
+    }
+  });
   return true;
 }
 

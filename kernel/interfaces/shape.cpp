@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hauberk {
@@ -48,6 +49,20 @@ std::string curve_defect(const Primitive& primitive)
                        primitive.r0(), bend);
   }
   return {};
+}
+
+/// Of a solid that states no thickness.
+std::string too_sharp(const Primitive& primitive)
+{
+  const std::vector<std::string> names = primitive.solid->size_names();
+  const std::vector<double>& sizes = primitive.solid->sizes();
+  std::string text;
+  for (std::size_t k = 0; k < std::min(names.size(), sizes.size()); ++k)
+    text += fmt::format("{}'{}' = {:g}", k == 0 ? "" : ", ", names[k], sizes[k]);
+  return fmt::format(
+      "primitive '{}', of kind {} with {}, bends so sharply that no bound of its curvature was found; make it "
+      "less thin or flat",
+      primitive.name, primitive.solid->kind(), text);
 }
 
 /// Empty when the primitive is sound, else what is wrong with it.
@@ -102,6 +117,7 @@ std::vector<Primitive> Shape::primitives(std::span<const double> p) const
       primitive.size[1] = primitive.size[2] = primitive.R() * primitive.surface->thickness();
     if (primitive.solid) {
       const double thickness = primitive.solid->thickness();
+      if (thickness == 0.0) throw InputError(too_sharp(primitive));
       primitive.size = {primitive.solid->radius(), thickness, thickness};
     }
     const std::string what = defect(primitive);

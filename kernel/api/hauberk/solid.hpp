@@ -78,7 +78,8 @@ class Solid {
   virtual const std::vector<double>& sizes() const = 0;
   /// Radius of a ball about the origin that holds it.
   virtual double radius() const = 0;
-  /// Smallest radius of curvature where it is convex, at most `radius`.
+  /// Smallest radius of curvature where it is convex, at most `radius`; 0 where no bound of it is known: such
+  /// sizes are refused, by name.
   virtual double thickness() const = 0;
 
   /// 1: a curve, whose points are `offset` from the surface; 2: the surface itself.

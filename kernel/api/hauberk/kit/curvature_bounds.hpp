@@ -88,8 +88,13 @@ CurvatureBounds curvature_bounds(const double* q)
   using Cell = SurfaceCell;
   CurvatureBounds b;
   CurvatureSearch<Author, false> bends(q);
-  b.convex =
-      bends.bound([](const Cell& c) { return c.most; }, [](const Cell& c) { return c.most_at; }, 1.08, 1000);
+  const auto most = [](const Cell& c) { return c.most; };
+  const auto most_at = [](const Cell& c) { return c.most_at; };
+  b.convex = bends.bound(most, most_at, 1.08, 1000);
+  // Sections that are thin or flat beside their ring take more cells, for a bound that is poorer all the
+  // same.
+  constexpr double poor = 2.0;
+  if (b.convex > poor * bends.largest(most_at)) b.convex = bends.bound(most, most_at, poor, 15'000);
   const auto concave_at = [](const Cell& c) { return -c.least_at; };
   // What an author states holds unless a point of the surface refutes it.
   const bool stated = Statements<Author>::convex && bends.largest(concave_at) <= 1e-9 * b.convex;

@@ -96,6 +96,15 @@ void Progress::lessons(const std::string& label, int round, std::size_t done, st
   });
 }
 
+void Progress::checks(const std::string& name, std::size_t done, std::size_t total)
+{
+  if (mode_ == Mode::plain && Clock::now() - begin_ < plain_interval) return;
+  line(false, [&](bool terminal) {
+    return terminal ? fmt::format("{} {}/{} {}", bar(done, total), done, total, name)
+                    : fmt::format("{}/{} done, running {}", done, total, name);
+  });
+}
+
 void Progress::line(bool always, const std::function<std::string(bool terminal)>& text)
 {
   if (mode_ == Mode::quiet) return;

@@ -33,6 +33,8 @@ class Progress {
   void limits(const std::string& label, std::size_t done, std::size_t total);
   /// Limits that learn from each other, in rounds. Written as seldom as everything else between ends.
   void lessons(const std::string& label, int round, std::size_t done, std::size_t total);
+  /// The check that runs, and how many are done; elsewhere than on a terminal not of what is quick.
+  void checks(const std::string& name, std::size_t done, std::size_t total);
   /// An iterate of the design, with the table of its targets; `final`: the best start is being continued.
   void design(const DesignProgress& progress, const DesignSpec& design, bool final);
   /// Removes the redrawn block.

@@ -169,6 +169,20 @@ TEST(Conform, TellsTheParametersThatWereRefused)
   EXPECT_NE(o.out.find("(parameters: R = 1e-12, "), std::string::npos) << o.out;
 }
 
+/// Steps of differences and of searches fail beside the parameters that they begin from.
+TEST(Conform, TellsTheParametersThatFailed)
+{
+  for (const std::string check : {"shape.jacobians", "shape.smooth"}) {
+    const Outcome o = run_program({"plugins", "conform", mutants + "mutant_shape.so", "--filter", check,
+                                   "--section", R"({"defect": "throws_far_away"})"});
+    EXPECT_EQ(o.code, 1);
+    EXPECT_NE(o.out.find("primitives failed: not as far as that"), std::string::npos) << o.out;
+    const std::size_t at = o.out.find("waist = ");
+    ASSERT_NE(at, std::string::npos) << o.out;
+    EXPECT_GT(std::stod(o.out.substr(at + 8)), 1.7) << o.out;
+  }
+}
+
 TEST(Conform, WhatIsNoPlugin)
 {
   const Outcome none = run_program({"plugins", "conform", "/nowhere.so"});

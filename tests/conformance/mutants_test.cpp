@@ -36,6 +36,7 @@ const Planted all[] = {
     {"shape", "crash", "shape.primitives", "ended by signal 11"},
     {"shape", "hang", "shape.primitives", "did not return within 2 s of processor time"},
     {"shape", "throws", "shape.primitives", "primitives failed: no primitives today"},
+    {"shape", "throws_far_away", "shape.smooth", "primitives failed: not as far as that (parameters: R = "},
     {"shape", "rounds_up", "floating_point", "primitives changed the floating-point mode (rounding)"},
     {"shape", "closed_hole", "shape.refusals", "closes its radius"},
     {"shape", "unnamed_refusal", "shape.refusals", "without the name of a parameter"},

@@ -1,5 +1,6 @@
 #include "dispatch.hpp"
 #include "options.hpp"
+#include "run/progress.hpp"
 #include "say.hpp"
 
 #include <hauberk/conformance/isolated.hpp>
@@ -66,6 +67,7 @@ Description conform_description()
                    .value = "LIMIT",
                    .help = "longest processor time of a run of a check; default 60"},
                   {.name = "in-process", .help = "in this process, without a time limit: for debuggers"},
+                  {.name = "quiet", .help = "show no progress"},
                   {.name = "json", .help = "the report as JSON"}}};
 }
 
@@ -88,7 +90,12 @@ int conform_command(const std::vector<std::string>& words)
   if (options.has("seconds")) conditions.seconds = options.get<double>("seconds");
   if (!(conditions.seconds > 0.0 && conditions.seconds <= 1e6))
     throw UsageError("--seconds: expected a number in (0, 1e6]", options.usage());
+  Progress progress(Progress::detect(options.has("quiet")));
+  conditions.on_check = [&progress](const std::string& check, std::size_t done, std::size_t total) {
+    progress.checks(check, done, total);
+  };
   const auto reports = conformance::conform_all(options.positional(), conditions);
+  progress.clear();
   if (options.has("json"))
     say_json(json_of(reports));
   else

@@ -154,7 +154,9 @@ Report conform_one(Report report, const Identity& identity, const Conditions& co
   report.id = identity.id;
   report.version = identity.version;
   report.kind = with_article(identity.kind);
-  for (const Check& check : matching(checks(identity.kind), conditions.filter)) {
+  const std::vector<Check> all = matching(checks(identity.kind), conditions.filter);
+  for (const Check& check : all) {
+    if (conditions.on_check) conditions.on_check(check.name, report.results.size(), all.size());
     const auto begin = Clock::now();
     report.results.push_back(with_seeds(check, file, conditions));
     report.results.back().seconds = seconds_since(begin);

@@ -291,7 +291,7 @@ void time_shape(const Shape& shape, Trial& trial, Times& times)
     p.push_back(given != nullptr ? given->number : info.default_value);
   }
   const bool known = std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
-  if (!known || refused(shape, p)) p = draw_point(shape, trial).p;
+  if (!known || refused(shape, p, trial)) p = draw_point(shape, trial).p;
   time_call(times, "primitives", longest_primitives, [&] { static_cast<void>(shape.primitives(p)); });
   time_call(times, "jacobians", longest_primitives, [&] { static_cast<void>(shape.jacobians(p)); });
 }

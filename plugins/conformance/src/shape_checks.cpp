@@ -63,7 +63,7 @@ void parameter_bounds(Trial& trial)
       Values p = inside.p;
       p[k] = bad;
       trial.look_at(*object.shape, p);
-      const auto message = refused(*object.shape, p);
+      const auto message = refused(*object.shape, p, trial);
       require(message.has_value(), "parameter '{}' = {} is accepted outside [{}, {}]", infos[k].name, bad,
               infos[k].lower, infos[k].upper);
       require(mentions(*message, infos[k].name),
@@ -123,7 +123,7 @@ void corners(Trial& trial, const Shape& shape)
       p.push_back(std::isfinite(end) ? end : (upper ? high : low));
     }
     trial.look_at(shape, p);
-    const auto message = refused(shape, p);
+    const auto message = refused(shape, p, trial);
     require(!message || names_one(*message, infos),
             "a corner of the bounds is refused without the name of a parameter: '{}'", message.value_or(""));
     if (message) continue;
@@ -152,7 +152,7 @@ void refusals(Trial& trial)
         Values p = inside.p;
         p[k] = end;
         trial.look_at(*object.shape, p);
-        const auto message = refused(*object.shape, p);
+        const auto message = refused(*object.shape, p, trial);
         require(!message || names_one(*message, infos),
                 "'{}' = {} is within its bounds and refused without the name of a parameter: '{}'",
                 infos[k].name, end, message.value_or(""));
@@ -226,7 +226,7 @@ void compare_derivatives(Trial& trial, const Compared& compared)
         const Along moved = [&](double s) {
           Values p = point.p;
           p[k] += s;
-          return compared.values(shape.primitives(p).at(i));
+          return compared.values(primitives_at(shape, p, trial).at(i));
         };
         const Values expected = compared.claimed(here[i], column);
         for (const Deviation& wrong : accepted_deviations(moved, expected, point.margin[k]))
@@ -331,7 +331,7 @@ void solid_sizes(Trial& trial)
         const Along moved = [&](double s) {
           Values p = point.p;
           p[k] += s;
-          return samples.values(*shape.primitives(p).at(i).solid);
+          return samples.values(*primitives_at(shape, p, trial).at(i).solid);
         };
         for (const Deviation& wrong :
              accepted_deviations(moved, samples.claimed(*here[i].solid, change), 0.2 * point.margin[k]))
@@ -364,7 +364,7 @@ void shape_scaling(Trial& trial)
       for (std::size_t k = 0; k < p.size(); ++k) {
         if (is_length(infos[k])) p[k] *= factor;
       }
-      if (refused(*scaled.shape, p)) continue;
+      if (refused(*scaled.shape, p, trial)) continue;
       const std::vector<Primitive> large = scaled.shape->primitives(p);
       for (std::size_t i = 0; i < std::min(small.size(), large.size()); ++i) {
         const Values a = quantities(small[i]), b = quantities(large[i]);

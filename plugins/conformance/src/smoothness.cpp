@@ -18,7 +18,10 @@ using Values = std::vector<double>;
 /// root a third.
 class JumpSearch {
  public:
-  JumpSearch(const Shape& shape, const Point& point, std::size_t k) : shape_(shape), point_(point), k_(k) {}
+  JumpSearch(const Shape& shape, const Point& point, std::size_t k, Trial& trial)
+      : shape_(shape), point_(point), k_(k), trial_(trial)
+  {
+  }
 
   /// The place of a jump; null where there is none, or where parameters are refused.
   std::optional<double> find(double low, double high) const
@@ -53,7 +56,7 @@ class JumpSearch {
   {
     Values p = point_.p;
     p[k_] = value;
-    if (refused(shape_, p)) return std::nullopt;
+    if (refused(shape_, p, trial_)) return std::nullopt;
     Values out;
     for (const Primitive& primitive : shape_.primitives(p)) {
       const Values q = quantities(primitive);
@@ -81,19 +84,20 @@ class JumpSearch {
   const Shape& shape_;
   const Point& point_;
   std::size_t k_;
+  Trial& trial_;
 };
 
 /// Looks for jumps in intervals between `low` and `high`, of equal ratios where these differ by more than a
 /// decade.
 void require_no_jump(const Shape& shape, const Point& point, std::size_t k, double low, double high,
-                     int intervals)
+                     int intervals, Trial& trial)
 {
   const bool wide = low > 0.0 && high > 10.0 * low;
   const auto at = [&](int i) {
     const double s = static_cast<double>(i) / intervals;
     return wide ? low * std::pow(high / low, s) : low + s * (high - low);
   };
-  const JumpSearch search(shape, point, k);
+  const JumpSearch search(shape, point, k, trial);
   for (int i = 0; i < intervals; ++i) {
     const auto place = search.find(std::max(low, at(i)), std::min(high, at(i + 1)));
     require(!place, "primitives or their derivatives jump at {} = {:.9g}, and it is said to be smooth",
@@ -119,10 +123,10 @@ void check_smoothness(Trial& trial)
       if (!infos[k].smooth) continue;
       const double low = std::max(infos[k].lower, point.p[k] - reach * point.margin[k]);
       const double high = std::min(infos[k].upper, point.p[k] + reach * point.margin[k]);
-      require_no_jump(*object.shape, point, k, low, high, trial.switched ? shared : near);
+      require_no_jump(*object.shape, point, k, low, high, trial.switched ? shared : near, trial);
       if (draw > 0 || trial.switched) continue;
       const auto [least, most] = whole_range(infos[k]);
-      require_no_jump(*object.shape, point, k, least, most, shared);
+      require_no_jump(*object.shape, point, k, least, most, shared, trial);
     }
   }
 }

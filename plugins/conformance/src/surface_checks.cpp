@@ -212,14 +212,14 @@ Body body_of(Primitive primitive)
 }
 
 /// Of solids, between two sets of parameters that the shape accepts.
-void check_motions(const Shape& shape, const Point& point, Random& random)
+void check_motions(const Shape& shape, const Point& point, Trial& trial)
 {
   std::vector<double> p = point.p;
-  for (std::size_t k = 0; k < p.size(); ++k) p[k] += random.between(-1.0, 1.0) * point.margin[k];
-  if (refused(shape, p)) return;
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] += trial.random.between(-1.0, 1.0) * point.margin[k];
+  if (refused(shape, p, trial)) return;
   const std::vector<Primitive> from = shape.primitives(point.p), to = shape.primitives(p);
   for (std::size_t k = 0; k < from.size(); ++k)
-    if (from[k].solid && to[k].solid) check_motion(from[k], to[k], random);
+    if (from[k].solid && to[k].solid) check_motion(from[k], to[k], trial.random);
 }
 
 }  // namespace
@@ -229,7 +229,7 @@ void check_surfaces(Trial& trial)
   const Object object = trial.make();
   for (int draw = 0; draw < (trial.switched ? 1 : 3); ++draw) {
     const Point point = draw_point(*object.shape, trial);
-    check_motions(*object.shape, point, trial.random);
+    check_motions(*object.shape, point, trial);
     for (const Primitive& primitive : object.shape->primitives(point.p)) {
       if (primitive.surface) {
         check_triangles(primitive, trial);

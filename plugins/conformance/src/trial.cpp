@@ -47,7 +47,7 @@ std::vector<Range> ranges_of(const Shape& shape, const Node& given)
 }
 
 /// Ends the check where the parameters given cannot be looked at.
-void check_given(const Shape& shape, const Node& given)
+void check_given(const Shape& shape, const Node& given, Trial& trial)
 {
   if (given.type == Node::Type::null) return;
   require(given.type == Node::Type::object, "the parameters of the section: expected an object of numbers");
@@ -66,19 +66,19 @@ void check_given(const Shape& shape, const Node& given)
     p.push_back(value != nullptr ? value->number : info.default_value);
     if (!std::isfinite(p.back())) return;
   }
-  const std::optional<std::string> message = refused(shape, p);
+  const std::optional<std::string> message = refused(shape, p, trial);
   require(!message, "the shape refuses the parameters of the section: {}", message.value_or(""));
 }
 
 /// The first refusal of p moved to and fro along every parameter; null where the shape accepts all.
-std::optional<std::string> refused_around(const Shape& shape, const Point& point)
+std::optional<std::string> refused_around(const Shape& shape, const Point& point, Trial& trial)
 {
-  std::optional<std::string> message = refused(shape, point.p);
+  std::optional<std::string> message = refused(shape, point.p, trial);
   std::vector<double> q = point.p;
   for (std::size_t k = 0; k < q.size(); ++k) {
     for (const double sign : {-1.0, 1.0}) {
       q[k] = point.p[k] + sign * point.margin[k];
-      if (!message) message = refused(shape, q);
+      if (!message) message = refused(shape, q, trial);
     }
     q[k] = point.p[k];
   }
@@ -102,7 +102,7 @@ std::optional<Point> draw_from(const Shape& shape, const std::vector<Range>& ran
       point.p.push_back(r.low == r.high ? middle : value);
       point.margin.push_back(wide ? margin_part * value : inside);
     }
-    last = refused_around(shape, point);
+    last = refused_around(shape, point, trial);
     if (last) continue;
     trial.look_at(shape, point.p);
     return point;
@@ -177,11 +177,23 @@ std::vector<double> quantities(const Primitive& primitive)
   return out;
 }
 
-std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p)
+std::vector<Primitive> primitives_at(const Shape& shape, const std::vector<double>& p, Trial& trial)
 {
   try {
-    static_cast<void>(shape.primitives(p));
+    return shape.primitives(p);
+  } catch (...) {
+    trial.look_at(shape, p);
+    throw;
+  }
+}
+
+std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p, Trial& trial)
+{
+  const std::string looked_at = trial.looked_at;
+  try {
+    static_cast<void>(primitives_at(shape, p, trial));
   } catch (const InputError& error) {
+    trial.looked_at = looked_at;
     return error.what();
   }
   return std::nullopt;
@@ -199,7 +211,7 @@ std::string quantity_name(const Primitive& primitive, std::size_t row)
 
 Point draw_point(const Shape& shape, Trial& trial)
 {
-  if (!trial.switched) check_given(shape, trial.section.parameters);
+  if (!trial.switched) check_given(shape, trial.section.parameters, trial);
   const std::vector<Range> ranges = ranges_of(shape, trial.section.parameters);
   std::optional<std::string> last;
   const std::optional<Point> point = draw_from(shape, ranges, trial, most_draws, last);

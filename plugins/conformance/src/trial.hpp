@@ -72,8 +72,10 @@ Point draw_point(const Shape& shape, Trial& trial);
 Point draw_far_point(const Shape& shape, Trial& trial);
 /// Where a parameter is drawn from then.
 std::pair<double, double> whole_range(const ParameterInfo& info);
-/// Message of the refusal of p; null where the shape accepts it.
-std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p);
+/// The primitives of p, of which a failure is told then.
+std::vector<Primitive> primitives_at(const Shape& shape, const std::vector<double>& p, Trial& trial);
+/// Message of the refusal of p; null where the shape accepts it. Another failure is told of p.
+std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p, Trial& trial);
 
 // ----- load cases -----
 

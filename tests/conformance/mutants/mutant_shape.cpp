@@ -42,6 +42,7 @@ class Mutant final : public Shape {
   void do_primitives(std::span<const double> p, std::vector<Primitive>& out) const override
   {
     if (is("throws")) throw std::runtime_error("no primitives today");
+    if (is("throws_far_away") && p[waist] > 1.7) throw std::runtime_error("not as far as that");
     if (is("rounds_up")) std::fesetround(FE_UPWARD);
     if (is("closed_hole") && p[r] >= p[R]) {
       out = inner_->primitives(std::vector<double>{p[r] * 2.0, p[r], p[waist]});

@@ -3,8 +3,10 @@
 
 #include <hauberk/conformance/report.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,8 @@ struct Conditions {
   std::string filter;          ///< of names; empty: all
   std::string plugin;          ///< id of one of the plugins of a library; empty: the only one
   Setup setup;
+  /// Told before each check of a plugin: its name, how many are done, and of how many.
+  std::function<void(const std::string& check, std::size_t done, std::size_t total)> on_check;
 };
 
 /// Loads the plugin and runs its checks. A plugin that cannot be loaded, and one that is not named where the

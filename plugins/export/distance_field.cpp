@@ -246,7 +246,7 @@ Mesh zero_set(std::span<const Primitive> primitives, double chord, double most_t
 {
   // The longest edge of a tetrahedron, sqrt(3) cells, is to be a chord of the thinnest tube. Every ball that
   // fits into the tube has to hold nodes of the grid: else the tube falls into beads.
-  const double thin = thinnest(primitives), fine = std::min(chord, 0.25 * thin);
+  const double thin = sharpest_radius(primitives), fine = std::min(chord, 0.25 * thin);
   return Marching(primitives, std::sqrt(8.0 * thin * fine / 3.0), chord, most_triangles).draw();
 }
 

@@ -221,7 +221,7 @@ std::vector<int> add_meshes(const Fabric& fabric, double chord, Assembly& assemb
         known.try_emplace({element.type, signature(element)}, static_cast<int>(assembly.meshes.size()));
     mesh_of.push_back(entry->second);
     if (!is_new) continue;
-    const double fine = chord > 0.0 ? chord : thinnest(element.primitives) / 40.0;
+    const double fine = chord > 0.0 ? chord : wire_radius(element.primitives) / 40.0;
     assembly.meshes.push_back(element_mesh(element.primitives, fine));
     assembly.primitives.push_back(element.primitives);
     const int number = of_type[element.type]++;

@@ -1,9 +1,11 @@
 #include "export/mesh.hpp"
 
+#include "export/chart_mesh.hpp"
 #include "export/distance_field.hpp"
 #include "geometry/closed_curve.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/joined.hpp"
+#include "geometry/thinnest_wall.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -18,6 +20,17 @@
 namespace hauberk::exporting {
 namespace {
 
+/// Rays through a surface of triangles.
+constexpr double rays_of_surface = 200.0, most_tests = 1e8;
+
+double thinnest_wall(const TriangleSurface& surface)
+{
+  const double triangles = static_cast<double>(surface.triangles().size());
+  return hauberk::thinnest_wall(
+      surface.points(), surface.triangles(),
+      static_cast<std::size_t>(std::clamp(most_tests / triangles, 1.0, rays_of_surface)));
+}
+
 constexpr double pi = std::numbers::pi;
 constexpr double most_triangles = 5e6;  ///< of one element
 
@@ -26,13 +39,6 @@ int chords_of_circle(double radius, double chord)
 {
   const double half = std::acos(std::max(-1.0, 1.0 - chord / radius));
   return std::max(6, static_cast<int>(std::min(1e6, std::ceil(pi / std::max(half, 1e-6)))));
-}
-
-[[noreturn]] void refuse_chord(double triangles, double chord)
-{
-  throw InputError(fmt::format(
-      "--chord {:g}: one element would take {:.2g} triangles, more than {:.0g}; give a larger chord", chord,
-      triangles, most_triangles));
 }
 
 /// Rings around u, each of points around v, closed both ways.
@@ -57,13 +63,6 @@ void add_torus(Mesh& mesh, const Primitive& p, double chord)
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-}
-
-/// Turns the triangles round where they enclose a negative volume.
-void turn_outwards(Mesh& mesh)
-{
-  if (volume(mesh) >= 0.0) return;
-  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
 /// What the kernel's contact of meshes takes for the surface.
@@ -127,13 +126,36 @@ std::vector<Vec3> point_normals(const Mesh& mesh)
   return normals;
 }
 
-double thinnest(std::span<const Primitive> primitives)
+void turn_outwards(Mesh& mesh)
+{
+  if (volume(mesh) >= 0.0) return;
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+void refuse_chord(double triangles, double chord)
+{
+  throw InputError(fmt::format(
+      "--chord {:g}: one element would take {:.2g} triangles, more than {:.0g}; give a larger chord", chord,
+      triangles, most_triangles));
+}
+
+double wire_radius(std::span<const Primitive> primitives)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const Primitive& p : primitives) {
-    const double r = p.surface ? 0.1 * p.R() : p.solid ? p.solid->thickness() : std::min(p.r0(), p.r1());
+    const double r = p.surface ? 0.5 * thinnest_wall(*p.surface) * p.R()
+                     : p.solid ? 0.5 * thinnest_wall(*p.solid)
+                               : std::min(p.r0(), p.r1());
     least = std::min(least, r);
   }
+  return least;
+}
+
+double sharpest_radius(std::span<const Primitive> primitives)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Primitive& p : primitives)
+    least = std::min(least, p.solid ? p.solid->thickness() : std::min(p.r0(), p.r1()));
   return least;
 }
 
@@ -144,7 +166,9 @@ Mesh element_mesh(std::span<const Primitive> primitives, double chord)
     const Primitive& first = group.front();
     if (group.size() == 1 && first.kind <= PrimitiveKind::revolved_ellipse)
       add_torus(mesh, first, chord);
-    else if (group.size() == 1 && !first.solid)
+    else if (group.size() == 1 && first.solid)
+      append(mesh, chart_mesh(*first.solid, chord, most_triangles), first.rotation, first.position);
+    else if (group.size() == 1)
       add_facets(mesh, first, chord);
     else
       append(mesh, zero_set(group, chord, most_triangles), Mat3::Identity(), Vec3::Zero());

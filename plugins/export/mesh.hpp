@@ -28,14 +28,24 @@ std::vector<Vec3> point_normals(const Mesh& mesh);
 /// triangles, one closed surface for each group of primitives that overlap. Points lie on the surface; facets
 /// leave it by at most about `chord` (> 0), and the volume's error falls with it.
 ///
-/// A primitive that overlaps no other is sampled by its chart. A group is the zero set of the least of its
-/// fields, drawn by marching tetrahedra (six to a cube, as Kuhn divides it), whose edges find the surface by
-/// bisection: ridges where primitives meet are cut by facets, in the order of the chord, too. Throws
-/// InputError where a triangle mesh overlaps other primitives, and where the chord would take more than
-/// 5,000,000 triangles of one element. Thread safe.
+/// A primitive that overlaps no other is sampled by its chart, closer where it bends more. A group is the
+/// zero set of the least of its fields, drawn by marching tetrahedra (six to a cube, as Kuhn divides it),
+/// whose edges find the surface by bisection: ridges where primitives meet are cut by facets, in the order of
+/// the chord, too. Throws InputError where a triangle mesh overlaps other primitives, and where the chord
+/// would take more than 5,000,000 triangles of one element. Thread safe.
 Mesh element_mesh(std::span<const Primitive> primitives, double chord);
 
-/// The smallest radius of the wires, tubes or walls of primitives, which chords are measured by.
-double thinnest(std::span<const Primitive> primitives);
+/// Half of how thin the wires, tubes or walls of primitives are across, which chords are measured by.
+double wire_radius(std::span<const Primitive> primitives);
+
+/// The smallest radius of a tube or, of other solids, of curvature where they are convex, as far as it is
+/// certified: what a grid has to be finer than.
+double sharpest_radius(std::span<const Primitive> primitives);
+
+/// Turns the triangles round where they enclose a negative volume.
+void turn_outwards(Mesh& mesh);
+
+/// Throws InputError that says so: an element would take so many.
+[[noreturn]] void refuse_chord(double triangles, double chord);
 
 }  // namespace hauberk::exporting

@@ -158,7 +158,8 @@ json::array facts_of(const JsonPlace& document, const std::string& unit)
 double default_chord(const Fabric& fabric)
 {
   double thin = std::numeric_limits<double>::infinity();
-  for (const Fabric::Element& element : fabric.elements) thin = std::min(thin, thinnest(element.primitives));
+  for (const Fabric::Element& element : fabric.elements)
+    thin = std::min(thin, wire_radius(element.primitives));
   return thin / 16.0;
 }
 

@@ -3,6 +3,7 @@
 #include "geometry/body.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/separation.hpp"
+#include "geometry/thinnest_wall.hpp"
 #include "inspect/disjoint_sets.hpp"
 
 #include <hauberk/error.hpp>
@@ -80,36 +81,6 @@ double signed_volume(const Part& part, const Vec3& about)
   for (const auto& t : part.triangles)
     six += (part.points[t[0]] - about).dot((part.points[t[1]] - about).cross(part.points[t[2]] - about));
   return six / 6.0;
-}
-
-/// Way of a ray from a triangle's middle straight into the body, until it comes out: the least of all rays.
-double thinnest_wall(const Part& part, bool inside_out, std::size_t rays)
-{
-  const std::size_t stride = std::max<std::size_t>(1, part.triangles.size() / std::max<std::size_t>(1, rays));
-  const std::array<Vec3, 2> box = box_of(part.points);
-  const double across = (box[1] - box[0]).norm();
-  double least = infinite;
-  for (std::size_t k = 0; k < part.triangles.size(); k += stride) {
-    const auto& t = part.triangles[k];
-    const std::array<Vec3, 3> c{part.points[t[0]], part.points[t[1]], part.points[t[2]]};
-    const Vec3 middle = (c[0] + c[1] + c[2]) / 3.0;
-    const Vec3 inward = (inside_out ? 1.0 : -1.0) * (c[1] - c[0]).cross(c[2] - c[0]).normalized();
-    for (std::size_t j = 0; j < part.triangles.size(); ++j) {
-      if (j == k) continue;
-      const auto& o = part.triangles[j];
-      const Vec3 &p = part.points[o[0]], &q = part.points[o[1]], &r = part.points[o[2]];
-      // Moeller and Trumbore 1997.
-      const Vec3 e1 = q - p, e2 = r - p, h = inward.cross(e2), s = middle - p;
-      const double det = e1.dot(h);
-      if (std::abs(det) < 1e-14 * e1.norm() * e2.norm()) continue;
-      const double u = s.dot(h) / det;
-      if (u < 0.0 || u > 1.0) continue;
-      const Vec3 w = s.cross(e1);
-      const double v = inward.dot(w) / det, way = e2.dot(w) / det;
-      if (v >= 0.0 && u + v <= 1.0 && way > 1e-9 * across) least = std::min(least, way);
-    }
-  }
-  return std::isfinite(least) ? least : 0.0;
 }
 
 /// Distance of two closed bodies that do not meet, as far as it is below `range`.
@@ -316,7 +287,8 @@ Inspection inspect(const ModelFile& model, const std::string& file, double gap,
     body.volume = std::abs(volume);
     body.handles = solids[k]->body.surface->loops().size() / 2;
     const double rays = std::min(most_rays, most_tests / squares);
-    body.thinnest_wall = thinnest_wall(part, body.inside_out, static_cast<std::size_t>(std::max(1.0, rays)));
+    body.thinnest_wall = thinnest_wall(part.points, part.triangles,
+                                       static_cast<std::size_t>(std::max(1.0, rays)), body.inside_out);
   }
   look_at_pairs(solids, gap, keep_going, out);
   count_pieces(out);

@@ -89,7 +89,7 @@ std::string summary(const Assembly& assembly, const std::optional<Nearest>& near
       highest = highest.cwiseMax(placed);
     }
   }
-  for (const auto& primitives : assembly.primitives) thin = std::min(thin, thinnest(primitives));
+  for (const auto& primitives : assembly.primitives) thin = std::min(thin, wire_radius(primitives));
   const std::string& unit = assembly.unit;
   std::string text = fmt::format("{} of {}: {} elements, {} triangles, volume {:.6g} {}^3\n", assembly.state,
                                  assembly.name, assembly.copies.size(), triangles, total, unit);

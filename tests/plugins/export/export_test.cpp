@@ -1,19 +1,25 @@
+#include "../../kernel/solid_kit/solids.hpp"
 #include "export/fabric.hpp"
 #include "export/mesh.hpp"
 #include "export/picture.hpp"
 
 #include <hauberk/error.hpp>
+#include <hauberk/kit/implicit_solid.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 namespace hauberk::exporting {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Primitive torus(double R, double r0, double r1)
 {
@@ -72,6 +78,75 @@ TEST(ElementMesh, PointsLieOnTheSurfaceAndFacetsWithinTheChord)
     EXPECT_LT(deepest_facet, 1.05 * chord);
     EXPECT_GT(deepest_facet, 0.05 * chord) << "far more triangles than asked for";
   }
+}
+
+Primitive of_solid(std::shared_ptr<const Solid> solid)
+{
+  Primitive p;
+  p.kind = PrimitiveKind::solid;
+  p.position = Vec3(1.0, -2.0, 3.0);
+  p.rotation = rotation_exp(Vec3(0.3, -0.4, 1.2));
+  p.size = {solid->radius(), solid->thickness(), solid->thickness()};
+  p.solid = std::move(solid);
+  return p;
+}
+
+TEST(ElementMesh, ASolidIsSampledByItsChartCloserWhereItBendsMore)
+{
+  struct Case {
+    std::shared_ptr<const Solid> solid;
+    int euler;
+    double volume;
+  };
+  // The area within (x/a)^4 + (y/b)^4 = 1 is 4 a b Gamma(5/4)^2/Gamma(3/2).
+  const double section = 4.0 * 0.7 * 0.3 * std::pow(std::tgamma(1.25), 2) / std::tgamma(1.5);
+  const std::vector<Case> cases{
+      {std::make_shared<kit::ImplicitSolid<test::RoundedRing>>(std::vector{5.0, 0.7, 0.3}), 0,
+       2.0 * pi * 5.0 * section},
+      {std::make_shared<kit::ImplicitSolid<test::PlainTorus>>(std::vector{5.0, 0.7}), 0,
+       torus_volume(5.0, 0.7, 0.7)},
+      {std::make_shared<kit::ImplicitSolid<test::Capsule>>(std::vector{3.0, 0.5}), 2,
+       pi * 0.25 * (6.0 + 4.0 / 3.0 * 0.5)},
+      {std::make_shared<kit::ImplicitSolid<test::Ellipsoid>>(std::vector{3.0, 2.0, 0.5}), 2, 4.0 * pi}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.solid->kind());
+    const std::vector<Primitive> one{of_solid(c.solid)};
+    double missing = infinite;
+    for (const double chord : {2e-2, 5e-3, 1.25e-3}) {
+      const Mesh mesh = element_mesh(one, chord);
+      EXPECT_EQ(euler_characteristic(mesh), c.euler);
+      double farthest_point = 0.0, deepest_facet = 0.0;
+      const auto off = [&](const Vec3& x) {
+        return std::abs(c.solid->distance(one[0].rotation.transpose() * (x - one[0].position)).distance);
+      };
+      for (const Vec3& x : mesh.points) farthest_point = std::max(farthest_point, off(x));
+      for (const auto& t : mesh.triangles)
+        deepest_facet =
+            std::max(deepest_facet, off((mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0));
+      EXPECT_LT(farthest_point, 1e-9);
+      EXPECT_LT(deepest_facet, 1.05 * chord);
+      EXPECT_GT(deepest_facet, 0.1 * chord) << "far more triangles than asked for";
+      const double now = c.volume - volume(mesh);
+      EXPECT_LT(std::abs(now), 0.7 * missing) << "at chord " << chord;
+      missing = std::abs(now);
+    }
+    EXPECT_LT(missing, 2e-3 * c.volume);
+  }
+}
+
+TEST(WireRadius, OfASolidIsHalfOfItsShortestWayThrough)
+{
+  const auto of = [](std::shared_ptr<const Solid> solid) {
+    return wire_radius(std::vector{of_solid(std::move(solid))});
+  };
+  EXPECT_NEAR(of(std::make_shared<kit::ImplicitSolid<test::RoundedRing>>(std::vector{5.0, 0.7, 0.3})), 0.3,
+              1e-6);
+  EXPECT_NEAR(of(std::make_shared<kit::ImplicitSolid<test::RoundedRing>>(std::vector{5.0, 0.4, 0.7})), 0.4,
+              1e-6);
+  EXPECT_NEAR(of(std::make_shared<kit::ImplicitSolid<test::Ellipsoid>>(std::vector{3.0, 2.0, 0.5})), 0.5,
+              1e-6);
+  EXPECT_NEAR(of(std::make_shared<kit::ImplicitSolid<test::PlainTorus>>(std::vector{5.0, 0.7})), 0.7, 1e-6);
+  EXPECT_EQ(of(std::make_shared<kit::ImplicitSolid<test::Capsule>>(std::vector{3.0, 0.5})), 0.5);
 }
 
 TEST(ElementMesh, RingsThatOverlapAlongThemselvesAreOneTorusOfKnownVolume)

@@ -119,7 +119,7 @@ std::vector<FurtherSearch> FurtherSearches::refolds(const std::vector<std::size_
     begun_[k] = reached(model_, searches_.tasks()[k], best->locked.state);
     furthest_[k] = std::move(best->locked.state);
     const TaskState& t = searches_.of(k);
-    for (std::size_t j = 0; j < t.further_starts; ++j)
+    for (std::size_t j = 0; j < t.refolds; ++j)
       out.push_back({k, t.starts.size() + t.further_starts + loads_[k]++, &furthest_[k], 0.0});
   }
   return out;

@@ -13,8 +13,10 @@ namespace {
 /// LimitSettings::fold_starts are divided by how often this many go into a cell's elements.
 constexpr int cell_of_all_starts = 4;
 
-/// LimitSettings::fold_starts that follow where those before do not agree.
-constexpr std::size_t times_further = 2;
+/// LimitSettings::fold_starts that follow where those before do not agree, in cells of any size up to so many
+/// elements: the more of them, the more folds there are. Of nine fourfold cells one of 24 comes to the
+/// furthest state known, and none of the first four. In larger cells, of which each takes long, fewer.
+constexpr int times_further = 2, cell_of_all_further = 64;
 
 /// Tilted loads of a taut limit that elements bear which are not linked with each other. Of 24 that are
 /// tilted by 40 degrees (further_searches.cpp) 18 or more come to the furthest state of a dragonscale in
@@ -71,8 +73,12 @@ RestSearches asked_for(const Model& model, const LimitTask& task, const LimitSet
   const int starts_of_folds = fold_starts(model, settings);
   if (folds) fold(out, model, at_most(std::max(starts, starts_of_folds)));
   if (settings.most_starts > 0) return out;
-  if (folds && starts_of_folds > 1)
-    out.further_starts = times_further * static_cast<std::size_t>(starts_of_folds);
+  if (folds && settings.fold_starts > 1) {
+    const int n = std::max(cell_of_all_further, model.element_count());
+    out.further_starts =
+        static_cast<std::size_t>(times_further * settings.fold_starts * cell_of_all_further / n);
+    out.refolds = static_cast<std::size_t>(times_further * starts_of_folds);
+  }
   if (is_taut(model, task) && begins_again(model, task, settings.contact) &&
       model.element_count() <= cell_of_taut_starts)
     out.further_starts = tilts_of_jammed;

@@ -23,10 +23,11 @@ struct RestSearches {
   std::size_t starts = 1;
   bool narrow = false;           ///< the last of the starts is that without the widest stage
   std::size_t random_loads = 0;  ///< so many before it begin under a random load
-  /// Where they do not agree: as many more starts, and random loads from the furthest state at a time; of
-  /// taut limits, where elements that are not linked with each other bear it, loads that are tilted
-  /// (further_searches.hpp).
+  /// Where they do not agree: as many more starts; of taut limits, where elements that are not linked with
+  /// each other bear it, loads that are tilted (further_searches.hpp).
   std::size_t further_starts = 0;
+  /// Then, where some began under random loads: as many of these at a time, from the furthest state.
+  std::size_t refolds = 0;
   /// Starts from this one on may not cost more than the `allowance`: of the taut limits in whose company it
   /// is, which have none that may cost more, or of its own starts before these.
   std::size_t sparing_from = std::numeric_limits<std::size_t>::max();

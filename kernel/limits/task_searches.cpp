@@ -19,6 +19,7 @@ TaskSearches::TaskSearches(const Model& model, const SceneSpec& spec, const std:
     state.narrow = searches.narrow;
     state.random_loads = searches.random_loads;
     state.further_starts = searches.further_starts;
+    state.refolds = searches.refolds;
     state.sparing_from = searches.sparing_from;
     state.starts.resize(searches.starts);
     state.missing = searches.starts;

@@ -35,6 +35,7 @@ struct TaskState {
   std::size_t sparing_from = 0;     ///< RestSearches::sparing_from
   std::size_t random_loads = 0;     ///< RestSearches::random_loads
   std::size_t further_starts = 0;   ///< RestSearches::further_starts
+  std::size_t refolds = 0;          ///< RestSearches::refolds
   bool narrow = false;              ///< it may fold: the last start is that without the widest stage
   bool known = false;               ///< its result came with the call; there are no states
   bool learning = false;            ///< others have taught it something, or have begun to

@@ -216,5 +216,25 @@ TEST(RandomLoads, OfWhatNothingHoldsTogetherAreStarts)
   EXPECT_GT(found.evaluations, start.evaluations);
 }
 
+/// Where searches do not agree large cells, which have more folds, have as many more starts as small ones, up
+/// to 64 elements; random loads from locked states are of those that begin under them.
+TEST(FurtherStarts, DoNotDwindleWithTheCellUntilItIsLarge)
+{
+  const auto searches = [](int n, int fold_starts) {
+    const Fabric sheet(repeated(fourfold(), n, n), held_shear);
+    EXPECT_EQ(sheet.model.element_count(), 3 * n * n);
+    LimitSettings settings = sheet.settings;
+    settings.fold_starts = fold_starts;
+    return rest_searches(sheet.model, {at(0.0, Sense::negative)}, settings)[0];
+  };
+  EXPECT_EQ(searches(1, 12).further_starts, 24U);
+  EXPECT_EQ(searches(1, 12).refolds, 24U);
+  EXPECT_EQ(searches(3, 12).starts, 5U);
+  EXPECT_EQ(searches(3, 12).further_starts, 24U);
+  EXPECT_EQ(searches(3, 12).refolds, 4U);
+  EXPECT_EQ(searches(6, 12).further_starts, 14U);  // 24 x 64/108
+  EXPECT_EQ(searches(3, 1).further_starts, 0U);
+}
+
 }  // namespace
 }  // namespace hauberk::test

@@ -24,7 +24,7 @@ LimitsObserver observer_of(const LimitsJob& job, Progress& progress)
   LimitsObserver observer;
   observer.keep_going = [] { return !interrupted(); };
   observer.on_start = [&job, &progress](std::size_t done, std::size_t total) {
-    progress.limits(job.label, done, total);
+    progress.limits(job.label + ", searches", done, total);
   };
   observer.on_lesson = [&job, &progress](int round, std::size_t done, std::size_t total) {
     progress.lessons(job.label, round, done, total);

@@ -32,7 +32,7 @@ TEST(Run, ChainLocksAtTheFormula)
     EXPECT_GT(fs::file_size(folder.path() / "out" / file), 0U);
   EXPECT_NE(o.out.find("0.43333333"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("all 1 expected results are met\n"), std::string::npos) << o.out;
-  EXPECT_NE(o.err.find("limits: 1/1"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("limits, searches: 1/1"), std::string::npos) << o.err;
 }
 
 TEST(Run, QuietShowsNoProgress)

@@ -12,7 +12,8 @@
 ///     };
 ///
 /// q points at the sizes, in the order of their names. The chart covers the surface over [0, 2 pi]^2, is
-/// periodic, and has continuous first derivatives. Optional members:
+/// periodic, and has continuous first derivatives, which beside a `core` are not needed: there the chart says
+/// where the surface is, and its pieces may meet at different speeds. Optional members:
 ///
 ///     template <class S>
 ///     static Point<S> core(const Turn<S>& u, const S* q);

@@ -25,8 +25,21 @@ class ChartMesh {
  public:
   ChartMesh(const Solid& solid, double chord, double most) : solid_(solid), chord_(chord), most_(most)
   {
+    poles_ = is_point(0.0);
+    const bool twice =
+        solid.fold() == Fold::pole || (solid.fold() == Fold::mirror && solid.probe_dimension() == 2);
+    is_once_ = poles_ == is_point(pi) && (poles_ || !twice);
+    if (is_once_) divide();
+  }
+
+  /// Whether the points cover the surface, and once.
+  bool is_once() const { return is_once_; }
+  Mesh mesh() const { return poles_ ? between_poles() : closed_both_ways(); }
+
+ private:
+  void divide()
+  {
     constexpr std::size_t first = 8, seen_at = 32;
-    poles_ = is_point(0.0) && is_point(pi);
     // Other values than those of either are where the other bends most only by chance: both are divided by
     // what many lines show, then by what the lines of the mesh show.
     const Values many_u = evenly(2.0 * pi, seen_at), many_v = evenly(length_v(), seen_at);
@@ -37,9 +50,6 @@ class ChartMesh {
     us_ = divided(us_, 2.0 * pi, [&](double a, double b) { return sagitta_u(a, b, vs_); });
   }
 
-  Mesh mesh() const { return poles_ ? between_poles() : closed_both_ways(); }
-
- private:
   Vec3 at(double u, double v) const
   {
     return solid_.surface_point({std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
@@ -88,7 +98,7 @@ class ChartMesh {
   void divide(double from, double to, const std::function<double(double, double)>& leaves, Values& out) const
   {
     constexpr double least = 1e-6;  // radians: jumps of the chart have no chord
-    if (static_cast<double>(out.size()) > most_) refuse_chord(most_ * most_, chord_);
+    if (static_cast<double>(out.size()) > most_) refuse_chord(16.0 * static_cast<double>(out.size()), chord_);
     if (to - from < least || leaves(from, to) <= 0.5 * chord_) {
       out.push_back(from);
       return;
@@ -143,15 +153,17 @@ class ChartMesh {
 
   const Solid& solid_;
   double chord_, most_;
-  bool poles_ = false;
+  bool poles_ = false, is_once_ = false;
   Values us_, vs_;
 };
 
 }  // namespace
 
-Mesh chart_mesh(const Solid& solid, double chord, double most_triangles)
+std::optional<Mesh> chart_mesh(const Solid& solid, double chord, double most_triangles)
 {
-  Mesh mesh = ChartMesh(solid, chord, most_triangles).mesh();
+  const ChartMesh chart(solid, chord, most_triangles);
+  if (!chart.is_once()) return std::nullopt;
+  Mesh mesh = chart.mesh();
   turn_outwards(mesh);
   return mesh;
 }

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace hauberk::exporting {
 namespace {
@@ -164,11 +165,13 @@ Mesh element_mesh(std::span<const Primitive> primitives, double chord)
   Mesh mesh;
   for (const std::vector<Primitive>& group : overlapping_groups(primitives)) {
     const Primitive& first = group.front();
+    const std::optional<Mesh> by_chart =
+        group.size() == 1 && first.solid ? chart_mesh(*first.solid, chord, most_triangles) : std::nullopt;
     if (group.size() == 1 && first.kind <= PrimitiveKind::revolved_ellipse)
       add_torus(mesh, first, chord);
-    else if (group.size() == 1 && first.solid)
-      append(mesh, chart_mesh(*first.solid, chord, most_triangles), first.rotation, first.position);
-    else if (group.size() == 1)
+    else if (by_chart)
+      append(mesh, *by_chart, first.rotation, first.position);
+    else if (group.size() == 1 && !first.solid)
       add_facets(mesh, first, chord);
     else
       append(mesh, zero_set(group, chord, most_triangles), Mat3::Identity(), Vec3::Zero());

@@ -1,7 +1,7 @@
 /// What the boundary of plugins costs: the same limit with shape and load case as plugins, behind the guard,
 /// or linked in. Count what `measured` does:
 ///
-///     valgrind --tool=callgrind --toggle-collect='measured*' build/release/bin/tests/boundary_cost
+///     valgrind --tool=callgrind --toggle-collect='*measured*' build/release/bin/tests/boundary_cost
 ///     plugins|linked
 
 #include "../../loadcases/in_plane_periodic/in_plane_periodic.hpp"

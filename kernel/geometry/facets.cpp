@@ -2,6 +2,7 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/closed_curve.hpp"
+#include "geometry/solid_chart.hpp"
 
 #include <hauberk/error.hpp>
 #include <hauberk/solid.hpp>
@@ -242,39 +243,16 @@ class ChartBySizes {
   std::vector<Between> between_;
 };
 
-ProbeAngles chart_angles(double u, double v) { return {std::cos(u), std::sin(u), std::cos(v), std::sin(v)}; }
-
-/// How far points of the chart at this v are from the first one, u from section to section.
-double row_size(const Solid& solid, double v, int n)
-{
-  const Vec3 first = solid.surface_point(chart_angles(section_angle(0, n), v));
-  double size = 0.0;
-  for (int i = 1; i < n; ++i)
-    size = std::max(size, (solid.surface_point(chart_angles(section_angle(i, n), v)) - first).norm());
-  return size;
-}
-
-/// Whether the chart has poles at v = 0 and pi: at both or at neither, and at both where it is folded, as it
-/// covers the surface twice otherwise.
-bool has_poles(const Solid& solid, int n)
-{
-  constexpr double rounding = 1e-12;
-  const double most = rounding * solid.radius();
-  const bool first = row_size(solid, 0.0, n) <= most, second = row_size(solid, pi, n) <= most;
-  const bool twice =
-      solid.fold() == Fold::pole || (solid.fold() == Fold::mirror && solid.probe_dimension() == 2);
-  if (first != second || (twice && !first))
-    throw InputError("contact \"mesh\": the chart of '" + solid.kind() +
-                     "' has poles elsewhere than at v = 0 and v = pi; use another solver.contact");
-  return first;
-}
-
 }  // namespace
 
 Facets::Facets(const Solid& solid, double unit, int n)
 {
   const ChartBySizes by_sizes(solid);
-  const bool poles = has_poles(solid, n);
+  const ChartCover cover = chart_cover(solid);
+  if (cover == ChartCover::other)
+    throw InputError("contact \"mesh\": the chart of '" + solid.kind() +
+                     "' has poles elsewhere than at v = 0 and v = pi; use another solver.contact");
+  const bool poles = cover == ChartCover::between_poles;
   const int rows = poles ? std::max(1, (n + 1) / 2 - 1) : n;
   const auto add = [&](double u, double v) {
     const ProbeAngles angles = chart_angles(u, v);

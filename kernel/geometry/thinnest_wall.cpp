@@ -1,5 +1,7 @@
 #include "geometry/thinnest_wall.hpp"
 
+#include "geometry/solid_chart.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +13,6 @@ namespace hauberk {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-ProbeAngles angles(double u, double v) { return {std::cos(u), std::sin(u), std::cos(v), std::sin(v)}; }
 
 /// Ways straight in from a surface until they come out.
 class InwardWays {
@@ -105,7 +105,7 @@ double thinnest_wall(const Solid& solid)
   std::vector<InwardWays::Way> first;
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < around; ++j) {
-      const Vec3 x = solid.surface_point(angles(i * turn, j * turn));
+      const Vec3 x = solid.surface_point(chart_angles(i * turn, j * turn));
       first.push_back(ways.from(x, solid.distance(x).normal));
     }
   std::ranges::sort(first, {}, [](const InwardWays::Way& way) { return std::pair(way.lean, way.length); });

@@ -1,5 +1,7 @@
 #include "export/chart_mesh.hpp"
 
+#include "geometry/solid_chart.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,23 +23,12 @@ Values evenly(double length, std::size_t pieces)
   return out;
 }
 
+/// The values of u and of v, and the facets between their points.
 class ChartMesh {
  public:
-  ChartMesh(const Solid& solid, double chord, double most) : solid_(solid), chord_(chord), most_(most)
-  {
-    poles_ = is_point(0.0);
-    const bool twice =
-        solid.fold() == Fold::pole || (solid.fold() == Fold::mirror && solid.probe_dimension() == 2);
-    is_once_ = poles_ == is_point(pi) && (poles_ || !twice);
-    if (is_once_) divide();
-  }
-
-  /// Whether the points cover the surface, and once.
-  bool is_once() const { return is_once_; }
-  Mesh mesh() const { return poles_ ? between_poles() : closed_both_ways(); }
-
- private:
-  void divide()
+  /// `poles`: the chart covers the surface between poles, otherwise both ways.
+  ChartMesh(const Solid& solid, bool poles, double chord, double most)
+      : solid_(solid), poles_(poles), chord_(chord), most_(most)
   {
     constexpr std::size_t first = 8, seen_at = 32;
     // Other values than those of either are where the other bends most only by chance: both are divided by
@@ -48,23 +39,15 @@ class ChartMesh {
     vs_ = divided(evenly(length_v(), first), length_v(),
                   [&](double a, double b) { return sagitta_v(a, b, us_); });
     us_ = divided(us_, 2.0 * pi, [&](double a, double b) { return sagitta_u(a, b, vs_); });
+    const double triangles = 2.0 * static_cast<double>(us_.size()) * static_cast<double>(vs_.size());
+    if (triangles > most_) refuse_chord(triangles, chord_);
   }
 
-  Vec3 at(double u, double v) const
-  {
-    return solid_.surface_point({std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
-  }
+  Mesh mesh() const { return poles_ ? between_poles() : closed_both_ways(); }
+
+ private:
+  Vec3 at(double u, double v) const { return solid_.surface_point(chart_angles(u, v)); }
   double length_v() const { return poles_ ? pi : 2.0 * pi; }
-
-  /// Whether all points of the chart at this v are one.
-  bool is_point(double v) const
-  {
-    constexpr std::size_t lines = 12;
-    const double most = 1e-12 * solid_.radius();
-    const Vec3 one = at(0.0, v);
-    return std::ranges::all_of(evenly(2.0 * pi, lines),
-                               [&](double u) { return (at(u, v) - one).norm() <= most; });
-  }
 
   /// Distance of the middle of an arc from its chord.
   static double sagitta(const Vec3& a, const Vec3& middle, const Vec3& b)
@@ -107,31 +90,17 @@ class ChartMesh {
     divide(0.5 * (from + to), to, leaves, out);
   }
 
-  void check_number(std::size_t rows) const
-  {
-    const double triangles = 2.0 * static_cast<double>(us_.size()) * static_cast<double>(rows);
-    if (triangles > most_) refuse_chord(triangles, chord_);
-  }
-
   Mesh closed_both_ways() const
   {
-    check_number(vs_.size());
     Mesh mesh;
     for (const double u : us_)
       for (const double v : vs_) mesh.points.push_back(at(u, v));
-    const auto nu = static_cast<int>(us_.size()), nv = static_cast<int>(vs_.size());
-    const auto number = [&](int i, int j) { return (i % nu) * nv + j % nv; };
-    for (int i = 0; i < nu; ++i)
-      for (int j = 0; j < nv; ++j) {
-        mesh.triangles.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1)});
-        mesh.triangles.push_back({number(i, j), number(i + 1, j + 1), number(i, j + 1)});
-      }
+    close_both_ways(mesh, 0, static_cast<int>(us_.size()), static_cast<int>(vs_.size()));
     return mesh;
   }
 
   Mesh between_poles() const
   {
-    check_number(vs_.size());
     Mesh mesh;
     const auto nu = static_cast<int>(us_.size()), rows = static_cast<int>(vs_.size()) - 1;
     for (const double u : us_)
@@ -152,8 +121,8 @@ class ChartMesh {
   }
 
   const Solid& solid_;
+  bool poles_;
   double chord_, most_;
-  bool poles_ = false, is_once_ = false;
   Values us_, vs_;
 };
 
@@ -161,9 +130,9 @@ class ChartMesh {
 
 std::optional<Mesh> chart_mesh(const Solid& solid, double chord, double most_triangles)
 {
-  const ChartMesh chart(solid, chord, most_triangles);
-  if (!chart.is_once()) return std::nullopt;
-  Mesh mesh = chart.mesh();
+  const ChartCover cover = chart_cover(solid);
+  if (cover == ChartCover::other) return std::nullopt;
+  Mesh mesh = ChartMesh(solid, cover == ChartCover::between_poles, chord, most_triangles).mesh();
   turn_outwards(mesh);
   return mesh;
 }

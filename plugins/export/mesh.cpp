@@ -57,13 +57,7 @@ void add_torus(Mesh& mesh, const Primitive& p, double chord)
                             p.rotation * Vec3(rho * std::cos(u), rho * std::sin(u), p.r1() * std::sin(v)));
     }
   }
-  const auto at = [&](int i, int j) { return first + (i % nu) * nv + j % nv; };
-  for (int i = 0; i < nu; ++i) {
-    for (int j = 0; j < nv; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
+  close_both_ways(mesh, first, nu, nv);
 }
 
 /// What the kernel's contact of meshes takes for the surface.
@@ -125,6 +119,17 @@ std::vector<Vec3> point_normals(const Mesh& mesh)
   }
   for (Vec3& n : normals) n = n.norm() > 0.0 ? Vec3(n.normalized()) : Vec3::UnitZ();
   return normals;
+}
+
+void close_both_ways(Mesh& mesh, int first, int nu, int nv)
+{
+  const auto at = [&](int i, int j) { return first + (i % nu) * nv + j % nv; };
+  for (int i = 0; i < nu; ++i) {
+    for (int j = 0; j < nv; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
 }
 
 void turn_outwards(Mesh& mesh)

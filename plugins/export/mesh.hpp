@@ -42,6 +42,9 @@ double wire_radius(std::span<const Primitive> primitives);
 /// certified: what a grid has to be finer than.
 double sharpest_radius(std::span<const Primitive> primitives);
 
+/// Triangles of nu x nv quadrilaterals between points that follow `first` in rows of nv, closed both ways.
+void close_both_ways(Mesh& mesh, int first, int nu, int nv);
+
 /// Turns the triangles round where they enclose a negative volume.
 void turn_outwards(Mesh& mesh);
 

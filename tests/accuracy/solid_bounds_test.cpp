@@ -21,27 +21,6 @@ namespace {
 using kit::Point;
 using kit::Turn;
 
-/// A ring of elliptical wire by its surface; the field is no distance.
-struct OvalWire {
-  static constexpr const char* kind = "oval_wire";
-  static constexpr std::array size_names{"R", "r0", "r1"};
-  static constexpr bool revolved = true;
-
-  template <class S>
-  static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q)
-  {
-    const S rho = q[0] + q[1] * v.c;
-    return {rho * u.c, rho * u.s, q[2] * v.s};
-  }
-  template <class S>
-  static S field(const Point<S>& x, const S* q)
-  {
-    using kit::square;
-    return square((hypot(x[0], x[1]) - q[0]) / q[1]) + square(x[2] / q[2]) - 1.0;
-  }
-  static std::vector<std::vector<Vec3>> cores(const double*) { return {}; }
-};
-
 /// A ring of round wire by its core, with a field that is no distance.
 struct RoundWire : test::PlainTorus {
   static constexpr const char* kind = "round_wire";
@@ -66,7 +45,7 @@ Body kit_body(const Torus& torus)
   if (torus.round()) {
     p.solid = std::make_shared<const kit::ImplicitSolid<RoundWire>>(std::vector<double>{torus.R, torus.r0});
   } else {
-    p.solid = std::make_shared<const kit::ImplicitSolid<OvalWire>>(
+    p.solid = std::make_shared<const kit::ImplicitSolid<test::OvalRing>>(
         std::vector<double>{torus.R, torus.r0, torus.r1});
   }
   // As Shape::primitives does.

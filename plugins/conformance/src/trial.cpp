@@ -181,6 +181,8 @@ std::vector<Primitive> primitives_at(const Shape& shape, const std::vector<doubl
 {
   try {
     return shape.primitives(p);
+  } catch (const InputError&) {
+    throw;
   } catch (...) {
     trial.look_at(shape, p);
     throw;
@@ -189,11 +191,9 @@ std::vector<Primitive> primitives_at(const Shape& shape, const std::vector<doubl
 
 std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p, Trial& trial)
 {
-  const std::string looked_at = trial.looked_at;
   try {
     static_cast<void>(primitives_at(shape, p, trial));
   } catch (const InputError& error) {
-    trial.looked_at = looked_at;
     return error.what();
   }
   return std::nullopt;

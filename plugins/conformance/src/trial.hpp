@@ -72,7 +72,7 @@ Point draw_point(const Shape& shape, Trial& trial);
 Point draw_far_point(const Shape& shape, Trial& trial);
 /// Where a parameter is drawn from then.
 std::pair<double, double> whole_range(const ParameterInfo& info);
-/// The primitives of p, of which a failure is told then.
+/// The primitives of p. A failure that is no refusal is told of p.
 std::vector<Primitive> primitives_at(const Shape& shape, const std::vector<double>& p, Trial& trial);
 /// Message of the refusal of p; null where the shape accepts it. Another failure is told of p.
 std::optional<std::string> refused(const Shape& shape, const std::vector<double>& p, Trial& trial);

@@ -512,24 +512,10 @@ TEST(ImplicitSolid, HasDerivativesBySizes)
   expect_sizes<RoundedRing>({4.0, 1.0, 0.8});
 }
 
-/// An oval ring that does not say that it is revolved.
-struct OvalRing {
-  static constexpr const char* kind = "test_oval_ring";
-  static constexpr std::array size_names{"R", "w", "h"};
+/// An oval ring as its own shape, which does not say that it is revolved.
+struct FlatRing : OvalRing {
+  static constexpr bool revolved = false;
 
-  template <class S>
-  static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q)
-  {
-    const S rho = q[0] + q[1] * v.c;
-    return {rho * u.c, rho * u.s, q[2] * v.s};
-  }
-  template <class S>
-  static S field(const Point<S>& x, const S* q)
-  {
-    using kit::square;
-    return square((hypot(x[0], x[1]) - q[0]) / q[1]) + square(x[2] / q[2]) - 1.0;
-  }
-  static std::vector<std::vector<Vec3>> cores(const double* q) { return Torus::cores(q); }
   static std::vector<ParameterInfo> parameters()
   {
     return {{"R", "length", 5.0, 1e-9, 1e9, "radius"},
@@ -541,7 +527,7 @@ struct OvalRing {
 /// The tips of its section bend most, by w/h^2.
 TEST(SolidShape, BoundsTheCurvatureOfFlatSectionsOrRefusesThemByName)
 {
-  const kit::SolidShape<OvalRing> shape("ring");
+  const kit::SolidShape<FlatRing> shape("ring");
   for (const double h : {0.5, 0.2, 0.1, 0.05}) {
     const double thickness = shape.primitives(std::vector{5.0, 0.7, h}).at(0).r0(), exact = h * h / 0.7;
     EXPECT_LE(thickness, exact * (1.0 + 1e-9)) << h;

@@ -108,6 +108,27 @@ struct Capsule {
   static std::vector<std::vector<Vec3>> cores(const double*) { return {}; }
 };
 
+/// A ring of elliptical wire by its surface; the field is no distance.
+struct OvalRing {
+  static constexpr const char* kind = "test_oval_ring";
+  static constexpr std::array size_names{"R", "w", "h"};
+  static constexpr bool revolved = true;
+
+  template <class S>
+  static Point<S> chart(const Turn<S>& u, const Turn<S>& v, const S* q)
+  {
+    const S rho = q[0] + q[1] * v.c;
+    return {rho * u.c, rho * u.s, q[2] * v.s};
+  }
+  template <class S>
+  static S field(const Point<S>& x, const S* q)
+  {
+    using kit::square;
+    return square((hypot(x[0], x[1]) - q[0]) / q[1]) + square(x[2] / q[2]) - 1.0;
+  }
+  static std::vector<std::vector<Vec3>> cores(const double* q) { return Torus::cores(q); }
+};
+
 /// A ring of radius R whose section is the superellipse ((rho - R)/w)^4 + (z/h)^4 = 1.
 struct RoundedRing {
   static constexpr const char* kind = "test_rounded_ring";
